@@ -27,6 +27,17 @@ inline constexpr std::array<std::string_view, 6> turning_names{"planks",  "see_s
 inline constexpr std::array all_turning = all_of<Turning>(turning_names);
 [[nodiscard]] inline std::string name_of(Turning turning) { return name_among(turning_names, turning); }
 
+/// A line that goes to the right.
+enum class Line : std::uint8_t {
+  hill,      ///< Of two to eight flanks of up to 89 degrees.
+  arch,      ///< Of up to 64 segments.
+  sawtooth,  ///< Of teeth that lean.
+  ramp,      ///< Straight, but for the rounding of its corners.
+};
+inline constexpr std::array<std::string_view, 4> line_names{"hill", "arch", "sawtooth", "ramp"};
+inline constexpr std::array all_lines = all_of<Line>(line_names);
+[[nodiscard]] inline std::string name_of(Line line) { return name_among(line_names, line); }
+
 /// Launches at 1e-3 to 1e6 m per step among solids that stand, up to 1e6 m from the origin; some begin inside.
 /// @param up_turns between steps, now and then.
 [[nodiscard]] RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns);
@@ -50,5 +61,23 @@ inline constexpr std::array all_turning = all_of<Turning>(turning_names);
 
 /// Two to ten characters among lifts, cabins, presses and papers.
 [[nodiscard]] RandomRun draw_crowd_among_movers(std::uint64_t seed);
+
+/// Above a line, below it, or on it before a corner: it is a solid, a chain, tiles, or one-way in any parts.
+[[nodiscard]] RandomRun draw_on_line(Line line, std::uint64_t seed);
+
+/// One flight past the corner of a triangle, from 0.1 m beside it to 0.1 m into it, down to an ulp.
+[[nodiscard]] RandomRun draw_near_a_corner(std::uint64_t seed);
+
+/// Flights through sensors, with coordinates that doubles add exactly.
+[[nodiscard]] RandomRun draw_through_sensors(std::uint64_t seed);
+
+/// Walls, floors and plates at up to 2e-7 m on opposite sides. @param rests all that could move.
+[[nodiscard]] RandomRun draw_exact_fit(bool rests, std::uint64_t seed);
+
+/// A one-way mover that meets the character as a step ends, but for rounding, and goes on.
+[[nodiscard]] RandomRun draw_touched_by_ledge(std::uint64_t seed);
+
+/// One step from among solids, or from inside of them; in half of the runs with a frame around.
+[[nodiscard]] RandomRun draw_inside(Terrain terrain, std::uint64_t seed);
 
 }  // namespace paperproof::compare

@@ -99,6 +99,36 @@ std::vector<Family> play_on_stairs() {
   });
 }
 
+std::vector<Family> on_lines() {
+  return one_of_each(all_lines, [](Line line, std::uint64_t number) -> Family {
+    return {.kind = "lines",
+            .draw = [line](std::uint64_t seed) { return draw_on_line(line, seed); },
+            .first_seed = 4000037 * number,
+            .share = 1.0 / 3,
+            .covers = {{"contact", 0.1, 0.95}, {"walkable", 0.05}, {"through", ever}}};
+  });
+}
+
+std::vector<Family> inside() {
+  constexpr std::array some{Terrain::tiles, Terrain::stairs, Terrain::concave, Terrain::lattice, Terrain::circles};
+  return one_of_each(some, [](Terrain terrain, std::uint64_t number) -> Family {
+    return {.kind = "inside",
+            .draw = [terrain](std::uint64_t seed) { return draw_inside(terrain, seed); },
+            .first_seed = 5000011 * number,
+            .share = 1.0 / 6,
+            .covers = {{"inside", 0.1}, {"freed", 0.1}, {"stuck", 0.001}}};
+  });
+}
+
+std::vector<Family> tight() {
+  const auto fits = [](bool rest) { return [rest](std::uint64_t seed) { return draw_exact_fit(rest, seed); }; };
+  return {{"tight", "corners", draw_near_a_corner, 6000011, 2, {{"contact", 0.5, 0.9}}},
+          {"tight", "sensors", draw_through_sensors, 7000003, 1, {{"sensed", 0.15}}},
+          {"tight", "fits", fits(true), 8000009, 1, {{"ceiling", 0.05}}},
+          {"presses", "fits", fits(false), 9000011, 1, {{"ceiling", 0.05}, {"crushed", 0.02}, {"riding", 0.05}}},
+          {"presses", "ledges", draw_touched_by_ledge, 10000019, 1, {{"contact", 0.2, 0.9}}}};
+}
+
 std::vector<Family> rest() {
   return {{.kind = "presses",
            .name = "chambers",
@@ -122,8 +152,8 @@ std::vector<Family> rest() {
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
-    for (std::vector<Family>& some :
-         std::array{still(), any_up(), movers(false), movers(true), turning(), play(), play_on_stairs(), rest()})
+    for (std::vector<Family>& some : std::array{still(), any_up(), movers(false), movers(true), turning(), play(),
+                                                play_on_stairs(), on_lines(), inside(), tight(), rest()})
       std::move(some.begin(), some.end(), std::back_inserter(joined));
     return joined;
   }();

@@ -83,6 +83,7 @@ constexpr std::array all{
     Happening{"climbing", "climbs a stair", climbs},
     Happening{"descending", "follows its ground down", descends},
     Happening{"through", "drops through a ledge", [](const Moment& m) { return !m.record.dropped_through.empty(); }},
+    Happening{"sensed", "enters or leaves a sensor", [](const Moment& m) { return !m.record.sensors.empty(); }},
     Happening{"inside", "begins inside something", [](const Moment& m) { return !m.record.start_overlap.empty(); }},
     Happening{"freed", "and ends free",
               [](const Moment& m) { return !m.record.start_overlap.empty() && m.judged.end_overlap.empty(); }},

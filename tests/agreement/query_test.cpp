@@ -1,4 +1,5 @@
 /// cast, overlaps, contacts_at and nearest against exact arithmetic, in random scenery with movers.
+#include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
@@ -24,52 +25,53 @@ struct Tally {
   int near = 0;
 };
 
+/// One controller and the oracle in one scenery.
 class Questions {
  public:
-  Questions(Terrain family, std::uint64_t seed) : random_(seed), def_(random_terrain(family, random_, Vec2d::Zero())) {
-    const int movers = random_.integer(0, 3);
-    while (def_.colliders.size() < 4) def_.colliders.push_back({.points = {{50, 50}, {51, 50}, {50, 51}}});
-    for (MoverIndex mover = 0; mover < static_cast<MoverIndex>(movers); ++mover)
-      add_mover(def_.colliders, mover, random_, Vec2d::Zero());
-  }
+  Questions(Terrain family, std::uint64_t seed) : random_(seed), scenery_(random_scenery(family, random_)) {}
 
   void ask(Tally& tally) {
-    const Scenery<double> scenery(def_);
-    const Controller<double> controller(scenery, CharacterDef{});
-    Scratch<double> scratch = controller.make_scratch();
-    const auto hull = controller.character().shape.hull();
-    const ExactScenery oracle(scenery.as_run(), {hull.begin(), hull.end()});
-    std::vector<MoverMotion<double>> motions(scenery.mover_count());
-    std::vector<Wanderer> wanderers(motions.size());
+    std::vector<Wanderer> wanderers(motions_.size());
     for (int question = 0; question < 20; ++question) {
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        motions[k] = {motions[k].to, next_offset(wanderers[k], motions[k].to, random_)};
-      const Vec2d at{random_.between(-6, 6), random_.between(-6, 6)};
-      const double length = random_.log_between(0.1, 20);
+      for (std::size_t k = 0; k < motions_.size(); ++k)
+        motions_[k] = {motions_[k].to, next_offset(wanderers[k], motions_[k].to, random_)};
+      const Place from(random_.point(6), motions_, 0);
       const double angle = random_.chance(0.3) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
-      const StepContext<double> context{.dt = 1, .movers = motions};
-      const Place from(at, motions, 0);
-      overlaps(controller.overlaps(at, context, scratch, found_).value(), oracle.overlapped(from), tally);
-      near(controller, context, scratch, oracle, from, tally);
-      if (oracle.overlapped(from).empty())
-        cast(controller, context, scratch, oracle, at, Vec2d{std::cos(angle), std::sin(angle)} * length, tally);
+      const Vec2d displacement = compare::towards(angle) * random_.log_between(0.1, 20);
+      const std::vector<ColliderIndex> inside = oracle_.overlapped(from);
+      overlaps(from, inside, tally);
+      near(from, tally);
+      if (inside.empty()) cast(from, displacement, tally);
     }
   }
 
  private:
-  void overlaps(std::size_t count, const std::vector<ColliderIndex>& exact, Tally& tally) {
+  static SceneryDef random_scenery(Terrain family, Random& random) {
+    SceneryDef def = random_terrain(family, random, Vec2d::Zero());
+    while (def.colliders.size() < 4) def.colliders.push_back(compare::polygon({{50, 50}, {51, 50}, {50, 51}}));
+    const int movers = random.integer(0, 3);
+    for (int mover = 0; mover < movers; ++mover)
+      add_mover(def.colliders, static_cast<MoverIndex>(mover), random, Vec2d::Zero());
+    return def;
+  }
+  [[nodiscard]] StepContext<double> context() const { return {.dt = 1, .movers = motions_}; }
+  [[nodiscard]] const std::vector<ColliderDef>& colliders() const { return oracle_.scenery().colliders; }
+
+  void overlaps(const Place& from, const std::vector<ColliderIndex>& exact, Tally& tally) {
+    std::array<ColliderIndex, 256> found{};
+    const auto count = controller_.overlaps(from.position, context(), scratch_, found);
     tally.overlapping += !exact.empty();
     ASSERT_EQ(count, exact.size());
-    std::sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count));
-    EXPECT_TRUE(std::equal(exact.begin(), exact.end(), found_.begin()));
+    const std::set<ColliderIndex> sorted(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(exact.size()));
+    EXPECT_TRUE(std::equal(exact.begin(), exact.end(), sorted.begin(), sorted.end()));
   }
 
-  void near(const Controller<double>& controller, const StepContext<double>& context, Scratch<double>& scratch,
-            const ExactScenery& oracle, const Place& from, Tally& tally) {
+  void near(const Place& from, Tally& tally) {
+    constexpr double rounding = 1e-9;
     const double within = random_.log_between(1e-3, 3);
     std::array<Contact<double>, 64> contacts;
-    const std::size_t count = controller.contacts_at(from.position, within, context, scratch, contacts);
-    const auto nearest = controller.nearest(from.position, within, context, scratch);
+    const std::size_t count = controller_.contacts_at(from.position, within, context(), scratch_, contacts);
+    const auto nearest = controller_.nearest(from.position, within, context(), scratch_);
     ASSERT_EQ(nearest.has_value(), count > 0);
     for (std::size_t i = 0; i < count; ++i) {
       const Contact<double>& contact = contacts[i];
@@ -77,16 +79,16 @@ class Questions {
       EXPECT_LE(contact.separation, within);
       // A collider of several pieces is as near as the nearest of them.
       if (contact.separation >= 0)
-        EXPECT_GE(contact.separation, oracle.separation(from, contact.collider) - 1e-9);
+        EXPECT_GE(contact.separation, oracle_.separation(from, contact.collider) - rounding);
       else
-        EXPECT_TRUE(contact.separation > -1e-9 || oracle.overlaps(from, contact.collider));
+        EXPECT_TRUE(contact.separation > -rounding || oracle_.overlaps(from, contact.collider));
     }
     double least = within;
-    for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider)
-      if (!def_.colliders[collider].one_way) least = std::min(least, oracle.separation(from, collider));
+    for (ColliderIndex collider = 0; collider < colliders().size(); ++collider)
+      if (!colliders()[collider].one_way) least = std::min(least, oracle_.separation(from, collider));
     if (least >= 0 && least < within) {
       ASSERT_GT(count, 0U);
-      EXPECT_LE(contacts[0].separation, least + 1e-9);
+      EXPECT_LE(contacts[0].separation, least + rounding);
     }
     if (count == 0) return;
     ++tally.near;
@@ -94,34 +96,34 @@ class Questions {
     EXPECT_EQ(nearest->collider, contacts[0].collider);
   }
 
-  void cast(const Controller<double>& controller, const StepContext<double>& context, Scratch<double>& scratch,
-            const ExactScenery& oracle, const Vec2d& at, const Vec2d& displacement, Tally& tally) {
+  void cast(const Place& from, const Vec2d& displacement, Tally& tally) {
     ++tally.casts;
-    const auto hit = controller.cast(at, displacement, context, scratch);
-    const Place from(at, context.movers, 0);
-    const Place to(at + displacement, context.movers, 1);
+    const auto hit = controller_.cast(from.position, displacement, context(), scratch_);
+    const Place to(from.position + displacement, motions_, 1);
     double first = 2;
-    for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider) {
-      const auto impact = oracle.impact_between(from, to, collider);
-      if (impact) first = std::min(first, impact->fraction.convert_to<double>());
-    }
+    for (ColliderIndex collider = 0; collider < colliders().size(); ++collider)
+      if (const auto impact = oracle_.impact_between(from, to, collider))
+        first = std::min(first, impact->fraction.convert_to<double>());
     tally.hits += first <= 1;
     if (!hit && first > 1) return;
-    if (!hit || first > 1 || std::abs(hit->fraction - first) > 1e-9) {
-      // Along a rim or a surface, nearer than what counts as a contact.
-      const double time = hit ? std::min(hit->fraction, first) : first;
-      const Place then(Vec2d(at + displacement * std::min(time, 1.0)), context.movers, std::min(time, 1.0));
-      double gap = 1;
-      for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider)
-        gap = std::min(gap, oracle.separation(then, collider));
-      EXPECT_LE(gap, 1.1e-7) << "exact " << first << ", found " << (hit ? hit->fraction : 2);
-      ++tally.grazing;
-    }
+    if (hit && first <= 1 && std::abs(hit->fraction - first) <= 1e-9) return;
+    // Along a rim or a surface, nearer than what counts as a contact.
+    const double time = std::min({hit ? hit->fraction : 1, first, 1.0});
+    const Place then(Vec2d(from.position + displacement * time), motions_, time);
+    double gap = 1;
+    for (ColliderIndex collider = 0; collider < colliders().size(); ++collider)
+      gap = std::min(gap, oracle_.separation(then, collider));
+    EXPECT_LE(gap, 1.1e-7) << "exact " << first << ", found " << (hit ? hit->fraction : 2);
+    ++tally.grazing;
   }
 
   Random random_;
-  SceneryDef def_;
-  std::array<ColliderIndex, 256> found_{};
+  Scenery<double> scenery_;
+  Controller<double> controller_{scenery_, {}};
+  Scratch<double> scratch_ = controller_.make_scratch();
+  ExactScenery oracle_{scenery_.as_run(),
+                       {controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()}};
+  std::vector<MoverMotion<double>> motions_{scenery_.mover_count()};
 };
 
 class Queries : public ::testing::TestWithParam<Terrain> {};
