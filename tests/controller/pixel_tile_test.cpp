@@ -62,16 +62,6 @@ PixelTileSet by_hand() {
   return tiles;
 }
 
-TEST(PixelTiles, may_be_given_instead_of_being_made_from_the_scenery) {
-  const TechniqueDef def{.name = "pixel_tile", .pixel_tiles = std::make_shared<const PixelTileSet>(by_hand())};
-  Rig<double> rig(def, {rectangle(-0.5, -0.25, 0.5, 0)}, single_pixel());
-  EXPECT_EQ(rig.move({-0.3, 1}, {0, -5}).position, Vec2d(-0.3, px / 2)) << "on the lower row";
-  EXPECT_EQ(rig.result.contacts.size(), 1U);
-  EXPECT_EQ(rig.move({-0.3, px / 2}, {5, 0}).position, Vec2d(8 * px - px / 2, px / 2))
-      << "at the third tile of the upper row, which no collider has";
-  EXPECT_TRUE(rig.result.contacts.empty());
-}
-
 TEST(PixelTiles, that_do_not_fit_are_named) {
   struct Case {
     std::string says;

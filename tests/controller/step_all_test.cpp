@@ -77,6 +77,21 @@ TEST(StepAll, gives_the_bits_of_single_steps_with_any_number_of_scratches_and_wi
   }
 }
 
+TEST(StepAll, leaves_out_of_a_report_what_has_no_room_beside_the_scratch) {
+  std::vector<ColliderDef> needles;
+  for (int i = 0; i < 50; ++i) needles.push_back(box(0.012 * i - 0.3, -1, 0.012 * i - 0.294, 0));
+  CharacterDef character;
+  character.shape = CharacterShape(box(-0.3, -0.3, 0.3, 0.3).points);
+  Stepper<double> stepper(needles, character);
+  std::vector<CharacterState<double>> states(2, stepper.at(0, 0.4).with_velocity(0, -20).state);
+  std::vector<StepReport<double>> reports(2);
+  reports[1].move.contacts.reserve(100);
+  stepper.controller.step_all(states, std::vector<Input>(2), {{0, -20}, 1.0 / 60}, {&stepper.scratch, 1}, reports);
+  EXPECT_TRUE(reports[0].move.contacts.overflowed());
+  EXPECT_EQ(reports[0].move.contacts.size(), MoveResult<double>::max_contacts);
+  EXPECT_EQ(reports[1].move.contacts.size(), needles.size());
+}
+
 TEST(StepAll, refuses_spans_of_different_sizes_and_foreign_scratch) {
   struct Call {
     std::size_t states, inputs, reports;
