@@ -1,11 +1,9 @@
 /// The techniques that search along the article's points: what each does that no other does, and against each other.
 #include "controller/article_support.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 namespace paperproof::article_tests {
 namespace {
@@ -43,13 +41,6 @@ TEST(StartInside, is_stuck_where_the_search_goes_back_and_free_once_an_end_is) {
   }
 }
 
-TEST(StartInside, gives_the_march_nothing_to_go_back_and_penetration_resolution_takes_one_unit) {
-  Rig<double> rig("speculative_march", {rectangle(-2, -2, 2, 0)});
-  const MoveResult<double>& result = rig.move({0, half_height - px / 2}, {0, -3 * px});
-  EXPECT_EQ(result.contacts[0].fraction, 0);
-  EXPECT_EQ(result.position.y(), half_height + px / 2);
-}
-
 TEST(PenetrationResolution, is_pushed_out_by_whole_units) {
   // The end is 6.25 pixels in the floor: seven units, which is 0.75 above it.
   Rig<double> rig("penetration_resolution", {rectangle(-2, -2, 2, 0)});
@@ -67,7 +58,7 @@ TEST(SpeculativeMarch, does_not_look_beyond_the_end) {
 }
 
 TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
-  for (const std::string_view kind : article_kinds) {
+  for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative_march", "speculative"}) {
     SCOPED_TRACE(kind);
     for (const auto objects : {ArticleKnobs::Objects::each, ArticleKnobs::Objects::all}) {
       Rig<double> rig(kind, {rectangle(-1, -1, 0, 0), rectangle(0, -1, 1, 0)}, {.objects = objects}, diamond());
@@ -88,34 +79,6 @@ TEST(FlushTiles, a_computed_contact_is_found_on_the_seam_between_two_thin_ones) 
   // Tiles that do not share a piece of the seam leave it open: a point without width passes between them.
   Rig<double> rig("speculative", {rectangle(-1, -0.25, 0, 0), rectangle(0, -0.75, 1, -0.5)}, {}, diamond());
   EXPECT_TRUE(rig.move({0, 1}, {0, -3}).contacts.empty());
-}
-
-TEST(Speculative, ends_a_fall_for_a_frame_where_the_feet_reach_a_wall) {
-  // The pairs are tested in the article's order, each along the whole vector: a foot that is taken into a wall counts
-  // as a hit of the bottom pair, although nothing is below it.
-  Rig<double> rig("speculative", {rectangle(1, -9, 3, 9)});
-  const MoveResult<double>& result = rig.move({0, 0}, {54 * px, -54 * px});
-  EXPECT_NEAR(result.position.y(), -27 * px, 1e-15) << "where the foot, 27 px away, met the wall";
-  EXPECT_NEAR(result.position.x(), 22 * px, 1e-15) << "where the arm did";
-  EXPECT_TRUE(result.grounded);
-  EXPECT_EQ(result.contacts[0].side, Side::bottom);
-  EXPECT_EQ(result.contacts[0].normal, Vec2d(-1, 0));
-}
-
-TEST(Objects, are_left_one_by_one_and_a_later_one_may_push_into_an_earlier_one) {
-  // The feet are 2 px deep in a floor whose top, at 1 px, is inside of a plate that comes first and reaches to 4 px.
-  const std::vector<ColliderDef> colliders{rectangle(-3, px / 2, 3, 4 * px), rectangle(-3, -3, 3, px)};
-  struct Case {
-    ArticleKnobs::Objects objects;
-    int iterations;
-    double feet;  ///< Where they end [px].
-  };
-  for (const Case& each : {Case{ArticleKnobs::Objects::each, 1, 1}, Case{ArticleKnobs::Objects::each, 2, 4},
-                           Case{ArticleKnobs::Objects::all, 1, 4}}) {
-    Rig<double> rig("penetration_resolution", colliders, {.iterations = each.iterations, .objects = each.objects});
-    const MoveResult<double>& result = rig.move({0, half_height + 8 * px}, {0, -9 * px});
-    EXPECT_EQ(result.position.y(), half_height + each.feet * px) << each.iterations;
-  }
 }
 
 TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
@@ -140,64 +103,8 @@ TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
       EXPECT_NEAR(march.result.position.y(), -std::floor(distance / px) * px, 1e-14) << "seed 3, drop " << drop;
       EXPECT_NEAR(march.result.contacts[0].separation, std::fmod(distance, px), 1e-14) << "seed 3, drop " << drop;
     }
-    // Penetration resolution sees where the feet end, and nothing else.
-    const double end = -fall - px / 2;
-    if (std::abs(end - (top - thickness)) < 1e-9) continue;
-    Rig<double> resolution("penetration_resolution", paper, {}, single_pixel());
-    const bool inside = top - thickness < end && end < top;
-    EXPECT_EQ(resolution.move({0, 0}, {0, -fall}).contacts.empty(), !inside) << "seed 3, drop " << drop;
   }
   EXPECT_GT(passed_thin, 400) << "paper thinner than a unit slips between two steps of the march";
-}
-
-using Sides = std::set<Side>;
-
-Sides sides_of(const MoveResult<double>& result) {
-  Sides sides;
-  for (const Contact<double>& contact : result.contacts) sides.insert(contact.side);
-  return sides;
-}
-
-TEST(SpeculativeAgreement, computed_and_marched_contacts_end_within_a_unit_of_each_other) {
-  // Where one pair hits, the march is less than a unit short of the computed impact, and penetration resolution brings
-  // both to within a unit of the outline. Two exceptions, both rare:
-  // - two pairs hit: the second is searched along a vector that the first has bent, a little differently in each;
-  // - the way of a point through the piece is shorter than a unit: the march steps over it, and a finer one does not.
-  Random random(20);
-  int hits = 0;
-  int by_one_pair = 0;
-  int bent_apart = 0;
-  int stepped_over = 0;
-  constexpr int sweeps = test::sampled(10'000);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const Vec2d centre = random.point(2.5);
-    const Vec2d radii{random.between(0.2, 2), random.between(0.2, 2)};
-    const std::vector<ColliderDef> piece{{.points = on_an_ellipse(random, centre, radii)}};
-    const Vec2d start = random.point(1);
-    const Vec2d displacement = random.point(3);
-    Rig<double> computed("speculative", piece);
-    const Vec2d end = computed.move(start, displacement).position;
-    const Sides sides = sides_of(computed.result);
-    const auto agrees = [&](double unit, double apart) {
-      Rig<double> marched("speculative_march", piece, {.unit = unit});
-      const Vec2d difference = marched.move(start, displacement).position - end;
-      return sides_of(marched.result) == sides && difference.cwiseAbs().maxCoeff() <= apart + 1e-12;
-    };
-    hits += sides.empty() ? 0 : 1;
-    if (agrees(px, px)) {
-      by_one_pair += sides.size() == 1 ? 1 : 0;
-    } else if (sides.size() == 2 && agrees(px, 5 * px)) {
-      ++bent_apart;
-    } else {
-      ++stepped_over;
-      EXPECT_TRUE(agrees(px / 1024, sides.size() == 2 ? 5 * px : px)) << "seed 20, sweep " << sweep;
-    }
-  }
-  EXPECT_GT(hits, sweeps * 3 / 10);
-  EXPECT_LT(hits, sweeps * 7 / 10);
-  EXPECT_GT(by_one_pair, sweeps / 10);
-  EXPECT_LT(bent_apart, sweeps / 200);
-  EXPECT_LT(stepped_over, sweeps / 200);
 }
 
 }  // namespace

@@ -21,23 +21,12 @@ using compare::Random;
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
 
-inline constexpr std::array<std::string_view, 4> article_kinds{"wind_back", "penetration_resolution",
-                                                               "speculative_march", "speculative"};
-inline constexpr std::array<std::string_view, 2> speculative_kinds{"speculative_march", "speculative"};
-
 inline ColliderDef rectangle(double left, double bottom, double right, double top) {
   return compare::box(left, bottom, right, top);
 }
 
 inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
   return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
-}
-
-/// Squares of a metre, from x = 0 on, with their tops at height 0.
-inline std::vector<ColliderDef> flush_tiles(int count) {
-  std::vector<ColliderDef> tiles;
-  for (int i = 0; i < count; ++i) tiles.push_back(rectangle(i, -1, i + 1, 0));
-  return tiles;
 }
 
 /// Corners of a convex outline, in order of angle.

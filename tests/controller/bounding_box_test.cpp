@@ -8,28 +8,6 @@ namespace {
 
 constexpr std::string_view kind = "bounding_box";
 
-TEST(BoundingBox, meets_enemies_where_they_will_be_at_the_end_of_the_frame) {
-  Passenger passenger(kind, {of_mover(rectangle(2, -1, 3, 1))});
-  struct Case {
-    const char* what;
-    double from, by, enemy_by, end;
-  };
-  for (const Case& each : {Case{"walks into the box that has come nearer", 1, 0.5, -0.25, 1.75 - half_width},
-                           Case{"is pushed by the box that comes over it", 1.5, 0, -0.25, 1.75 - half_width},
-                           Case{"walks behind the box that goes away", 1.5, 0.5, 1, 2},
-                           Case{"is passed, as nothing between start and end is looked at", 1, 0, -4, 1}}) {
-    const MoveResult<double>& result = passenger.fly({each.from, 0}, {each.by, 0}, {{{0, 0}, {each.enemy_by, 0}}});
-    EXPECT_EQ(result.position, Vec2d(each.end, 0)) << each.what;
-    passenger.ride = {};
-    if (each.end != 1.75 - half_width) {
-      EXPECT_TRUE(result.contacts.empty()) << each.what;
-      continue;
-    }
-    EXPECT_EQ(only_contact(result).side, Side::right) << each.what;
-    EXPECT_EQ(only_contact(result).point.x(), 1.75) << each.what;
-  }
-}
-
 /// Exactly: doubles hold every sum of floats of these sizes.
 bool overlap(const Box2<float>& piece, const Vec2f& position, const Box2<double>& character) {
   const Vec2d at = position.cast<double>();

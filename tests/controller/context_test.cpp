@@ -1,6 +1,6 @@
 /// What a step is given beside state and input: filters; and a step of a game that owns its velocities.
 #include "campaign/shapes.hpp"
-#include "controller/together.hpp"
+#include "controller/stepping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,23 +25,6 @@ TEST(Filter, has_the_rule_of_box2d) {
   EXPECT_FALSE(collide({.group = -3}, {.group = -3})) << "one negative group";
   EXPECT_TRUE(collide({.mask = 0, .group = 3}, {.mask = 0, .group = 3})) << "one positive group";
   EXPECT_TRUE(collide({.group = -3}, {.group = -4})) << "of other groups";
-}
-
-TEST(Filter, of_a_step_is_forgotten_in_the_next) {
-  ColliderDef upper = box(-9, 1, 9, 2);
-  upper.filter = {.category = 1, .mask = 2};  // only category 2 meets it
-  Stepper<double> faller({ground, upper});
-  faller.gravity = {0, -30};
-  faller.at(0, 4);
-  ColliderFilter heavy;
-  heavy.category = 2;
-  for (int step = 0; step < 120; ++step)
-    faller.controller.step(faller.state, {}, {{0, -30}, frame, {}, &heavy}, faller.scratch, faller.report);
-  EXPECT_NEAR(faller.state.position.y(), half_height + 2, 1e-6);
-  EXPECT_EQ(faller.report.move.ground.collider, 1U);
-  faller.steps(120);
-  EXPECT_NEAR(faller.state.position.y(), half_height, 1e-6);
-  EXPECT_EQ(faller.report.move.ground.collider, 0U);
 }
 
 TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
@@ -103,17 +86,6 @@ TEST(Filter, that_a_technique_does_not_have_is_refused) {
   ColliderDef filtered = ground;
   filtered.filter.mask = 2;
   EXPECT_THROW(Stepper<double>({filtered}, {}, "bounding_box"), std::invalid_argument);
-}
-
-TEST(Filter, of_a_crowd_leaves_the_others_there) {
-  ColliderDef wall = box(1, 0, 2, 4);
-  wall.filter.mask = 2;
-  Together two = standing({-1, 3}, {floor_at_zero(), wall});
-  two.inputs = {{.move = 1}, {}};
-  const ColliderFilter nothing_else{{.category = 4, .mask = 1}};
-  for (int step = 0; step < 120; ++step)
-    two.crowd.step(two.states, two.inputs, {two.gravity, two.dt, two.movers, &nothing_else}, two.scratch, two.report);
-  EXPECT_TRUE(gap_of_a_contact(two.gap(0, 1))) << "through the wall, up to the other: " << two.gap(0, 1);
 }
 
 StepStatus move(Stepper<double>& stepper, const Vec2d& displacement, double dt = frame) {

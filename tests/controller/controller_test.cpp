@@ -198,46 +198,35 @@ TEST(Jumping, is_lower_when_the_button_is_released) {
   EXPECT_EQ(thrown.state.velocity.y(), thrown_up - gravity * dt) << "a rise that is no jump";
 }
 
-/// At rest between walls at x = -2 and x = 2, as far from the right one as it is said.
-Stepper<double> beside_a_wall(std::string_view kind, double gap, bool rule = true) {
+/// At rest between walls at x = -2 and x = 2, as far from one of them as it is said.
+Stepper<double> beside_a_wall(std::string_view kind, double gap, double toward, bool rule) {
   CharacterDef character;
   character.no_jump_toward_wall = rule;
   Stepper<double> jumper =
       without_rounding({box(-100, -1, 100, 0), box(2, 0, 3, 9), box(-3, 0, -2, 9)}, character, kind);
-  jumper.at(2 - half_width - gap, half_height).steps(40);
+  jumper.at(toward * (2 - half_width - gap), half_height).steps(40);
   return jumper;
-}
-
-TEST(JumpingRules, refuse_a_jump_toward_a_wall_one_stands_beside) {
-  for (const double toward : {1.0, -1.0}) {
-    for (const std::optional<double> move : {std::optional(toward), std::optional(-toward), std::optional<double>()}) {
-      for (const bool rule : {false, true}) {
-        Stepper<double> jumper = beside_a_wall("octagon_sweep", 1, rule);
-        jumper.steps(100, walking(toward));
-        ASSERT_EQ(jumper.state.wall_right, toward > 0);
-        ASSERT_EQ(jumper.state.wall_left, toward < 0);
-        EXPECT_EQ(take_offs(jumper, 30, jumping(move)), rule && move == toward ? 0 : 1) << "rule " << rule;
-      }
-    }
-  }
 }
 
 TEST(JumpingRules, refuse_a_jump_together_with_the_direction_after_standing_idle_or_walking_by_every_technique) {
   for (const std::string_view kind : technique_names()) {
-    const auto jumps = [kind](double gap, std::optional<double> move, int walks = 0) {
-      Stepper<double> jumper = beside_a_wall(kind, gap);
-      EXPECT_FALSE(jumper.state.wall_right) << kind << ": nothing was wanted to the right";
-      jumper.steps(walks, walking(1));
-      return take_offs(jumper, 4, jumping(move));
-    };
-    EXPECT_EQ(jumps(px / 2, 1), 0) << kind;
-    EXPECT_EQ(jumps(px / 2, -1), 1) << kind;
-    EXPECT_EQ(jumps(px / 2, {}), 1) << kind;
-    // Beside is the next square, whole.
-    EXPECT_TRUE(kind == "grid" || jumps(3 * px, 1) == 1) << kind;
-    // It sticks to the floor before it comes to the wall.
-    for (int walks = 60; walks < 80 && kind != "wind_back"; ++walks)
-      EXPECT_EQ(jumps(0.4, 1, walks), 0) << kind << walks;
+    for (const double toward : {1.0, -1.0}) {
+      const auto jumps = [&](double gap, std::optional<double> move, int walks = 0, bool rule = true) {
+        Stepper<double> jumper = beside_a_wall(kind, gap, toward, rule);
+        EXPECT_FALSE(jumper.state.wall_right || jumper.state.wall_left) << kind << ": nothing was wanted sideways";
+        jumper.steps(walks, walking(toward));
+        return take_offs(jumper, 4, jumping(move));
+      };
+      EXPECT_EQ(jumps(px / 2, toward), 0) << kind;
+      EXPECT_EQ(jumps(px / 2, toward, 0, false), 1) << kind << ": without the rule";
+      EXPECT_EQ(jumps(px / 2, -toward), 1) << kind;
+      EXPECT_EQ(jumps(px / 2, {}), 1) << kind;
+      // Beside is the next square, whole.
+      EXPECT_TRUE(kind == "grid" || jumps(3 * px, toward) == 1) << kind;
+      // It sticks to the floor before it comes to the wall.
+      for (int walks = 60; walks < 80 && kind != "wind_back"; ++walks)
+        EXPECT_EQ(jumps(0.4, toward, walks), 0) << kind << walks;
+    }
   }
 }
 

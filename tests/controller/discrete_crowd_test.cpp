@@ -4,28 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace paperproof {
 namespace {
 
 using namespace stepping;
-using compare::Random;
 
 constexpr double gap = Tolerances<double>{}.stop;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A step takes a second and nothing pulls: velocities are displacements.
 Together flying(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {}) {
   return Together(std::move(positions), std::move(colliders), {}, {.name = "discrete"});
-}
-
-Together playing(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders) {
-  Together all = flying(std::move(positions), std::move(colliders));
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
-  return all;
 }
 
 TEST(DiscreteCrowd, two_that_meet_share_the_overlap_and_go_on_with_the_mean_of_their_velocities) {
@@ -92,6 +80,21 @@ TEST(DiscreteCrowd, pushed_against_a_wall_overlap_by_what_four_rounds_leave_a_qu
   EXPECT_FALSE(two.states[0].wall_right) << "another is no wall";
 }
 
+TEST(DiscreteCrowd, who_is_pushed_on_tells_whom_it_met_in_order_of_time) {
+  // The first takes the second by half of their overlap, and so into the third, which is met earlier in that movement.
+  const double apart = 0.5;
+  const double near = 0.01;
+  Together three = flying({{0, 0}, {2 * half_width + apart, 0}, {4 * half_width + apart + near, 0}});
+  three.states[0].velocity = {1, 0};
+  three.step();
+  const auto& met = three.report.members[1].met;
+  ASSERT_EQ(met.size(), 2U);
+  EXPECT_EQ(met[0].other, 2U);
+  EXPECT_NEAR(met[0].fraction, near / ((1 - apart + gap) / 2), 1e-12);
+  EXPECT_EQ(met[1].other, 0U);
+  EXPECT_NEAR(met[1].fraction, apart, 1e-12);
+}
+
 TEST(DiscreteCrowd, two_pairs_far_apart_are_two_islands_and_a_chain_is_one) {
   const double near = 2 * half_width + 0.1;
   Together six = flying({{100, 0}, {0, 0}, {100 + near, 0}, {near, 0}, {50, 0}, {2 * near, 0}});
@@ -118,84 +121,6 @@ TEST(DiscreteCrowd, whom_a_mover_would_push_through_the_floor_stays_and_is_in_th
   EXPECT_EQ(two.states[1].velocity.x(), 0) << "nothing moves it";
 }
 
-Input any_input(Random& random) {
-  return {.move = random.between(-1, 1), .jump = random.below(3) == 0, .drop = random.below(5) == 0};
-}
-
-/// Ground with a belt, a lift, a slope and a ledge; and more ground, 500 m away.
-std::vector<ColliderDef> a_level() {
-  ColliderDef belt = rectangle(-12, -1, -8, 0);
-  belt.surface_speed = 1.5;
-  return {rectangle(-8, -1, 8, 0),           belt,
-          compare::box(8, -0.5, 12, 0, 0),   rectangle(-14, -1, -12, 4),
-          polygon({{2, 0}, {5, 0}, {5, 2}}), chain({{-6, 1}, {-2, 1}}, Vec2d{0, 1}),
-          rectangle(13, -9, 14, 9),          rectangle(-14, -9, 14, -8),
-          rectangle(490, -1, 510, 0)};
-}
-
-TEST(DiscreteCrowd, of_one_who_is_near_nobody_has_the_bits_of_the_controller) {
-  Random random(71);
-  std::size_t impacts = 0;
-  int contacts = 0;
-  int rides = 0;
-  for (int run = 0; run < 20; ++run) {
-    // Alone, or while others collide far away.
-    const Vec2d start{run % 2 == 0 ? random.between(-11, 12) : 10, random.between(0.7, 3)};
-    std::vector<Vec2d> all{start};
-    if (run % 4 > 1) all.insert(all.end(), {{500.1, half_height}, {500, 2}, {500.3, 3.5}});
-    Together crowd = playing(all, a_level());
-    Stepper<double> alone(a_level(), {}, "discrete");
-    alone.gravity = crowd.gravity;
-    alone.at(start.x(), start.y());
-    for (int step = 0; step < 200; ++step) {
-      if (step % 15 == 0) crowd.inputs[0] = any_input(random);
-      crowd.movers[0] = {crowd.movers[0].to, {std::sin(0.02 * step), 2 * std::sin(0.03 * step)}};
-      alone.movers[0] = crowd.movers[0];
-      ASSERT_EQ(crowd.step(), StepStatus::moved);
-      const StepReport<double>& reported = crowd.report.members[0].step;
-      ASSERT_EQ(reported.status, alone.step(crowd.inputs[0])) << "seed 71, run " << run << ", step " << step;
-      ASSERT_TRUE(same_bits(crowd.states[0], alone.state)) << "seed 71, run " << run << ", step " << step;
-      ASSERT_EQ(crowd.states[0], alone.state) << "seed 71, run " << run << ", step " << step;
-      ASSERT_EQ(reported.move.contacts.size(), alone.report.move.contacts.size());
-      ASSERT_TRUE(reported.dropped_through == alone.report.dropped_through);
-      impacts += crowd.report.impacts;
-      contacts += static_cast<int>(reported.move.contacts.size());
-      rides += alone.state.ride.ground != Ride<double>::none ? 1 : 0;
-    }
-  }
-  EXPECT_GT(impacts, 100U);
-  EXPECT_GT(contacts, 1000);
-  EXPECT_GT(rides, 200);
-}
-
-TEST(DiscreteCrowd, takes_no_memory_and_gives_the_same_bits_again_and_numbers_only) {
-  // Many in a narrow room with a lift.
-  std::vector<CharacterState<double>> first;
-  for (int time = 0; time < 2; ++time) {
-    Random random(73);
-    std::vector<Vec2d> places;
-    for (int i = 0; i < 30; ++i) places.push_back({random.between(-4, 4), random.between(0.7, 6)});
-    const ColliderDef lift = compare::box(1, -0.5, 4, 0.1, 0);
-    Together all = playing(places, {rectangle(-6, -1, 6, 0), lift, rectangle(-6, 0, -5, 9), rectangle(5, 0, 6, 9)});
-    std::size_t impacts = 0;
-    const std::size_t before = tests::allocations();
-    for (int step = 0; step < 300; ++step) {
-      for (Input& input : all.inputs)
-        if (step % 20 == 0) input = any_input(random);
-      all.movers[0] = {all.movers[0].to, {0, 2 * std::abs(std::sin(0.05 * step))}};
-      EXPECT_EQ(all.step(), StepStatus::moved);
-      impacts += all.report.impacts;
-    }
-    EXPECT_EQ(tests::allocations(), before);
-    EXPECT_GT(impacts, 3000U);
-    if (time == 0) first = all.states;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_TRUE(same_bits(first[i], all.states[i])) << i;
-      EXPECT_TRUE(first[i].position.allFinite() && first[i].velocity.allFinite()) << i;
-    }
-  }
-}
-
 TEST(DiscreteCrowd, with_more_pairs_than_there_is_room_for_says_that_something_was_dropped) {
   constexpr std::size_t most = 530;  // 530 * 529 / 2 pairs are more than 256 for each and one piece
   std::vector<Vec2d> places;
@@ -207,25 +132,6 @@ TEST(DiscreteCrowd, with_more_pairs_than_there_is_room_for_says_that_something_w
   for (std::size_t i = 0; i < most; ++i) {
     ASSERT_EQ(all.report.members[i].step.status, StepStatus::dropped);
     ASSERT_TRUE(all.states[i].position.allFinite());
-  }
-}
-
-TEST(DiscreteCrowd, refused_for_one_changes_nothing_for_anybody) {
-  struct Case {
-    void (*spoil)(Together&);
-    StepStatus why = StepStatus::invalid_input;
-  };
-  for (const Case& each :
-       {Case{[](Together& t) { t.states[2].position.x() = nan; }},
-        Case{[](Together& t) { t.states[2].velocity.y() = nan; }}, Case{[](Together& t) { t.inputs[2].move = nan; }},
-        Case{[](Together& t) { t.dt = 0; }}, Case{[](Together& t) { t.report = CrowdReport<double>(2); }},
-        Case{[](Together& t) { t.states[2].velocity.x() = 3e6; }, StepStatus::out_of_range}}) {
-    Together three = flying({{0, 0}, {2, 0}, {4, 0}});
-    for (CharacterState<double>& state : three.states) state.velocity = {0.25, 0};
-    each.spoil(three);
-    const std::vector<CharacterState<double>> before = three.states;
-    EXPECT_EQ(three.step(), each.why);
-    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_TRUE(same_bits(three.states[i], before[i])) << i;
   }
 }
 

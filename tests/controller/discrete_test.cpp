@@ -1,13 +1,11 @@
 /// Discrete collision detection: impacts, islands, their order, and the technique made of them.
-#include "controller/passenger.hpp"
-#include "support/steps_wanted.hpp"
+#include "controller/article_support.hpp"
 #include "techniques/discrete/solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <deque>
-#include <optional>
 
 namespace paperproof::article_tests {
 namespace {
@@ -79,50 +77,6 @@ TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
   EXPECT_GT(hits, 3000);
 }
 
-TEST(DiscreteIslands, of_many_bodies_are_those_of_a_flood_over_overlapping_boxes) {
-  Random random(53);
-  int joined = 0;
-  for (int scene = 0; scene < 300; ++scene) {
-    // So few that each is looked at, or so many that they are swept; the field is as dense.
-    const BodyIndex count = scene % 2 == 0 ? 40 : 90;
-    Bodies bodies;
-    for (BodyIndex i = 0; i < count; ++i) {
-      const Vec2d middle = random.point(scene % 2 == 0 ? 8 : 12);
-      auto& body = bodies.add_box(middle, random.point(1));
-      if (random.below(5) == 0) body.inverse_mass = 0;
-    }
-    // Each covers half a metre around its way.
-    const auto overlap = [&](BodyIndex a, BodyIndex b) {
-      const auto& one = bodies.all[a];
-      const auto& other = bodies.all[b];
-      const Vec2d low = one.position.cwiseMin(one.expected()).cwiseMax(other.position.cwiseMin(other.expected()));
-      const Vec2d high = one.position.cwiseMax(one.expected()).cwiseMin(other.position.cwiseMax(other.expected()));
-      return one.inverse_mass > 0 && other.inverse_mass > 0 && (low - high).maxCoeff() <= 1;
-    };
-    std::vector<std::pair<BodyIndex, BodyIndex>> pairs;
-    for (BodyIndex i = 0; i < count; ++i)
-      for (BodyIndex j = 0; j < i; ++j)
-        if (overlap(i, j)) pairs.emplace_back(i, j);
-    std::vector<BodyIndex> labels(count);
-    for (BodyIndex i = 0; i < count; ++i) labels[i] = i;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const auto& [i, j] : pairs) {
-        changed = changed || labels[i] != labels[j];
-        labels[i] = labels[j] = std::min(labels[i], labels[j]);
-      }
-    }
-    auto solver = make_solver();
-    solver.solve_once(bodies.all);
-    for (BodyIndex i = 0; i < count; ++i) {
-      ASSERT_EQ(solver.island_of(i), labels[i]) << "seed 53, scene " << scene << ", body " << i;
-      joined += labels[i] != i ? 1 : 0;
-    }
-  }
-  EXPECT_GT(joined, 300 * 65 / 4);
-  EXPECT_LT(joined, 300 * 65 * 3 / 4);
-}
-
 TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   // The mover is expected to end in all three boxes, of which the last, whose top is the highest, is met first.
   Bodies bodies;
@@ -136,85 +90,6 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   EXPECT_DOUBLE_EQ(solver.solved()[0].impact.time, (1 - 0.5 - -1.0) / 3);
   EXPECT_DOUBLE_EQ(bodies.all[3].expected().y(), -0.5 + gap);
   EXPECT_FALSE(solver.solve_once(bodies.all)) << "nothing is left";
-}
-
-TEST(DiscretePush, keeps_the_momentum_and_the_centre_of_mass_of_what_can_move) {
-  Random random(55);
-  int solved = 0;
-  for (int i = 0; i < 2000; ++i) {
-    Bodies bodies;
-    for (int body = 0; body < 6; ++body) {
-      const Vec2d middle = random.point(2);
-      bodies.add_box(middle, random.point(1)).inverse_mass = random.between(0.1, 10);
-    }
-    const auto sums = [&] {
-      Eigen::Matrix2d momentum_and_place = Eigen::Matrix2d::Zero();
-      for (const auto& body : bodies.all) {
-        momentum_and_place.col(0) += body.velocity / body.inverse_mass;
-        momentum_and_place.col(1) += body.expected() / body.inverse_mass;
-      }
-      return momentum_and_place;
-    };
-    const Eigen::Matrix2d before = sums();
-    auto solver = make_solver();
-    solved += solver.solve(bodies.all, 8);
-    ASSERT_LE((sums() - before).norm(), 1e-12) << "seed 55, case " << i;
-  }
-  EXPECT_GT(solved, 2000);
-}
-
-/// @return the lowest speed after a step of a walk over flush tiles, as a share of the one that was set.
-double slowest_on_flush_tiles(double speed) {
-  Passenger walker(kind, flush_tiles(40));
-  walker.position = {1, half_height};
-  double slowest = 1;
-  while (walker.position.x() < 38 && slowest > 0) {
-    walker.velocity.x() = speed;
-    slowest = std::min(slowest, walker.step({}).velocity.x() / speed);
-  }
-  return slowest;
-}
-
-/// Whether a walk from x = 1 over flush tiles comes, in a step, from wholly on one tile to wholly beyond it. Nothing
-/// where a gap decides it.
-std::optional<bool> oversteps_a_tile(double speed) {
-  const double way = speed / 64;
-  const double sunk = 32.0 / 64 / 64;  // at the end of a step, below the tiles' tops
-  const double half_foot = 5 * px;
-  const double half_at_the_end = half_foot + sunk / 2;  // at the tops: the flanks go 10 px up and 5 px out
-  // What is reached before the gap to the tiles below has closed is met from above.
-  const double band = 2 * gap * std::max(1.0, way / sunk);
-  bool any = false;
-  for (double x = 1; x < 38; x += way)
-    for (int end = 2; end < 40; ++end) {
-      const double before = end - (x + half_foot);           // of the front of the feet
-      const double after = x + way - half_at_the_end - end;  // of their back
-      if (before < -band || after < -band) continue;
-      if (before < band || after < band) return std::nullopt;
-      any = true;
-    }
-  return any;
-}
-
-TEST(Discrete, snags_on_flush_tiles_only_where_the_feet_have_left_the_tile_when_the_step_ends) {
-  // The tile stood on is met before the next one, which would be hit from the side: gravity takes the feet below its
-  // top. The feet are 10 px long: above 20 m/s they can be on a tile when a step of 1/64 s begins, and beyond it at its
-  // end. The tile that bore them is then not looked at, and the next one is met from the side.
-  std::vector<double> speeds;
-  for (int i = 1; i <= 50; ++i) speeds.push_back(10 * px * 64 + 0.037 * i);
-  for (int i = 1; i <= test::sampled(100); ++i) speeds.push_back(20.0 * i / test::sampled(100) - 0.05);
-  int snagged = 0;
-  int passed_above = 0;
-  for (const double speed : speeds) {
-    const std::optional<bool> expected = oversteps_a_tile(speed);
-    if (!expected) continue;
-    const double slowest = slowest_on_flush_tiles(speed);
-    EXPECT_TRUE(*expected ? slowest < 0.99 : slowest > 1 - 1e-12) << speed;
-    snagged += *expected ? 1 : 0;
-    passed_above += !*expected && speed > 20 ? 1 : 0;
-  }
-  EXPECT_GE(snagged, 5);
-  EXPECT_GE(passed_above, 5);
 }
 
 TEST(Discrete, begins_inside_and_comes_out_the_nearest_way_or_is_stuck) {

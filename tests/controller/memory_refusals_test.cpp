@@ -1,6 +1,6 @@
 /// Scratch memory that is not the controller's, and movers that no step can begin with: refused, and nothing changes.
 #include "campaign/shapes.hpp"
-#include "controller/together.hpp"
+#include "controller/stepping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,14 +48,6 @@ void expect_refused(Stepper<Scalar>& stepper, Scratch<Scalar>& scratch, const ch
   EXPECT_TRUE(same_bits(stepper.state, before)) << what;
 }
 
-void expect_refused(Together& all, CrowdScratch& scratch, const char* what) {
-  const std::vector<CharacterState<double>> before = all.states;
-  EXPECT_EQ(all.crowd.step(all.states, all.inputs, {{0, -10}, all.dt, all.movers}, scratch, all.report),
-            StepStatus::invalid_input)
-      << what;
-  EXPECT_EQ(all.states, before) << what;
-}
-
 template <class Scalar>
 void expect_only_its_own_is_taken(std::string_view kind) {
   SCOPED_TRACE(kind);
@@ -100,28 +92,7 @@ TEST(ScratchMemory, goes_along_with_its_controller_and_is_not_the_next_ones_in_t
   }
 }
 
-TEST(ScratchMemory, of_another_crowd_is_refused) {
-  for (const auto& [kind, mover] :
-       {std::pair{"octagon_sweep", no_mover}, std::pair{"octagon_sweep", 0U}, std::pair{"discrete", 0U}}) {
-    SCOPED_TRACE(kind);
-    const std::vector<ColliderDef> colliders{box(-9, -9, 9, 0), box(20, 0, 21, 1, mover)};
-    Together all({{-1, 1}, {1, 1}}, colliders, {}, {.name = kind});
-    Together others({{-1, 1}, {1, 1}}, colliders, {}, {.name = kind});
-    const Scenery<float> scenery(SceneryDef{colliders});
-    CrowdScratch floats = make_crowd(scenery, CharacterDef{}, {.name = kind}).make_scratch(2);
-    CrowdScratch none;
-    none.most_characters = 2;
-    expect_refused(all, none, "nobody's");
-    expect_refused(all, others.scratch, "another's");
-    expect_refused(all, floats, "of another scalar");
-    CrowdScratch taken = std::move(all.scratch);
-    expect_refused(all, all.scratch, "moved from");
-    all.scratch = std::move(taken);
-    EXPECT_EQ(all.step(), StepStatus::moved);
-  }
-}
-
-TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique_and_by_crowds) {
+TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const double range = Tolerances<double>{}.range;
@@ -144,17 +115,10 @@ TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique_and_by_c
     SCOPED_TRACE(kind);
     Stepper<double> stepper(colliders, {}, kind);
     stepper.at(0, 1);
-    std::optional<Together> crowd;
-    if (find_technique(kind)->moves_crowds)
-      crowd.emplace(std::vector<Vec2d>{{-3, 1}, {3, 1}}, colliders, CharacterDef{}, TechniqueDef{.name = kind});
     for (const auto& [what, motion, dt] : all_bad) {
       stepper.movers = {motion};
       stepper.dt = dt;
       expect_refused(stepper, stepper.scratch, what);
-      if (!crowd) continue;
-      crowd->movers = {motion};
-      crowd->dt = dt;
-      expect_refused(*crowd, crowd->scratch, what);
     }
   }
   Stepper<double> far(colliders);

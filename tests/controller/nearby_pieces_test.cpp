@@ -1,8 +1,7 @@
-/// Sensors and one-way chains ask a broad phase, and remember what is near. A look at each alone, anew in each step,
-/// has to say the same, to the last bit.
+/// Sensors ask a broad phase, and remember what is near. A look at each alone, anew in each step, has to say the same,
+/// to the last bit.
 #include "campaign/shapes.hpp"
 #include "controller/random_polygons.hpp"
-#include "one_way_chains.hpp"
 #include "sensors.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -55,7 +54,7 @@ Path random_path(Random& random, const Vec2d& from) {
     return {{aside - along, 0}, {aside + along, 1}};
   }
   Path path{{random.index(8) == 0 ? random_place(random) : from, 0}};
-  const double reach = random.index(4) == 0 ? extent : random.uniform(0.01, 0.5);
+  const double reach = random.index(4) == 0 ? extent : random.between(0.01, 0.5);
   const std::size_t corners = random.index(3);
   for (std::size_t i = 0; i <= corners; ++i) {
     const Vec2d before = path.back().position;
@@ -66,7 +65,6 @@ Path random_path(Random& random, const Vec2d& from) {
   return path;
 }
 
-/// Of one-way chains: those that were passed.
 struct Seen {
   std::vector<Event> events{};
   bool overflowed = false;
@@ -78,17 +76,7 @@ Seen seen_by(const Sensors<double>& sensors, const Path& path, const Motions& mo
   return {{events.begin(), events.end()}, events.overflowed()};
 }
 
-Seen seen_by(const OneWayChains<double>& chains, const Path& path, const Motions& motions,
-             Candidates<double>& candidates) {
-  OneWayChains<double>::Passed passed;
-  chains.find_passed(path, motions, candidates, passed);
-  Seen seen{.overflowed = passed.overflowed()};
-  for (const ColliderIndex chain : passed) seen.events.push_back({.sensor = chain});
-  return seen;
-}
-
 /// Each in a scenery with nothing else in it, in order of time.
-template <class Watch>
 std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, const Motions& motions) {
   std::vector<Event> all;
   for (ColliderIndex i = 0; i < def.colliders.size(); ++i) {
@@ -97,13 +85,32 @@ std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, cons
     const Motions motion = mover == no_mover ? Motions{} : Motions{motions[mover]};
     if (mover != no_mover) mover = 0;
     const Scenery<double> scenery(alone);
-    const Watch watch(scenery, CharacterShape::article());
+    const Sensors<double> watch(scenery, CharacterShape::article());
     Candidates<double> fresh = watch.make_candidates();
     for (const Event& event : seen_by(watch, path, motion, fresh).events)
       all.push_back({i, event.change, event.fraction});
   }
   std::ranges::stable_sort(all, {}, &Event::fraction);
   return all;
+}
+
+/// Coins, wide regions of several pieces, and lines; in some sceneries rows and columns of coins.
+SceneryDef random_sensors(Random& random) {
+  SceneryDef def;
+  for (std::size_t count = 1 + random.index(40); count > 0; --count) {
+    const Vec2d at = random_place(random);
+    const std::size_t kind = random.index(8);
+    const double size = random.index(2) == 0 ? 0.5 : random.between(0.01, 1);
+    def.colliders.push_back(compare::box(at.x(), at.y(), at.x() + size, at.y() + size));
+    if (kind == 0) def.colliders.back().points = star_ring(random, 3 + random.index(9), at, 0.3, 6);
+    if (kind == 1) def.colliders.back().shape = ColliderDef::Shape::chain;
+  }
+  move_some(random, def);
+  if (random.index(4) == 0)
+    for (int x = -6; x < 6; ++x)
+      for (int y = -2; y < 3; ++y) def.colliders.push_back(compare::box(x, y, x + 0.5, y + 0.5));
+  for (ColliderDef& sensor : def.colliders) sensor.sensor = true;
+  return def;
 }
 
 /// In how many steps something was seen, and so on.
@@ -114,19 +121,18 @@ struct Tally {
   int quiet = 0;  ///< Known to be so from the step before.
 };
 
-template <class Watch>
-Tally expect_the_same_of_all_and_of_each(SceneryDef (*make)(Random&), int sceneries) {
+Tally expect_the_same_of_all_and_of_each(int sceneries) {
   Tally tally;
   for (unsigned seed = 0; seed < static_cast<unsigned>(sceneries); ++seed) {
     Random random(seed);
-    const SceneryDef def = make(random);
+    const SceneryDef def = random_sensors(random);
     std::optional<Scenery<double>> scenery;
     try {
       scenery.emplace(def);
     } catch (const InvalidScenery&) {
       continue;  // a star that touches itself
     }
-    const Watch watch(*scenery, CharacterShape::article());
+    const Sensors<double> watch(*scenery, CharacterShape::article());
     Candidates<double> candidates = watch.make_candidates();
     Vec2d at = random_place(random);
     for (int step = 0; step < 6; ++step) {
@@ -135,7 +141,7 @@ Tally expect_the_same_of_all_and_of_each(SceneryDef (*make)(Random&), int scener
       at = path.back().position;
       tally.quiet += candidates.quiet.contains(PieceFinder<double>::positions_seen(path, {}));
       const auto [events, overflowed] = seen_by(watch, path, motions, candidates);
-      std::vector<Event> all = seen_one_by_one<Watch>(def, path, motions);
+      std::vector<Event> all = seen_one_by_one(def, path, motions);
       EXPECT_EQ(overflowed, all.size() > Sensors<double>::Events::capacity()) << "seed " << seed << ", step " << step;
       all.resize(std::min(all.size(), Sensors<double>::Events::capacity()));
       EXPECT_TRUE(std::ranges::equal(events, all,
@@ -153,51 +159,14 @@ Tally expect_the_same_of_all_and_of_each(SceneryDef (*make)(Random&), int scener
   return tally;
 }
 
-/// Coins, wide regions of several pieces, and lines; in some sceneries rows and columns of coins.
-SceneryDef random_sensors(Random& random) {
-  SceneryDef def;
-  for (std::size_t count = 1 + random.index(40); count > 0; --count) {
-    const Vec2d at = random_place(random);
-    const std::size_t kind = random.index(8);
-    const double size = random.index(2) == 0 ? 0.5 : random.uniform(0.01, 1);
-    def.colliders.push_back(compare::box(at.x(), at.y(), at.x() + size, at.y() + size));
-    if (kind == 0) def.colliders.back().points = star_ring(random, 3 + random.index(9), at, 0.3, 6);
-    if (kind == 1) def.colliders.back().shape = ColliderDef::Shape::chain;
-  }
-  move_some(random, def);
-  if (random.index(4) == 0)
-    for (int x = -6; x < 6; ++x)
-      for (int y = -2; y < 3; ++y) def.colliders.push_back(compare::box(x, y, x + 0.5, y + 0.5));
-  for (ColliderDef& sensor : def.colliders) sensor.sensor = true;
-  return def;
-}
-
 TEST(SensorsNearby, are_those_of_a_look_at_each_alone) {
   constexpr int sceneries = sampled(3'000);
-  const Tally tally = expect_the_same_of_all_and_of_each<Sensors<double>>(random_sensors, sceneries);
+  const Tally tally = expect_the_same_of_all_and_of_each(sceneries);
   EXPECT_GT(tally.some, sceneries * 6 * 3 / 10);
   EXPECT_LT(tally.some, sceneries * 6 * 8 / 10);
   EXPECT_GT(tally.too_many, sceneries / 100);
   EXPECT_GT(tally.quiet, sceneries / 10);
   EXPECT_GT(tally.at_once, sceneries / 10);
-}
-
-SceneryDef random_chains(Random& random) {
-  SceneryDef def;
-  for (std::size_t count = 1 + random.index(random.index(10) == 0 ? 600 : 40); count > 0; --count) {
-    const Vec2d from = random.point(extent);
-    def.colliders.push_back(compare::chain({from, from + Vec2d{random.uniform(0.1, 3), random.uniform(-1, 1)}}));
-    def.colliders.back().one_way = Vec2d(0, random.index(4) == 0 ? -1 : 1);
-  }
-  move_some(random, def);
-  return def;
-}
-
-TEST(OneWayChainsNearby, that_are_passed_are_those_of_a_look_at_each_alone) {
-  constexpr int sceneries = sampled(1'000);
-  const Tally tally = expect_the_same_of_all_and_of_each<OneWayChains<double>>(random_chains, sceneries);
-  EXPECT_GT(tally.some, sceneries);
-  EXPECT_GT(tally.too_many, sceneries / 200);
 }
 
 }  // namespace

@@ -16,24 +16,8 @@ namespace {
 constexpr double stop = Tolerances<double>{}.stop;
 constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
 
-ColliderDef moving(ColliderDef collider) {
-  collider.mover = 0;
-  return collider;
-}
-
 CharacterDef box_character() {
   return article_tests::of_shape(CharacterShape(rectangle(-half_width, -half_height, half_width, half_height).points));
-}
-
-/// Ground through the origin, in pieces of a metre that abut exactly. @param rise per metre, a multiple of 1/16.
-std::vector<ColliderDef> tiled_slope(double rise) {
-  std::vector<ColliderDef> tiles;
-  for (int i = -30; i < 30; ++i)
-    tiles.push_back(polygon({{double(i), rise * i - 4},
-                             {double(i + 1), rise * (i + 1) - 4},
-                             {double(i + 1), rise * (i + 1)},
-                             {double(i), rise * i}}));
-  return tiles;
 }
 
 // ------------------------------------------------------------------------------------------------------- features
@@ -80,7 +64,7 @@ TEST(PeersFeature, corner_correction_by_a_slanted_head) {
 TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
   for (const double speed : {-60.0, -12.0, -1.0, 1.0, 12.0, 60.0, 400.0}) {
     for (const double rate : {30.0, 60.0, 240.0}) {
-      Stepper<double> faller({moving(rectangle(-3, -0.01, 3, 0))});
+      Stepper<double> faller({compare::box(-3, -0.01, 3, 0, 0)});
       faller.dt = 1 / rate;
       faller.gravity = {0, -30};
       faller.at(0, 3).with_velocity(0, -20);
@@ -116,27 +100,6 @@ TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #8747
   }
 }
 
-TEST(PeersComplaint, the_floor_flag_flickers) {  // godot #16250, #90718; bevy_rapier #377
-  for (const double rise : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-    for (const double rate : {60.0, 144.0, 1000.0}) {
-      for (const double move : {0.0, 0.02, 1.0}) {
-        CharacterDef character;
-        character.snap = 0.1;
-        Stepper<double> walker(tiled_slope(rise), character);
-        walker.dt = 1 / rate;
-        walker.at(-10, -10 * rise + half_height + 0.2).steps(static_cast<int>(rate), {.move = 0});
-        ASSERT_TRUE(walker.state.grounded);
-        for (int n = 0; n < 3 * static_cast<int>(rate); ++n) {
-          walker.step({.move = move});
-          ASSERT_TRUE(walker.state.grounded) << rise << ", " << rate << " Hz, move " << move << ", step " << n;
-          ASSERT_LE(walker.state.velocity.x(), 6 * move);
-        }
-        EXPECT_NEAR(walker.state.velocity.x(), 6 * move, 1e-12);
-      }
-    }
-  }
-}
-
 TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
   // Ledges, 0.3 m apart: the character spans several.
   std::vector<ColliderDef> ledges{rectangle(-9, -1, 9, 0)};
@@ -164,7 +127,7 @@ TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
     for (int pressed = 0; pressed < 20; ++pressed) {
       CharacterDef character;
       character.snap = 0.2;
-      Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))}, character);
+      Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, character);
       rider.gravity = {0, -30};
       rider.at(0, half_height + stop).step();
       double speed = 0;
@@ -176,23 +139,6 @@ TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
       EXPECT_NEAR(rider.state.velocity.y(), speed + 12 - 0.5, 1e-12) << "pressed in step " << pressed;
       rider.step_with_mover_by(0, speed / 60, {.move = 0});
       EXPECT_FALSE(rider.state.grounded);
-    }
-  }
-}
-
-TEST(PeersComplaint, snapping_eats_jumps) {  // JoltPhysics #1988
-  for (const double rise : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-    CharacterDef character;
-    character.snap = character.step_height = 0.5;
-    Stepper<double> jumper(tiled_slope(rise), character);
-    jumper.gravity = {0, -30};
-    jumper.at(-10, -10 * rise + half_height + 0.2).steps(60, {.move = 1});
-    ASSERT_TRUE(jumper.state.grounded);
-    jumper.step({.move = 1, .jump = true});
-    EXPECT_EQ(jumper.state.velocity, Vec2d(6, 12 - 0.5)) << rise;
-    for (int n = 0; n < 3; ++n) {
-      EXPECT_FALSE(jumper.state.grounded) << rise;
-      jumper.step({.move = 1});
     }
   }
 }

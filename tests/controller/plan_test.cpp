@@ -78,14 +78,6 @@ TEST(Plan, keeps_just_the_stage_that_something_needs_and_no_controller_is_built_
   }
 }
 
-TEST(Plan, takes_the_diagonal_by_which_a_concave_polygon_is_cut_for_a_slope) {
-  // Of an L: its two parts meet along a diagonal, or not, as the cut falls.
-  const Scenery<double> ell(SceneryDef{{compare::polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})}});
-  const bool diagonal = std::any_of(ell.pieces().begin(), ell.pieces().end(),
-                                    [](const PieceInfo& piece) { return !piece.is_rectangle(); });
-  EXPECT_EQ(make_plan(ell).stages.slopes, diagonal);
-}
-
 TEST(Plan, chooses_the_broad_phase_by_the_number_of_what_stands_still) {
   const auto chosen = [](int still, int moving) {
     SceneryDef def;

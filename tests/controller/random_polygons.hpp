@@ -1,11 +1,12 @@
 /// Families of random polygons for tests, each hard in its own way.
 #pragma once
 
+#include "campaign/random.hpp"
+
 #include <paperproof/types.hpp>
 
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 namespace paperproof::test {
@@ -17,19 +18,11 @@ struct Polygon {
   std::vector<Points> holes;
 };
 
-class Random {
+class Random : public compare::Random {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  using compare::Random::Random;
   /// In [0, size).
-  std::size_t index(std::size_t size) { return std::uniform_int_distribution<std::size_t>(0, size - 1)(engine_); }
-  Vec2d point(double reach) {
-    const double x = uniform(-reach, reach);
-    return {x, uniform(-reach, reach)};
-  }
-
- private:
-  std::mt19937 engine_;
+  std::size_t index(std::size_t size) { return static_cast<std::size_t>(below(static_cast<int>(size))); }
 };
 
 /// Seen from its centre, every vertex is in plain sight.
@@ -37,7 +30,7 @@ inline Points star_ring(Random& random, std::size_t size, const Vec2d& centre, d
   Points ring;
   for (std::size_t i = 0; i < size; ++i) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(size);
-    const double radius = random.uniform(least, most);
+    const double radius = random.between(least, most);
     ring.push_back(centre + radius * Vec2d(std::cos(angle), std::sin(angle)));
   }
   return ring;
@@ -58,8 +51,8 @@ inline Polygon comb(Random& random) {
   const std::size_t teeth = 2 + random.index(10);
   for (std::size_t i = 0; i < teeth; ++i) {
     const double x = 3 * static_cast<double>(i);
-    const double tip = random.uniform(1, 20);
-    polygon.outer.insert(polygon.outer.end(), {{x, 0}, {x, tip}, {x + random.uniform(1, 2), tip}, {x + 2, 0}});
+    const double tip = random.between(1, 20);
+    polygon.outer.insert(polygon.outer.end(), {{x, 0}, {x, tip}, {x + random.between(1, 2), tip}, {x + 2, 0}});
   }
   polygon.outer.push_back({3 * static_cast<double>(teeth), -1});
   polygon.outer.push_back({0, -1});

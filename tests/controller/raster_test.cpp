@@ -2,6 +2,7 @@
 #include "techniques/raster/sprite.hpp"
 
 #include "controller/article_support.hpp"
+#include "controller/scenery_definitions.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
@@ -14,40 +15,15 @@ namespace {
 using raster::Bitmap;
 using raster::Pixel;
 using raster::Span;
+using test::Where;
+using test::where_is;
 
 constexpr int sixteenth = 16;  // the tests place vertices on sixteenths of a pixel, exact in every arithmetic
 
-using Lattice = std::array<std::int64_t, 2>;  ///< A point in sixteenths of a pixel.
-
-ColliderDef polygon_of(const std::vector<Lattice>& ring) {
-  ColliderDef polygon;
-  for (const Lattice& at : ring) polygon.points.push_back(Vec2d(double(at[0]), double(at[1])) / sixteenth);
-  return polygon;
-}
-
-enum class Place : std::uint8_t { outside, inside, edge };
-
-/// The slow, honest twin: crossing parity of one point in whole numbers.
-Place place_of(const Lattice& point, const std::vector<Lattice>& ring) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Lattice& a = ring[i];
-    const Lattice& b = ring[(i + 1) % ring.size()];
-    const std::int64_t area = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
-    const bool in_box = std::min(a[0], b[0]) <= point[0] && point[0] <= std::max(a[0], b[0]) &&
-                        std::min(a[1], b[1]) <= point[1] && point[1] <= std::max(a[1], b[1]);
-    if (area == 0 && in_box) return Place::edge;
-    const bool crosses = (a[1] <= point[1]) != (b[1] <= point[1]);
-    const bool on_right = b[1] > a[1] ? area < 0 : area > 0;
-    if (crosses && on_right) inside = !inside;
-  }
-  return inside ? Place::inside : Place::outside;
-}
-
-std::vector<Lattice> random_ring(Random& random, int size) {
-  std::vector<Lattice> ring;
-  const int corners = 3 + random.below(6);
-  for (int i = 0; i < corners; ++i) ring.push_back({random.below(2 * size) - size, random.below(2 * size) - size});
+/// In pixels.
+std::vector<Vec2d> random_ring(Random& random, int size) {
+  std::vector<Vec2d> ring(static_cast<std::size_t>(3 + random.below(6)));
+  for (Vec2d& point : ring) point = Vec2d{random.integer(-size, size - 1), random.integer(-size, size - 1)} / sixteenth;
   return ring;
 }
 
@@ -56,14 +32,14 @@ TEST(Rasteriser, makes_a_pixel_solid_when_its_centre_is_inside) {
   int inside = 0;
   int outside = 0;
   for (int i = 0; i < 500; ++i) {
-    const std::vector<Lattice> ring = random_ring(random, 20 * sixteenth);  // it may cross itself: parity counts
-    const Bitmap level = raster::rasterise({{polygon_of(ring)}}, 1);
+    const std::vector<Vec2d> ring = random_ring(random, 20 * sixteenth);  // it may cross itself: parity counts
+    const Bitmap level = raster::rasterise({{compare::polygon(ring)}}, 1);
     for (int y = -22; y < 22; ++y) {
       for (int x = -22; x < 22; ++x) {
-        const Place place = place_of({x * sixteenth + sixteenth / 2, y * sixteenth + sixteenth / 2}, ring);
-        if (place == Place::edge) continue;  // either: see the test of shared edges
-        ++(place == Place::inside ? inside : outside);
-        ASSERT_EQ(level.is_white({x, y}), place == Place::inside) << "seed 3, polygon " << i << ": " << x << ' ' << y;
+        const Where place = where_is({x + 0.5, y + 0.5}, ring);
+        if (place == Where::on_the_outline) continue;  // either: see the test of shared edges
+        ++(place == Where::inside ? inside : outside);
+        ASSERT_EQ(level.is_white({x, y}), place == Where::inside) << "seed 3, polygon " << i << ": " << x << ' ' << y;
       }
     }
   }
@@ -166,7 +142,9 @@ TEST(Rasteriser, says_why_it_cannot_draw_something) {
 }
 
 TEST(Colours, go_round_from_1_to_255_and_leave_0_to_the_background) {
-  const raster::ColourPicture picture({flush_tiles(300)}, 2);
+  SceneryDef tiles;
+  for (int x = 0; x < 300; ++x) tiles.colliders.push_back(rectangle(x, -1, x + 1, 0));
+  const raster::ColourPicture picture(tiles, 2);
   for (int x = 0; x < 600; ++x) ASSERT_EQ(picture.colour({x, -1}), 1 + x / 2 % 255);
   for (const Pixel& outside : {Pixel{-1, -1}, Pixel{0, 0}, Pixel{0, -3}, Pixel{600, -1}})
     EXPECT_EQ(picture.colour(outside), 0);
@@ -182,7 +160,8 @@ TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
       scenery.colliders.push_back({.points = on_an_ellipse(random, random.point(200), {75, 75})});
     const Bitmap level = raster::rasterise(scenery, 1);
     // Up to three words wide.
-    const Bitmap sprite = raster::rasterise({{polygon_of(random_ring(random, (5 + random.below(80)) * sixteenth))}}, 1);
+    const Bitmap sprite =
+        raster::rasterise({{compare::polygon(random_ring(random, (5 + random.below(80)) * sixteenth))}}, 1);
     for (int i = 0; i < 100; ++i) {
       const Pixel at{random.below(500) - 250, random.below(500) - 250};
       int expected = 0;
@@ -209,38 +188,10 @@ TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
   EXPECT_EQ(rig.result.contacts[0].side, Side::right);
 }
 
-TEST(Mask, compares_only_the_white_pixels_of_its_picture_which_is_as_large_as_the_character) {
-  TechniqueDef leg_on_the_left{.name = "mask"};
-  for (int row = 0; row < 40; ++row) leg_on_the_left.sprite.emplace_back(row < 30 ? 20 : 5, '#').resize(20, '.');
-  const std::vector<ColliderDef> on_the_right{rectangle(0, -9, 9, -half_height - px)};
-  EXPECT_EQ(Rig<double>("mask", on_the_right).move({0, 0}, {0, -5 * px}).position.y(), -px) << "the hull";
-  EXPECT_EQ(Rig<double>(leg_on_the_left, on_the_right).move({0, 0}, {0, -5 * px}).position.y(), -5 * px);
-  leg_on_the_left.sprite.pop_back();
-  EXPECT_THROW(Rig<double>(leg_on_the_left, on_the_right), std::invalid_argument);
-}
-
-TEST(Mask, is_accurate_to_the_pixel_in_scenery_of_any_shape) {
-  // A tooth two pixels high and two wide, under the left foot, beside it, or just not.
-  for (int x = -12; x <= 12; ++x) {
-    const double left = x * px;
-    Rig<double> rig("mask", {rectangle(-2, -1, 2, 0), rectangle(left, 0, left + 2 * px, 2 * px)});
-    const double feet = rig.move({0, half_height + 10 * px}, {0, -9.5 * px}).position.y() - half_height;
-    // The lowest two rows of the octagon: half a pixel above the feet it reaches from -5 - 0.25 to 5 + 0.25 px, with
-    // pixel centres from -4.5 to 4.5; one and a half above, up to 5.75: from -5.5 to 5.5.
-    int expected = 2;
-    if (x + 1 < -5 || x > 4) expected = 1;
-    if (x + 1 < -6 || x > 5) expected = 0;
-    // A column that only the second row has collides from one row higher on.
-    EXPECT_EQ(feet, expected == 0 ? 0.5 * px : expected * px) << x;
-  }
-}
-
-TEST(PixelColour, is_stopped_by_decoration_in_the_colour_of_a_platform_which_is_no_collider) {
-  const SceneryDef cloud{{rectangle(half_width + 2 * px, 0, 3, 1)}};
-  const TechniqueDef painted{.name = "pixel_colour", .decoration = std::make_shared<const SceneryDef>(cloud)};
-  Rig<double> rig(painted, {rectangle(-9, -9, 9, -half_height)});
-  EXPECT_EQ(rig.move({0, 0}, {8 * px, 0}).position.x(), 2 * px);
-  EXPECT_TRUE(rig.result.contacts.empty());
+TEST(Mask, refuses_a_picture_that_is_not_as_large_as_the_character) {
+  TechniqueDef too_low{.name = "mask"};
+  too_low.sprite.assign(39, std::string(20, '#'));
+  EXPECT_THROW(Rig<double>(too_low, {rectangle(0, 0, 1, 1)}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Whether a scenery is refused, and where a point is.
+/// One-way colliders, whether a scenery is refused, and where a point is.
 #pragma once
 
 #include <paperproof/scenery.hpp>
@@ -10,6 +10,11 @@
 #include "random_polygons.hpp"
 
 namespace paperproof::test {
+
+inline ColliderDef one_way(ColliderDef def, const Vec2d& direction) {
+  def.one_way = direction;
+  return def;
+}
 
 template <class Scalar = double>
 std::string refusal_of(const SceneryDef& def) {

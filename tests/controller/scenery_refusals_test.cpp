@@ -14,17 +14,13 @@ namespace {
 
 using compare::chain;
 using compare::polygon;
+using test::one_way;
 using test::Points;
 using test::refusal_of;
 
 ColliderDef with_holes(const Points& outline, const std::vector<Points>& holes) {
   return {.points = outline, .holes = holes};
 }
-ColliderDef one_way(ColliderDef def, const Vec2d& direction) {
-  def.one_way = direction;
-  return def;
-}
-
 /// Whether sides have a common point. Coordinates are whole or half numbers: nothing is rounded.
 bool sides_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   const auto cross = [](const Vec2d& u, const Vec2d& v) { return u.x() * v.y() - u.y() * v.x(); };

@@ -12,6 +12,7 @@ namespace {
 
 using compare::chain;
 using geometry::orientation_sign;
+using test::one_way;
 using test::Points;
 using test::Polygon;
 using test::Rational;
@@ -82,7 +83,7 @@ void expect_exact_tiling(const ColliderDef& polygon, const std::vector<Points>& 
   for (int i = 0; i < 10; ++i) {
     // A point of a piece, on or near a line between two of its vertices.
     const Points& piece = pieces[random.index(pieces.size())];
-    const double t = random.uniform(0, 1);
+    const double t = random.unit();
     const Vec2d& vertex = piece[random.index(piece.size())];
     const Vec2d point = (1 - t) * vertex + t * piece[random.index(piece.size())];
     if (where_is(point, piece) != Where::inside) continue;
@@ -172,11 +173,6 @@ TEST(Chains, every_segment_of_a_two_sided_chain_is_a_piece_in_the_given_directio
   const Scenery<double> scenery(SceneryDef{{chain({{0, 0}, {1, 0}, {1, 2}, {0, 0}})}});
   EXPECT_EQ(pieces_of(scenery), (std::vector<Points>{{{0, 0}, {1, 0}}, {{1, 0}, {1, 2}}, {{1, 2}, {0, 0}}}));
   EXPECT_FALSE(scenery.pieces()[0].one_way);
-}
-
-ColliderDef one_way(ColliderDef def, const Vec2d& direction) {
-  def.one_way = direction;
-  return def;
 }
 
 TEST(Chains, a_one_way_segment_has_its_blocking_normal_on_the_left_and_blocks_nothing_along_it) {

@@ -60,8 +60,8 @@ struct Together {
 
 /// In a game: it pulls down, and a step is a frame.
 [[nodiscard]] inline Together under_gravity(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders,
-                                            const CharacterDef& character = {}) {
-  Together all(std::move(positions), std::move(colliders), character);
+                                            const CharacterDef& character = {}, const TechniqueDef& technique = {}) {
+  Together all(std::move(positions), std::move(colliders), character, technique);
   all.gravity = {0, -30};
   all.dt = 1.0 / 60;
   return all;
