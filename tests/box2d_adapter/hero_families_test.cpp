@@ -13,7 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <string>
 
 namespace paperproof::box2d::hero_test {
@@ -214,8 +213,6 @@ TEST_P(HeroInRuns, steps_as_the_controller_over_the_same_colliders) {
       ASSERT_TRUE(tally.apart == apart || kind == "movers") << family->title() << " " << seed;
     }
   }
-  std::printf("%s: %d steps, %d touching, %d ties, %d apart\n", kind.c_str(), tally.steps, tally.touching, tally.ties,
-              tally.apart);
   EXPECT_GE(tally.touching, tally.steps / 12);
   EXPECT_LE(tally.ties, tally.steps * (kind == "movers" || kind == "stairs" ? 3e-2 : 1e-3));
   EXPECT_LE(tally.apart, tally.steps * 5e-3);

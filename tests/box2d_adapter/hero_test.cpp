@@ -11,6 +11,7 @@
 namespace paperproof::box2d::hero_test {
 namespace {
 
+using compare::degree;
 using Change = SensorEvent<double>::Change;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -20,18 +21,26 @@ double speed_of(const b2Fixture& fixture) {
   return static_cast<double>(fixture.GetBody()->GetLinearVelocity().Length());
 }
 
-TEST(Hero, stands_on_the_floor_and_the_listener_sees_it) {
+TEST(Hero, stands_on_the_floor_and_the_listener_sees_it_until_it_jumps) {
   Game game({.position = {0, 0.7}});
   b2Fixture& floor = game.floor();
-  game.run(30);
-  EXPECT_TRUE(game.hero.grounded());
-  EXPECT_NEAR(game.feet(), 0, 1e-6);
-  EXPECT_EQ(game.hero.ground(), &floor);
-  EXPECT_TRUE(game.touches(floor));
-  const Vec2d at = game.hero.position();
-  game.run(600);
-  EXPECT_EQ(game.hero.position(), at);
-  EXPECT_EQ(game.listener.begun.size(), 1U) << "the contact flickered";
+  std::vector<HeroContact::Change> changes;
+  for (int i = 0; i < 640; ++i) {
+    const Vec2d at = game.hero.position();
+    game.go({.move = 0.0, .jump = i == 630});
+    EXPECT_TRUE(i < 30 || i >= 630 || game.hero.position() == at) << "frame " << i;
+    for (const HeroContact& contact : game.hero.contacts()) {
+      EXPECT_EQ(contact.fixture, &floor);
+      if (changes.empty() || changes.back() != contact.change) changes.push_back(contact.change);
+    }
+    if (i != 629) continue;
+    EXPECT_EQ(game.hero.ground(), &floor);
+    EXPECT_NEAR(game.feet(), 0, 1e-6);
+    EXPECT_TRUE(game.touches(floor));
+    EXPECT_EQ(game.listener.begun.size(), 1U) << "the contact flickered";
+  }
+  using enum ContactChange;
+  EXPECT_EQ(changes, (std::vector{added, persisted, removed}));
 }
 
 TEST(Hero, pushes_a_crate_no_faster_than_its_force_allows) {
@@ -74,13 +83,14 @@ TEST(Hero, tilts_a_see_saw_and_rides_it) {
   CharacterDef character;
   character.snap = 0.1;
   Game game({.character = character, .position = {1.5, 1.6}});
-  b2Fixture& plank = game.see_saw(false);
+  b2Fixture& post = game.box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
+  b2Fixture& plank = game.box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
+  b2RevoluteJointDef joint;
+  joint.Initialize(post.GetBody(), plank.GetBody(), {0, 0.8F});
+  game.world.CreateJoint(&joint);
   plank.GetBody()->SetAngularDamping(2);
-  game.run(16);
-  for (int i = 16; i < 30; ++i) {
-    game.go();
-    EXPECT_TRUE(game.hero.grounded()) << "frame " << i;
-  }
+  game.run(30);
+  EXPECT_TRUE(game.hero.grounded());
   EXPECT_LT(plank.GetBody()->GetAngle(), -0.05F) << "the hero does not weigh on it";
   EXPECT_EQ(game.hero.ground(), &plank);
   EXPECT_TRUE(game.touches(plank));
@@ -91,33 +101,25 @@ TEST(Hero, crosses_a_bridge_of_20_links) {
   character.snap = 0.2;
   character.step_height = 0.2;  // links are kerbs for each other
   Game game({.character = character, .position = {-11, 1.7}});
-  std::vector<b2Fixture*> links{&game.box(b2_staticBody, {-12, 0}, 2, 1)};
-  for (int i = 0; i < 20; ++i)
-    links.push_back(&game.box(b2_dynamicBody, {static_cast<float>(i) - 9.5F, 0.9F}, 0.5F, 0.1F, 20));
-  links.push_back(&game.box(b2_staticBody, {12, 0}, 2, 1));
+  b2Body* last = game.box(b2_staticBody, {-12, 0}, 2, 1).GetBody();
+  b2Body* other_end = game.box(b2_staticBody, {12, 0}, 2, 1).GetBody();
   for (int i = 0; i <= 20; ++i) {
-    const auto link = links.begin() + i;
+    const float x = static_cast<float>(i) - 10;
+    b2Body* link = i < 20 ? game.box(b2_dynamicBody, {x + 0.5F, 0.9F}, 0.5F, 0.1F, 20).GetBody() : other_end;
     b2RevoluteJointDef joint;
-    joint.Initialize(link[0]->GetBody(), link[1]->GetBody(), {static_cast<float>(i) - 10, 0.9F});
+    joint.Initialize(last, link, {x, 0.9F});
     game.world.CreateJoint(&joint);
+    last = link;
   }
-  std::set<b2Fixture*> stood_on;
-  int frames = 0;
-  for (; game.x() < 11 && frames < 900; ++frames) {
-    game.go({.move = 0.6});
-    if (game.hero.grounded()) stood_on.insert(game.hero.ground());
-    ASSERT_GT(game.hero.position().y(), -2);
-  }
-  EXPECT_LT(frames, 900) << "stopped at " << game.x();
-  EXPECT_GE(stood_on.size(), 12U) << "ten links and both ends";
-  EXPECT_GE(std::count_if(links.begin(), links.end(), [&](auto* link) { return game.times_begun(*link) > 0; }), 12);
+  for (int i = 0; i < 900 && game.x() < 11; ++i) game.go({.move = 0.6});
+  EXPECT_GE(game.x(), 11);
 }
 
-/// By the ratio of the masses, crate to hero.
 class ThrownCrate : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Ratios, ThrownCrate, ::testing::Values(0.01, 0.1, 1.0, 10.0, 100.0, 1e4));
 
 TEST_P(ThrownCrate, knocks_the_hero_back_and_gives_it_no_energy_of_its_own) {
-  const double ratio = GetParam();
+  const double ratio = GetParam();  // of the masses, crate to hero
   OnFloor game({.mass = 1});
   b2Fixture& crate = game.box(b2_dynamicBody, {3, 0.9F}, 0.3F, 0.3F, static_cast<float>(ratio / 0.36));
   crate.GetBody()->SetLinearVelocity({-10, 1.5F});
@@ -140,12 +142,9 @@ TEST_P(ThrownCrate, knocks_the_hero_back_and_gives_it_no_energy_of_its_own) {
   EXPECT_GT(game.times_begun(crate), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ratios, ThrownCrate, ::testing::Values(0.01, 0.1, 1.0, 10.0, 100.0, 1e4));
-
 TEST(Hero, falls_in_the_frame_in_which_its_tile_is_destroyed) {
   for (const bool is_lift : {false, true}) {
     Game game({.position = {0.5, 1.7}});
-    for (int i = 0; i < 5; ++i) game.box(b2_staticBody, {static_cast<float>(i) - 4.5F, 0.5F}, 0.5F, 0.5F);
     b2Fixture& tile = game.box(is_lift ? b2_kinematicBody : b2_staticBody, {0.5F, 0.5F}, 0.5F, 0.5F);
     const b2Vec2 velocity = is_lift ? b2Vec2(0.5F, 0.25F) : b2Vec2_zero;
     tile.GetBody()->SetLinearVelocity(velocity);
@@ -178,20 +177,6 @@ TEST(Hero, takes_a_coin_however_fast_it_is) {
   EXPECT_EQ(changes, (std::vector{Change::enter, Change::exit}));
 }
 
-TEST(Hero, is_hit_by_a_bullet_that_never_passes_it) {
-  OnFloor game;
-  b2Fixture& bullet = game.box(b2_dynamicBody, {-9, 0.9F}, 0.02F, 0.02F, 1);
-  bullet.GetBody()->SetBullet(true);
-  bullet.GetBody()->SetGravityScale(0);
-  bullet.GetBody()->SetLinearVelocity({100, 0});
-  for (int i = 0; i < 30; ++i) {
-    game.go({});
-    ASSERT_LT(static_cast<double>(bullet.GetBody()->GetPosition().x), game.x());
-  }
-  EXPECT_GT(game.times_begun(bullet), 0);
-  EXPECT_LE(game.hero.velocity().norm(), 1) << "a bullet of a five hundredth of its mass";
-}
-
 TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
   for (const bool upper_first : {true, false}) {
     for (const double aside : {0.0, 0.1, 0.3}) {
@@ -211,57 +196,17 @@ TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
   }
 }
 
-TEST(Hero, follows_its_world_through_every_change) {
+TEST(Hero, is_hit_by_a_bullet_that_never_passes_it) {
   OnFloor game;
-  b2Fixture& wall = game.box(b2_staticBody, {2, 1}, 0.1F, 1);
-  b2Body& body = *wall.GetBody();
-  const auto is_stopped = [&] {
-    game.hero.place({0, half_height + 1e-6});
-    game.run(60, {.move = 1.0});
-    return std::abs(game.x() - (1.9 - half_width)) < 1e-5;
-  };
-  EXPECT_TRUE(is_stopped());
-  body.SetEnabled(false);
-  EXPECT_FALSE(is_stopped());
-  body.SetEnabled(true);
-  EXPECT_TRUE(is_stopped());
-  body.SetTransform({2, 10}, 0);
-  EXPECT_FALSE(is_stopped());
-  body.SetTransform({2, 1}, 0);
-  for (const b2BodyType type : {b2_kinematicBody, b2_staticBody}) {
-    body.SetType(type);
-    EXPECT_TRUE(is_stopped()) << "type " << type;
-  }
-  b2Filter filter;
-  filter.maskBits = 2;
-  wall.SetFilterData(filter);
-  EXPECT_FALSE(is_stopped());
-  wall.SetFilterData({});
-  wall.SetSensor(true);
-  EXPECT_FALSE(is_stopped());
-  wall.SetSensor(false);
-  EXPECT_TRUE(is_stopped());
-  body.DestroyFixture(&wall);
-  EXPECT_FALSE(is_stopped());
-  EXPECT_TRUE(game.hero.grounded());
-  game.ground.GetBody()->SetEnabled(false);
-  game.run(2);
-  EXPECT_FALSE(game.hero.grounded());
-}
-
-TEST(Hero, tells_each_contact_as_added_persisted_and_removed) {
-  Game game({.position = {0, half_height + 0.1}});
-  b2Fixture& floor = game.floor();
-  std::vector<HeroContact::Change> changes;
-  for (int i = 0; i < 40; ++i) {
-    game.go({.move = 0.0, .jump = i == 30});
-    for (const HeroContact& contact : game.hero.contacts()) {
-      EXPECT_EQ(contact.fixture, &floor);
-      if (changes.empty() || changes.back() != contact.change) changes.push_back(contact.change);
-    }
-  }
-  using enum ContactChange;
-  EXPECT_EQ(changes, (std::vector{added, persisted, removed}));
+  b2Fixture& fixture = game.box(b2_dynamicBody, {-9, 0.9F}, 0.02F, 0.02F, 1);
+  b2Body& bullet = *fixture.GetBody();
+  bullet.SetBullet(true);
+  bullet.SetGravityScale(0);
+  bullet.SetLinearVelocity({100, 0});
+  game.run(30, {});
+  EXPECT_LT(static_cast<double>(bullet.GetPosition().x), game.x());
+  EXPECT_GT(game.times_begun(fixture), 0);
+  EXPECT_LE(game.hero.velocity().norm(), 1) << "a bullet of a five hundredth of its mass";
 }
 
 /// Box2D lets a heavy crate sink into a light hero. That is a crush, and no leap to the side.
@@ -297,30 +242,12 @@ TEST(Hero, does_not_press_its_crate_into_the_crate_below) {
   EXPECT_NEAR(upper.GetBody()->GetPosition().y, height, 0.001);
 }
 
-TEST(Hero, does_not_press_a_plank_off_its_hinge) {
-  Game game({.position = {1, 1.6}, .mass = 70});
-  b2Fixture& plank = game.see_saw(true);
-  game.run(600);
-  EXPECT_EQ(game.hero.ground(), &plank);
-  EXPECT_NEAR(plank.GetBody()->GetPosition().y, 0.8F, 0.005);
-}
-
-TEST(Hero, is_not_swept_along_by_a_body_that_took_the_address_of_another) {
-  OnFloor game;
-  b2Body* old_body = game.box(b2_kinematicBody, {-1, 0.6F}, 0.3F, 0.3F).GetBody();
-  game.run(5);
-  const Vec2d at = game.hero.position();
-  game.world.DestroyBody(old_body);
-  b2Body* new_body = game.box(b2_kinematicBody, {0.9F, 0.6F}, 0.3F, 0.3F).GetBody();
-  if (new_body != old_body) GTEST_SKIP() << "Box2D gave another address";
-  game.run(5);
-  EXPECT_EQ(game.hero.position(), at);
-}
-
 TEST(Hero, has_the_shape_and_the_body_of_the_save_after_a_restore) {
   OnFloor game;
   b2Body* crate = game.box(b2_dynamicBody, {0.85F, 0.5F}, 0.5F, 0.5F, 0.5F).GetBody();
+  game.hero.body().GetFixtureList()->GetUserData().pointer = 42;
   ASSERT_TRUE(game.hero.change(low()));
+  EXPECT_EQ(game.hero.body().GetFixtureList()->GetUserData().pointer, 42U) << "it is the game's";
   EXPECT_NEAR(game.hero.position().y(), 0.3 + 1e-6, 1e-9) << "the feet stay where they are";
   game.run(30, {.move = 1.0});
   ASSERT_GT(crate->GetPosition().x, 0.9F) << "it is pushed";
@@ -352,6 +279,17 @@ TEST(Hero, crouches_on_a_rising_lift_before_and_after_its_step) {
   EXPECT_TRUE(game.hero.grounded());
 }
 
+/// Where it was free last goes along with its shape: else it would come out on the side of where it stood, on top.
+TEST(Hero, comes_out_beside_a_low_box_that_the_game_moves_into_it_when_it_has_crouched) {
+  OnFloor game;
+  b2Body& low_box = *game.box(b2_staticBody, {-3, 0.15F}, 0.5F, 0.15F).GetBody();
+  game.run(5);
+  ASSERT_TRUE(game.hero.change(low()));
+  low_box.SetTransform({-0.55F, 0.15F}, 0);
+  game.go();
+  EXPECT_NEAR(game.x(), -0.05 + 0.3, 1e-5);
+}
+
 TEST(Hero, knows_its_ground_after_a_place_a_restore_and_a_refusal) {
   OnFloor game;
   game.run(3);
@@ -369,48 +307,230 @@ TEST(Hero, knows_its_ground_after_a_place_a_restore_and_a_refusal) {
   EXPECT_EQ(game.hero.ground(), nullptr);
 }
 
-/// The second fixture is the lift's: the order of addresses must not matter.
-TEST(Hero, stands_on_a_lift_beside_a_moving_edge_of_zero_length_and_names_it) {
-  for (const bool lift_first : {true, false}) {
-    for (const b2BodyType type : {b2_staticBody, b2_kinematicBody}) {
-      Game game({.position = {0, 1}});
-      b2Fixture* edge = nullptr;
-      const auto add_edge = [&] {
-        b2EdgeShape shape;
-        shape.SetTwoSided({0.5F, 0.5F}, {0.5F, 0.5F});
-        edge = &game.add(type, {-0.2F, 0.3F}, shape);
-        edge->GetBody()->SetAngularVelocity(0.1F);
-      };
-      if (!lift_first) add_edge();
-      b2Body* lift = game.box(b2_kinematicBody, {0, 0.1F}, 1, 0.1F).GetBody();
-      if (lift_first) add_edge();
+/// The order of addresses must not matter: there is one before the lift, and one behind it.
+TEST(Hero, stands_on_a_lift_between_edges_of_zero_length_and_names_them) {
+  for (const b2BodyType type : {b2_staticBody, b2_kinematicBody}) {
+    Game game({.position = {0, 1}});
+    b2EdgeShape shape;
+    shape.SetTwoSided({0.5F, 0.5F}, {0.5F, 0.5F});
+    std::set<b2Fixture*> edges{&game.add(type, {-0.2F, 0.3F}, shape)};
+    b2Body* lift = game.box(b2_kinematicBody, {0, 0.1F}, 1, 0.1F).GetBody();
+    edges.insert(&game.add(type, {-0.3F, 0.3F}, shape));
+    for (b2Fixture* edge : edges) edge->GetBody()->SetAngularVelocity(0.1F);
+    game.run(60);
+    lift->SetAngularVelocity(0.3F);
+    for (int i = 0; i < 30; ++i) ASSERT_EQ(game.go(), StepStatus::moved) << i;
+    EXPECT_TRUE(game.hero.grounded());
+    EXPECT_EQ(std::set(game.hero.skipped().begin(), game.hero.skipped().end()), edges);
+  }
+}
+
+// What readers of a `Hero` found to go wrong, each once.
+
+/// Box2D's circles have no skin, so a hero that rests on one never touched it for the game's listener.
+TEST(HeroListener, hears_of_circles_of_every_type_of_body) {
+  for (const b2BodyType type : {b2_staticBody, b2_kinematicBody, b2_dynamicBody}) {
+    Game game({.position = {0, 1 + half_height + 0.01}});
+    b2Fixture& circle = game.circle(type, {0, 0}, 1, 1000);
+    circle.GetBody()->SetGravityScale(0);
+    game.run(30);
+    EXPECT_TRUE(game.touches(circle)) << "type " << type;
+    EXPECT_EQ(game.hero.ground(), &circle) << "type " << type;
+  }
+}
+
+TEST(HeroListener, hears_once_of_a_saw_blade_that_comes_and_of_a_coin_that_is_passed) {
+  OnFloor game;
+  b2Fixture& coin = game.sensor({-1, 0.5F}, 0.1F);
+  game.run(30, {.move = -1.0});
+  b2Fixture& saw = game.circle(b2_kinematicBody, {static_cast<float>(game.x()) + 3, 0.5F}, 0.4F);
+  saw.GetBody()->SetLinearVelocity({-2, 0});
+  game.run(90);
+  EXPECT_EQ(game.times_begun(coin), 1);
+  EXPECT_EQ(game.times_begun(saw), 1);
+}
+
+struct Press {
+  b2BodyType type = b2_kinematicBody;
+  float spin = 0;
+  float half_width = 0;
+  float speed = 0;
+  float from = 0;  ///< Where it begins [m].
+};
+
+std::vector<Press> all_presses() {
+  std::vector<Press> all;
+  for (const b2BodyType type : {b2_kinematicBody, b2_dynamicBody})
+    for (const float spin : {0.0F, 1e-7F, 1e-5F, 1e-3F, 0.05F, 0.5F, 2.0F, -1e-4F})
+      for (const float half_width : {1.0F, 3.0F})
+        for (const float speed : {-0.5F, -3.0F}) all.push_back({type, spin, half_width, speed, 1.5F});
+  for (const float speed : {-0.5F, -1.0F, -2.0F, -3.0F, -6.0F})
+    for (const float from : {1.5F, 1.75F, 2.0F, 2.25F, 2.5F, 3.0F})
+      all.push_back({b2_kinematicBody, 0, 2, speed, from});
+  return all;
+}
+
+/// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
+/// moved by 120 km in a frame. A wide one moved it to its edge. A press whose way was a whole number of steps
+/// overlapped the hero by rounding alone, and in the next step the hero came out from under it to its edge.
+TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
+  int crushed = 0;
+  int squeezed = 0;
+  for (const Press& one : all_presses()) {
+    SCOPED_TRACE(testing::Message() << "type " << one.type << ", spin " << one.spin << ", half width " << one.half_width
+                                    << ", speed " << one.speed << ", from " << one.from);
+    OnFloor game;
+    b2Body& press = *game.box(one.type, {0.3F, one.from + 1}, one.half_width, 1, 1000).GetBody();
+    press.SetGravityScale(0);
+    const bool is_door = one.type == b2_kinematicBody && one.spin == 0;
+    const double fastest = -one.speed + 4 * std::abs(one.spin);
+    bool was_crushed = false;
+    for (int i = 0; i < 600 && press.GetPosition().y > 1.2F; ++i) {
+      press.SetAngularVelocity(one.spin);
+      press.SetLinearVelocity({0, one.speed});
+      const Vec2d before = game.hero.position();
+      const StepStatus status = game.go();
+      ASSERT_LE((game.hero.position() - before).norm(), fastest * frame + 0.25) << "frame " << i;
+      ASSERT_LE(game.hero.velocity().norm(), fastest + 0.1) << "frame " << i;
+      ASSERT_TRUE(status != StepStatus::crushed || game.hero.crushed_by()[0] == press.GetFixtureList());
+      was_crushed = was_crushed || status == StepStatus::crushed;
+      ASSERT_TRUE(!is_door || !was_crushed || status == StepStatus::crushed || status == StepStatus::stuck);
+    }
+    (game.hero.report().status == StepStatus::moved ? squeezed : crushed) += 1;
+    if (!is_door) continue;
+    EXPECT_TRUE(was_crushed);
+    press.SetLinearVelocity({0, 3});
+    game.run(60, {.move = 1.0});
+    EXPECT_GT(game.x(), 1) << "it cannot walk away";
+  }
+  EXPECT_GT(crushed, 0);
+  EXPECT_GT(squeezed, 0);
+}
+
+/// It was thrown out at 230 m/s. Only presses onto standing ground were looked at.
+TEST(Hero, is_not_thrown_out_between_a_lift_and_a_ceiling) {
+  for (const double degrees : {0.0, 0.1, 0.5, 1.0, 3.0, 5.0, 10.0, -2.0}) {
+    for (const float speed : {0.5F, 2.0F}) {
+      Game game({.position = {0.2, 5}});
+      b2Body& ceiling = *game.box(b2_staticBody, {0, 9}, 20, 1).GetBody();
+      ceiling.SetTransform({0, 9}, static_cast<float>(degrees * degree));
+      b2Body& lift = *game.box(b2_kinematicBody, {0, 4}, 2, 0.3F).GetBody();
       game.run(60);
-      ASSERT_TRUE(game.hero.grounded());
-      lift->SetAngularVelocity(0.3F);
-      for (int i = 0; i < 30; ++i) ASSERT_EQ(game.go(), StepStatus::moved) << i;
-      EXPECT_TRUE(game.hero.grounded());
-      ASSERT_EQ(game.hero.skipped().size(), 1U);
-      EXPECT_EQ(game.hero.skipped()[0], edge);
+      for (int i = 0; i < 400 && game.hero.position().y() > lift.GetPosition().y; ++i) {
+        lift.SetLinearVelocity({0, lift.GetPosition().y > 7.6F ? 0 : speed});
+        const Vec2d before = game.hero.position();
+        game.go();
+        ASSERT_LE((game.hero.position() - before).norm(), 0.3) << degrees << " degrees, frame " << i;
+        ASSERT_LE(std::abs(game.hero.velocity().x()), 3) << degrees << " degrees, frame " << i;
+      }
     }
   }
 }
 
-TEST(HeroSituation, a_press_crushes_and_is_named_until_it_goes_back) {
-  OnFloor game;
-  b2Fixture& press = game.box(b2_kinematicBody, {0, 2.003F}, 1, 0.5F);
-  press.GetBody()->SetLinearVelocity({0, -1});  // 0.253 m above the head
-  int frames = 0;
-  while (game.go() == StepStatus::moved && frames < 60) ++frames;
-  EXPECT_NEAR(frames * frame, 0.253, frame);
-  EXPECT_EQ(game.hero.report().status, StepStatus::crushed);
-  ASSERT_EQ(game.hero.crushed_by().size(), 1U);
-  EXPECT_EQ(game.hero.crushed_by()[0], &press);
+/// The crate creeps by a micrometre in each step: the hero never stood, and could not jump.
+TEST(Hero, stands_and_jumps_between_a_slope_and_a_crate_that_rests) {
+  for (const float degrees : {55.0F, 63.0F, 75.0F}) {
+    for (const float density : {1.0F, 5.0F, 100.0F, 1000.0F}) {
+      SCOPED_TRACE(testing::Message() << degrees << " degrees, density " << density);
+      Game game({.position = {0.05, 2.4}});
+      const float foot = 6 / std::tan(degrees * static_cast<float>(degree));
+      b2PolygonShape slope;
+      slope.Set(std::vector<b2Vec2>{{-foot, 6}, {-foot, 0}, {0, 0}}.data(), 3);
+      game.add(b2_staticBody, {0, 0}, slope);
+      game.floor();
+      game.box(b2_dynamicBody, {1.45F, 1.5F}, 1, 1.5F, density);
+      game.run(200);
+      int stands = 0;
+      for (int i = 0; i < 100; ++i) {
+        game.go();
+        stands += game.hero.grounded();
+      }
+      EXPECT_GE(stands, 95);
+      game.run(3, {.move = 0.0, .jump = true});
+      EXPECT_GT(game.hero.velocity().y(), 10);
+    }
+  }
+}
+
+/// A jump against a beam that hardly leaves a gap was lost: Box2D did not see the hero come.
+TEST(Hero, throws_up_a_beam_that_lies_on_its_head) {
+  for (const double mass : {0.68, 70.0}) {
+    for (const float gap : {0.0F, 0.015F, 0.1F, 0.5F}) {
+      SCOPED_TRACE(testing::Message() << "mass " << mass << ", gap " << gap);
+      OnFloor game({.mass = mass});
+      for (const float side : {-2.0F, 2.0F})
+        game.box(b2_staticBody, {side, (1.25F + gap) / 2}, 0.2F, (1.25F + gap) / 2);
+      const b2Body& beam = *game.box(b2_dynamicBody, {0, 1.35F + gap}, 2.2F, 0.1F, 0.5F).GetBody();
+      game.run(60);
+      game.go({.move = 0.0, .jump = true});
+      const double highest = game.highest(120);
+      // Both go on with the momentum of the hero.
+      const double speed = 12 * mass / (mass + static_cast<double>(beam.GetMass()));
+      const double rise = speed * speed / 20;
+      EXPECT_GT(highest, 0.7 * rise);
+      EXPECT_LT(highest, 1.1 * rise + static_cast<double>(gap));
+    }
+  }
+}
+
+/// A body that the game turned was taken to have swept from its old angle to the new one, and threw the hero 60 m. One
+/// that the game put elsewhere, or that took the address of another, swept it along.
+TEST(Hero, is_not_thrown_by_a_body_that_the_game_turns_or_moves_at_once) {
+  for (const bool is_turned : {false, true}) {
+    for (const bool is_moving : {false, true}) {
+      OnFloor game;
+      const b2Vec2 from = is_turned ? b2Vec2(0, 3) : b2Vec2(3.2F, 0.7F);
+      b2Body& plank = *game.box(b2_kinematicBody, from, 2.5F, 0.1F).GetBody();
+      game.run(30);
+      if (is_moving) plank.SetAngularVelocity(4);  // more than it is turned, were that the way of a step
+      if (is_moving) plank.SetLinearVelocity({6.5F, 0});
+      game.go();
+      plank.SetAngularVelocity(0);
+      plank.SetLinearVelocity({0, 0});
+      plank.SetTransform(is_turned ? from : b2Vec2(-3.2F, 0.7F), is_turned ? 3.14F : 0);
+      game.run(60);
+      EXPECT_LT((game.hero.position() - Vec2d(0, half_height)).norm(), 1) << is_turned << ", " << is_moving;
+    }
+  }
+}
+
+/// Of a long chain every second vertex was compared.
+TEST(Hero, sees_a_long_chain_that_was_dug_in_place_at_any_vertex) {
+  for (const int dug : {750, 751, 752, 753}) {
+    std::vector<b2Vec2> points;
+    for (int i = 0; i < 1500; ++i) points.emplace_back(static_cast<float>(750 - i), 0.0F);
+    Game game({.position = {static_cast<double>(750 - dug), half_height + 1e-6}});
+    b2ChainShape chain;
+    chain.CreateChain(points.data(), 1500, {751, 0}, {-750, 0});
+    b2Fixture& fixture = game.add(b2_staticBody, {0, 0}, chain);
+    game.run(5);
+    chain.m_vertices[dug].y = -1;
+    b2Body* ground = fixture.GetBody();
+    ground->DestroyFixture(&fixture);
+    ground->CreateFixture(&chain, 0);
+    game.run(5);
+    EXPECT_LT(game.feet(), -0.01) << "vertex " << dug;
+  }
+}
+
+/// The hero rides the second part of a chain that was cut to what is near.
+TEST(Hero, is_carried_by_a_chain_that_is_a_conveyor_and_rides_on_after_it_was_restored) {
+  Game game({.position = {0, half_height + 1e-6}, .surface_of = [](b2Fixture&) { return Surface{.speed = 1.5}; }});
+  game.chain({{9, 0}, {6, 0}, {6, -20}, {-6, -20}, {-6, 0}, {-9, 0}, {-9, 40}, {0.5F, 40}, {0.5F, 0}, {-0.5F, 0}});
   game.run(5);
-  EXPECT_EQ(game.hero.report().status, StepStatus::stuck);
-  press.GetBody()->SetLinearVelocity({0, 2});
-  game.run(30);
-  EXPECT_EQ(game.hero.report().status, StepStatus::moved);
-  EXPECT_EQ(game.hero.ground(), &game.ground);
+  const HeroSave saved = game.hero.save();
+  const double from = game.x();
+  std::vector<double> first;
+  for (int i = 0; i < 10; ++i) {
+    game.go();
+    first.push_back(game.x());
+  }
+  EXPECT_NEAR(first[1] - from, 1.5 * 2 * frame, 1e-6);
+  game.hero.restore(saved);
+  for (const double there : first) {
+    game.go();
+    EXPECT_EQ(game.x(), there);
+  }
 }
 
 TEST(Hero, refuses_what_it_cannot_do) {
@@ -422,10 +542,22 @@ TEST(Hero, refuses_what_it_cannot_do) {
   EXPECT_THROW(game.hero.place({nan, 0}), InvalidDefinition);
   EXPECT_THROW(game.hero.knock_back({0, infinity}), InvalidDefinition);
   EXPECT_THROW(Hero(game.world, {.mass = 0}), InvalidDefinition);
+  // Box2D asserts on these, or makes another shape of them.
+  const CharacterDef tiny{.shape = CharacterShape(compare::box(0, 0, 0.001, 0.001).points)};
+  EXPECT_THROW(Hero(game.world, {.character = tiny}), InvalidDefinition);
+  EXPECT_THROW((void)game.hero.change(tiny), InvalidDefinition);
   CharacterDef impossible;
   impossible.walk_speed = -1;
   EXPECT_THROW(Hero(game.world, {.character = impossible}), InvalidCharacter);
   EXPECT_EQ(game.world.GetBodyCount(), 2) << "a hero that was refused left a body";
+  const HeroSave saved = game.hero.save();
+  game.listener.on_begin = [&] {
+    EXPECT_THROW(game.hero.restore(saved), InvalidDefinition);
+    EXPECT_THROW(game.hero.shift_origin({1, 0}), InvalidDefinition);
+  };
+  game.run(5);
+  EXPECT_EQ(game.times_begun(game.ground), 1) << "it was called during a step of the world";
+  EXPECT_EQ(game.x(), 0);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -21,19 +21,18 @@ using compare::half_width;
 inline constexpr double frame = 1.0 / 60;
 
 /// A character of 0.6 m: it crouches.
-inline CharacterDef low() {
-  return {.shape = CharacterShape(std::array{Vec2d(-0.3, -0.3), Vec2d(0.3, -0.3), Vec2d(0.3, 0.3), Vec2d(-0.3, 0.3)})};
-}
+inline CharacterDef low() { return {.shape = CharacterShape(compare::box(-0.3, -0.3, 0.3, 0.3).points)}; }
 
 /// What the game's own contact listener sees of the hero.
 class HeroListener : public b2ContactListener {
  public:
   explicit HeroListener(const b2Body*& hero) : hero_(hero) {}
   void BeginContact(b2Contact* contact) override {
-    if (b2Fixture* other = other_of(*contact)) {
-      touching.insert(other);
-      begun.push_back(other);
-    }
+    b2Fixture* other = other_of(*contact);
+    if (other == nullptr) return;
+    touching.insert(other);
+    begun.push_back(other);
+    if (on_begin) on_begin();
   }
   void EndContact(b2Contact* contact) override {
     if (b2Fixture* other = other_of(*contact)) touching.erase(other);
@@ -41,6 +40,7 @@ class HeroListener : public b2ContactListener {
 
   std::multiset<b2Fixture*> touching;
   std::vector<b2Fixture*> begun;
+  std::function<void()> on_begin;
 
  private:
   [[nodiscard]] b2Fixture* other_of(b2Contact& contact) const {
@@ -87,16 +87,6 @@ struct Game {
     const b2Vec2 after = points.back() + points.back() - points[points.size() - 2];
     shape.CreateChain(points.data(), static_cast<int>(points.size()), before, after);
     return add(type, {0, 0}, shape);
-  }
-  /// A plank about its middle, and a box below it to which it is pinned.
-  b2Fixture& see_saw(bool is_limited) {
-    b2Fixture& post = box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
-    b2Fixture& plank = box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
-    b2RevoluteJointDef joint;
-    joint.Initialize(post.GetBody(), plank.GetBody(), {0, 0.8F});
-    joint.enableLimit = is_limited;
-    world.CreateJoint(&joint);
-    return plank;
   }
   b2Fixture& floor() { return box(b2_staticBody, {0, -1}, 100, 1); }
 

@@ -1,50 +1,33 @@
-/// What `scenery_of` reads of a world that a game owns. `HeroInMaps` walks over it.
+/// What `scenery_of` reads of a world that a game owns. `HeroInPlay` walks over it.
+#include "hero_world.hpp"
+
 #include "campaign/random.hpp"
 
 #include <paperproof/box2d/world_scenery.hpp>
 #include <paperproof/scenery.hpp>
 
-#include <box2d/box2d.h>
-
 #include <gtest/gtest.h>
 
-#include <array>
-
-namespace paperproof::box2d {
+namespace paperproof::box2d::hero_test {
 namespace {
 
-b2Fixture* add(b2World& world, b2BodyType type, const b2Vec2& position, const b2Shape& shape, float angle = 0) {
-  b2BodyDef def;
-  def.type = type;
-  def.position = position;
-  def.angle = angle;
-  return world.CreateBody(&def)->CreateFixture(&shape, 1);
-}
-
-b2PolygonShape box(float half_width, float half_height) {
-  b2PolygonShape shape;
-  shape.SetAsBox(half_width, half_height);
-  return shape;
-}
-
 TEST(WorldScenery, fixtures_come_in_order_of_creation_and_only_the_static_solid_ones) {
-  b2World world({0, 0});
-  b2Fixture* const a = add(world, b2_staticBody, {0, 0}, box(1, 1));
-  const b2PolygonShape wide = box(2, 1);
-  b2Fixture* const b = a->GetBody()->CreateFixture(&wide, 1);
-  add(world, b2_dynamicBody, {9, 9}, box(1, 1));
-  b2Fixture* const c = add(world, b2_staticBody, {5, 0}, box(1, 1));
-  add(world, b2_staticBody, {5, 0}, box(3, 3))->SetSensor(true);
-  add(world, b2_staticBody, {50, 0}, box(1, 1))->GetBody()->SetEnabled(false);
-  EXPECT_EQ(scenery_of(world).fixtures, (std::vector<b2Fixture*>{a, b, c}));
+  Game game;
+  b2Fixture* const a = &game.box(b2_staticBody, {0, 0}, 1, 1);
+  b2Fixture* const b = a->GetBody()->CreateFixture(a->GetShape(), 1);
+  game.box(b2_dynamicBody, {9, 9}, 1, 1);
+  b2Fixture* const c = &game.box(b2_staticBody, {5, 0}, 1, 1);
+  game.sensor({5, 0}, 3);
+  game.box(b2_staticBody, {50, 0}, 1, 1).GetBody()->SetEnabled(false);
+  EXPECT_EQ(scenery_of(game.world).fixtures, (std::vector<b2Fixture*>{a, b, c}));
   const auto only_b = [b](const b2Fixture& fixture) { return &fixture == b; };
-  EXPECT_EQ(scenery_of(world, {.filter = only_b}).fixtures, std::vector<b2Fixture*>{b});
+  EXPECT_EQ(scenery_of(game.world, {.filter = only_b}).fixtures, std::vector<b2Fixture*>{b});
 }
 
 TEST(WorldScenery, filters_let_collide_what_box2d_lets_collide) {
-  b2World world({0, 0});
-  b2Fixture* const a = add(world, b2_staticBody, {0, 0}, box(1, 1));
-  b2Fixture* const b = add(world, b2_dynamicBody, {0, 0}, box(1, 1));
+  Game game;
+  b2Fixture* const a = &game.box(b2_staticBody, {0, 0}, 1, 1);
+  b2Fixture* const b = &game.box(b2_dynamicBody, {0, 0}, 1, 1);
   compare::Random random(1);
   const auto bits = [&] {
     const int few = random.below(0x10000);
@@ -62,7 +45,7 @@ TEST(WorldScenery, filters_let_collide_what_box2d_lets_collide) {
     }
     const bool expected = rule.ShouldCollide(a, b);
     ASSERT_EQ(collide(filter_of(*a), filter_of(*b)), expected) << "seed 1, round " << round;
-    ASSERT_EQ(scenery_of(world).scenery.colliders[0].filter, filter_of(*a));
+    ASSERT_EQ(scenery_of(game.world).scenery.colliders[0].filter, filter_of(*a));
     collisions += expected;
   }
   EXPECT_GT(collisions, 2000);
@@ -72,20 +55,20 @@ TEST(WorldScenery, filters_let_collide_what_box2d_lets_collide) {
 }
 
 TEST(WorldScenery, shapes_arrive_in_world_coordinates_and_a_loop_closed) {
-  b2World world({0, 0});
-  add(world, b2_staticBody, {3, 4}, box(2, 1), b2_pi / 2);
+  Game game;
+  b2Body* turned_body = game.box(b2_staticBody, {3, 4}, 2, 1).GetBody();
+  turned_body->SetTransform({3, 4}, b2_pi / 2);
   b2EdgeShape edge;
   edge.SetTwoSided({0, 0}, {1, 0});
-  add(world, b2_staticBody, {3, 4}, edge, b2_pi / 2);
+  turned_body->CreateFixture(&edge, 0);
   b2CircleShape circle;
   circle.m_p = {1, 0};
   circle.m_radius = 0.1F;
-  add(world, b2_staticBody, {10, 20}, circle);
-  const std::array<b2Vec2, 4> corners{b2Vec2(0, 0), b2Vec2(4, 0), b2Vec2(4, 3), b2Vec2(0, 3)};
+  game.add(b2_staticBody, {10, 20}, circle);
   b2ChainShape loop;
-  loop.CreateLoop(corners.data(), 4);
-  add(world, b2_staticBody, {0, 0}, loop);
-  const std::vector<ColliderDef> read = scenery_of(world).scenery.colliders;
+  loop.CreateLoop(std::vector<b2Vec2>{{0, 0}, {4, 0}, {4, 3}, {0, 3}}.data(), 4);
+  game.add(b2_staticBody, {0, 0}, loop);
+  const std::vector<ColliderDef> read = scenery_of(game.world).scenery.colliders;
   const Box2<double> turned = Box2<double>::around(read[0].points);
   EXPECT_LT((turned.lower - Vec2d(3 - 1, 4 - 2)).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((turned.upper - Vec2d(3 + 1, 4 + 2)).cwiseAbs().maxCoeff(), 1e-6);
@@ -100,4 +83,4 @@ TEST(WorldScenery, shapes_arrive_in_world_coordinates_and_a_loop_closed) {
 }
 
 }  // namespace
-}  // namespace paperproof::box2d
+}  // namespace paperproof::box2d::hero_test

@@ -13,14 +13,7 @@
 
 namespace paperproof::box2d::test {
 
-using compare::box;
-using compare::chain;
-using compare::degree;
-using compare::half_height;
-using compare::half_width;
-using compare::polygon;
-using compare::Random;
-using compare::towards;
+using namespace compare;
 
 inline constexpr double frame = 1.0 / 60;
 inline constexpr std::array modes{SceneryMode::chain_loops, SceneryMode::pieces};

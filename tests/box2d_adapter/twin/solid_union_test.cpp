@@ -74,31 +74,11 @@ TEST(SolidUnion, crossing_polygons_are_united_to_a_micrometre_twenty_kilometres_
   EXPECT_NEAR(enclosed_area(loops), 4 + 3 - 1, 1e-6);
 }
 
-TEST(SolidUnion, original_vertices_keep_their_float_bits) {
-  Random random(11);
-  for (int i = 0; i < 1000; ++i) {
-    const Vec2d corner = random.point(2e4);
-    const SceneryDef scenery = rounded(SceneryDef{{polygon({corner, corner + Vec2d(5, 0), corner + Vec2d(0, 5)})}});
-    const std::vector<Ring> loops = solid_union(scenery);
-    ASSERT_EQ(loops.size(), 1U);
-    for (const Vec2d& vertex : scenery.colliders[0].points)
-      EXPECT_NE(std::find(loops[0].begin(), loops[0].end(), rounded(vertex)), loops[0].end()) << "seed 11, " << i;
-  }
-}
-
 TEST(SolidUnion, paper_thinner_than_floats_resolve_is_named_as_flat) {
   // At 100 m floats are 7.6e-6 m apart.
   const SceneryDef scenery = rounded(SceneryDef{{box(0, 100, 8, 100 + 1e-6), box(0, 100, 8, 100 + 1e-3)}});
   EXPECT_EQ(flat_polygons(scenery), std::vector<ColliderIndex>{0});
   EXPECT_EQ(solid_union(scenery).size(), 1U);
-}
-
-TEST(FloatGeometry, rounding_and_widening_really_rounds_in_every_place_of_a_list) {
-  for (std::size_t count = 3; count < 12; ++count) {
-    const SceneryDef scenery = rounded(SceneryDef{{polygon(std::vector<Vec2d>(count, Vec2d(0.1, 0.7)))}});
-    for (const Vec2d& point : scenery.colliders[0].points)
-      EXPECT_EQ(point, Vec2d(static_cast<double>(0.1F), static_cast<double>(0.7F))) << count;
-  }
 }
 
 TEST(Spaced, a_loop_keeps_its_winding_and_its_vertices_come_far_enough_apart_for_box2d) {
