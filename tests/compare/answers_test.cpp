@@ -58,14 +58,6 @@ TEST(Answers, that_are_a_range_are_missed_by_the_distance_to_it) {
   EXPECT_EQ(checked(between(Of::place, 0.25, 0.5, {1, 0}), run).error, 0.5);
 }
 
-TEST(Answers, of_the_farthest_place_and_of_going_back_look_at_the_whole_way) {
-  std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {1, 0}});
-  run[1].path = {{{0, 0}, 0}, {{2, 0}, 0.5}, {{1, 0}, 1}};
-  EXPECT_EQ(checked(farthest({1, 0}, 1.5), run).error, 0.5);
-  EXPECT_TRUE(checked(is(Of::setback, 1, {1, 0}), run).ok);
-  EXPECT_TRUE(checked(is(Of::setback, 0, {1, 0}).after(2), run).ok);
-}
-
 /// Other answers are those of built-in scenes, which meet them, and miss them where their run is spoilt.
 TEST(Answers, of_what_never_comes_are_the_end) {
   std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {2, 0}, {3, 0}});

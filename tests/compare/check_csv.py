@@ -72,9 +72,6 @@ def check(command, arguments):
             else:
                 assert row[column] == "", f"{column} does not apply and has {row[column]!r}"
         assert set(wanted) <= set(columns), set(wanted) - set(columns)
-    for column in columns:
-        kinds = {type(wanted[column]) for wanted in expected if column in wanted}
-        assert kinds <= {int, float} or len(kinds) == 1, f"{column} has cells of {kinds}"
     return columns, numbers, rows
 
 
@@ -82,18 +79,16 @@ def main():
     command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
-    columns, numbers, _ = check(command, ["compare", "article_bullet", "wedge_60", "--no-timing"])
+    _, numbers, _ = check(command, ["compare", "article_bullet", "wedge_60", "--no-timing"])
     assert numbers > 500, f"only {numbers} numbers were compared"
     columns, *_ = check(command, ["sweep", "paper", "--vary", "speed=10,100", "--vary", "angle=45,90",
                                  "--contender", "mask,octagon_sweep"])
     parameters = [column for column in columns if column.startswith("parameters.")]
     assert {"parameters.speed_m_s", "parameters.thickness_m", "parameters.angle_deg"} <= set(parameters), parameters
-    without = [column for column in parameters if not column.endswith(UNITS)]
-    pure = {"parameters.phase", "parameters.jump_rules"}
-    assert set(without) == pure, f"numbers without a unit: {without}"
+    without = {column for column in parameters if not column.endswith(UNITS)}
+    assert without == {"parameters.phase", "parameters.jump_rules"}, f"numbers without a unit: {without}"
     *_, rows = check(command, ["sweep", "paper", "--vary", "continuous=on,off", "--contender", "box2d"])
     assert [row["contender"] for row in rows] == [f"box2d[continuous={x}]" for x in ("on", "off")], rows
-    print(f"{numbers} numbers are the same in both formats")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-/// What the command reads: maps without a script, many inputs of which some are bad, and inputs that never end.
+/// What the command reads: maps without a script, many inputs of which some are bad, inputs that never end, and traces
+/// that it wrote.
 #include "compare/command_workplace.hpp"
 #include "compare/png_files.hpp"
 #include "one_line.hpp"
@@ -30,7 +31,6 @@ TEST(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one_l
   PngFile picture{.width = 320, .height = 96, .samples = std::vector<std::uint16_t>(std::size_t{64} * 320)};
   picture.samples.resize(std::size_t{96} * 320, 255);
   place.write("picture.png", picture.bytes());
-  place.write("good.json", good_scene);
   const std::string run = "compare --no-timing --contender octagon_sweep --steps 300 --trace t ";
   const auto trace = [&](const std::string& scene) {
     return content(place.path("t." + scene + ".octagon_sweep.double.jsonl"));
@@ -44,14 +44,9 @@ TEST(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one_l
     EXPECT_GT(farthest_to_the_side(own), 1) << file;
     EXPECT_EQ(place.run(run + file + " --input random:1").out.find("without a script"), std::string::npos);
     EXPECT_EQ(trace(scene), own);
-    EXPECT_TRUE(holds(place.run("check " + file).out, "random:1, as a map has no script"));
     EXPECT_EQ(load_scenes(place.path(file)).front().character.max_fall_speed, 25) << file;
   }
-  EXPECT_EQ(place.run(run + "good.json").out.find("without a script"), std::string::npos);
-  EXPECT_EQ(farthest_to_the_side(trace("good")), 0) << "JSON scenes stay";
-  EXPECT_TRUE(
-      holds(place.run("compare --no-timing --contender octagon_sweep --steps 20 map.tmx picture.png good.json").out,
-            "2 maps without a script: moved by random:1\n"));
+  EXPECT_TRUE(holds(place.run("check map.tmx").out, "random:1, as a map has no script"));
 }
 
 TEST(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
@@ -71,10 +66,7 @@ TEST(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
   EXPECT_TRUE(holds(finished.err, "\nnowhere.tmx: "));
   const auto lines = json_lines(place.files().at("rows.jsonl"));
   ASSERT_EQ(lines.size(), 4U) << "a header, two that failed, and the one that ran";
-  for (const std::size_t failed : {std::size_t{1}, std::size_t{2}}) {
-    EXPECT_EQ(lines[failed].at("verdict"), "failed");
-    EXPECT_TRUE(begins(lines[failed].at("reason"), lines[failed].at("scene").get<std::string>() + ": "));
-  }
+  for (std::size_t failed = 1; failed <= 2; ++failed) EXPECT_EQ(lines[failed].at("verdict"), "failed");
   EXPECT_EQ(lines[3].at("scene"), "good");
   EXPECT_EQ(lines[3].at("verdict"), "holds");
   EXPECT_EQ(place.run("compare good.json --keep-going --no-timing --quiet").status, 0);
@@ -86,16 +78,12 @@ TEST(CommandInputs, names_come_from_a_file_or_from_standard_input) {
   place.write("good.json", good_scene);
   place.write("list", "good.json\r\n\narticle_bullet\n");
   const std::string run = "compare wedge_60 --no-timing --json --contender octagon_sweep --no-reference --files-from ";
-  const auto scenes_of = [](const Finished& finished) {
-    std::vector<std::string> scenes;
-    const nlohmann::json document = nlohmann::json::parse(finished.out, nullptr, false);
-    if (!document.is_discarded())
-      for (const auto& row : document["rows"]) scenes.push_back(row["scene"]);
-    return scenes;
-  };
-  const std::vector<std::string> all{"wedge_60", "good", "article_bullet"};
-  EXPECT_EQ(scenes_of(place.run(run + "list")), all);
-  EXPECT_EQ(scenes_of(place.run(run + "- <list")), all);
+  for (const char* list : {"list", "- <list"}) {
+    std::string scenes;
+    const nlohmann::json document = nlohmann::json::parse(place.run(run + list).out);
+    for (const auto& row : document["rows"]) scenes += row["scene"].get<std::string>() + " ";
+    EXPECT_EQ(scenes, "wedge_60 good article_bullet ") << list;
+  }
   EXPECT_TRUE(holds(place.run(run + "list --rows list").err, "--rows list: expected another file than --files-from"));
 }
 
@@ -126,6 +114,77 @@ TEST(CommandInputs, long_work_says_how_long_it_takes_before_it_has_taken_long) {
     beams += std::string("{\"polygon\": [[-4,0],[4,0],[4,-1],[-4,-1.") + std::to_string(i) + "]]},";
   place.write("beams.json", good_with("{ \"id\": \"floor\"", beams + "{ \"id\": \"floor\""));
   EXPECT_TRUE(begins(place.run("compare beams.json --no-timing", until_it_speaks).err, "good: about "));
+}
+
+/// Writes t.SCENE.octagon_sweep.double.jsonl.
+void trace(const Workplace& place, const std::string& scene_and_options) {
+  const std::string options = " --contender octagon_sweep --scalar double --no-reference --no-timing --quiet --trace t";
+  ASSERT_EQ(place.run("compare " + scene_and_options + options).status, 0);
+}
+
+/// Without its last lines.
+std::string cut(const std::string& text, int lines) {
+  std::size_t end = text.size();
+  for (; lines > 0; --lines) end = text.rfind('\n', end - 2) + 1;
+  return text.substr(0, end);
+}
+
+TEST(CommandJudge, takes_the_settings_of_the_scene) {
+  const Workplace place;
+  const std::string judge = "judge t.closing_lift.octagon_sweep.double.jsonl --scene closing_lift";
+  trace(place, "closing_lift --set clearance=-0.1");
+  EXPECT_EQ(place.run(judge + " --set clearance=-0.1").status, 0);
+  EXPECT_EQ(place.run(judge).status, 1) << "with another clearance nothing crushes it";
+  EXPECT_EQ(place.run(judge + " --set no_such=1").status, 2);
+  EXPECT_TRUE(holds(place.run("judge t.closing_lift.octagon_sweep.double.jsonl --set clearance=-0.1").err,
+                    "--set requires --scene"));
+}
+
+TEST(CommandJudge, asks_for_every_step_of_the_run) {
+  const Workplace place;
+  trace(place, "article_bullet");
+  const std::string name = "t.article_bullet.octagon_sweep.double.jsonl";
+  const std::string whole = content(place.path(name));
+  ASSERT_TRUE(holds(whole, ",\"steps\":60,"));
+  place.write("cut.jsonl", cut(whole, 1));
+  place.write("unsaid.jsonl", with(cut(whole, 1), "\"steps\":60,", ""));
+  const std::string broken =
+      "\n  continuity on 1 step, first in step 58: the trace ends with this step, and the run has 60";
+  EXPECT_EQ(place.run("judge " + name + " --scene article_bullet").status, 0);
+  for (const char* spoilt : {"cut.jsonl", "cut.jsonl --scene article_bullet", "unsaid.jsonl --scene article_bullet"}) {
+    const Finished finished = place.run(std::string("judge ") + spoilt);
+    EXPECT_EQ(finished.status, 1) << spoilt;
+    EXPECT_TRUE(holds(finished.out, broken)) << spoilt << finished.out;
+  }
+  EXPECT_EQ(place.run("judge unsaid.jsonl").status, 0) << "nobody says how long the run was";
+}
+
+TEST(CommandJudge, takes_the_number_of_steps_that_ran) {
+  const Workplace place;
+  trace(place, "article_bullet --steps 20");
+  const std::string judge = "judge t.article_bullet.octagon_sweep.double.jsonl";
+  EXPECT_EQ(place.run(judge).status, 0);
+  EXPECT_EQ(place.run(judge + " --scene article_bullet --steps 20").status, 0);
+  const Finished other = place.run(judge + " --scene article_bullet");
+  EXPECT_EQ(other.status, 0);
+  EXPECT_TRUE(holds(other.out, "\n  the scene has 60 steps\n")) << other.out;
+  EXPECT_EQ(place.run(judge + " --scene article_bullet --steps 60").status, 1) << "who asks for 60 gets 20";
+}
+
+TEST(CommandJudge, accuses_no_run_that_a_refusal_ended) {
+  const Workplace place;
+  place.write("far.json", R"({"paperproof_scene": 1, "name": "far", "gravity": [0, 0], "dt": 0.5, "steps": 60,
+    "character": {"position": [0, 0], "velocity": [300000, 0]},
+    "scenery": [{"id": "floor", "polygon": [[-4, -9], [4, -9], [4, -8], [-4, -8]]}]})");
+  trace(place, "far.json");
+  const std::string name = "t.far.octagon_sweep.double.jsonl";
+  const std::string text = content(place.path(name));
+  ASSERT_TRUE(holds(text, "\"steps\":60") && holds(text, "\"refused\":"));
+  for (const std::string& options : {std::string(), std::string(" --scene far.json"), std::string(" --all")}) {
+    const Finished finished = place.run("judge " + name + options);
+    EXPECT_FALSE(holds(finished.out, "continuity")) << finished.out << finished.err;
+    EXPECT_TRUE(holds(finished.out, "1 step refused")) << finished.out << finished.err;
+  }
 }
 
 }  // namespace

@@ -8,19 +8,6 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(CommandOutputs, rows_as_json_lines_are_those_of_the_json_file) {
-  const Workplace place;
-  const std::string run = "compare article_bullet wedge_60 --no-timing --quiet --contender octagon_sweep,grid --rows ";
-  EXPECT_EQ(place.run(run + "rows.json").status, 0);
-  EXPECT_EQ(place.run(run + "rows.jsonl").status, 0);
-  const nlohmann::json whole = nlohmann::json::parse(place.files().at("rows.json"));
-  ASSERT_EQ(whole.at("rows").size(), 6U);
-  std::vector<nlohmann::json> lines = json_lines(place.files().at("rows.jsonl"));
-  EXPECT_EQ(lines.at(0).at("environment"), whole.at("environment"));
-  lines.erase(lines.begin());
-  EXPECT_EQ(lines, whole.at("rows").get<std::vector<nlohmann::json>>());
-}
-
 TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page_and_svg_each_picture_into_a_file) {
 #ifndef NDEBUG
   GTEST_SKIP() << "work-precision refuses a build with assertions";
@@ -37,14 +24,10 @@ TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page_and_svg_each_pictu
   const nlohmann::json compared = element(files.at("m.html"), "index");
   const nlohmann::json all = element(files.at("all.html"), "index");
   for (const char* part : {"scenes", "environment", "sections"}) EXPECT_EQ(all.at(part), compared.at(part)) << part;
-  EXPECT_GE(all.at("sections").size(), 2U);  // exemptions, fairness
   ASSERT_EQ(all.at("studies").size(), 2U);
-  EXPECT_EQ(all.at("studies")[0].at("charts").size(), 1U);
-  EXPECT_EQ(all.at("studies")[1].at("grids").size(), 2U);
   const nlohmann::json of_rows = element(files.at("rows.html"), "index");
   ASSERT_EQ(of_rows.at("scenes").size(), 1U);
   EXPECT_EQ(of_rows.at("scenes")[0].at("rows"), compared.at("scenes")[0].at("rows"));
-  EXPECT_EQ(of_rows.at("scenes")[0].at("runs"), 0);
   EXPECT_EQ(place.run("report m.html m.html").status, 2) << "it would overwrite what it reads";
   for (const char* name : {"article_bullet.svg", "mask.svg", "rest.svg"}) {
     ASSERT_TRUE(files.contains(name)) << name;

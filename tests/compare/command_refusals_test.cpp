@@ -119,26 +119,21 @@ TEST_F(CommandRefuses, scenes_with_a_fault) {
            {"deep.tmx", tmx(std::string(100'000, '<')), "deep.tmx:"},
            {"deep.stl", std::string(100'000, '('), "deep.stl:"},
            {"xml.tmx", "<map><layer></map>", "xml.tmx:1"},
-           {"level.stl", "(supertux-level\n (version 2)", "level.stl:"},
            {"name.png", "not a scene", "name.png: expected"},
-           {"null.json", good_with("0.016", "null"), "null.json: /dt: expected a number"},
-           {"inside.json", good_with("[0, 3]", "[0, 0.5]"), "inside.json: /character"},
-           {"empty.json", with(instead("?"), "{ \"id\": \"floor\", ? }", ""), "empty.json: /scenery: "},
-           {"corners.json", instead("\"polygon\": [" + ring + "]"), "\"floor\": expected at most 10000 corners"},
            {"tiled.json", instead("\"tiled\": \"/dev/zero\""), "this is a device"},
            {"picture.json", instead("\"picture\": \"/dev/zero\""), "/scenery/0/picture: /dev/zero: expected a regular"},
            {"tiles.json", instead("\"pixel_tiles\": \"/dev/zero\""), "this is a device"},
            {"set.tmx", with(map, "<layer", "<tileset firstgid=\"20\" source=\"/dev/zero\"/><layer"),
             "tileset /dev/zero: expected a regular file; this is a device"},
-           {"air.tmx", tmx(spawn), "solid"},
+           {"corners.json", instead("\"polygon\": [" + ring + "]"), "\"floor\": expected at most 10000 corners"},
            {"wide.tmx", with(map, " width=\"4\" height=\"3\"", " width=\"2000000000\" height=\"2000000000\""),
             "at most"},
            {"wide2.tmx", with(csv_layer(floor_csv) + spawn, "width=\"4\"", "width=\"1e300\""), ""},
            {"round.tmx",
             tmx(objects("solid", R"(<object id="3" x="0" y="0" width="1e9" height="2e9"><ellipse/></object>)") + spawn),
             "26,000 px"},
-           {"scale.tmj", R"({"layers": [], "tilewidth": -1, "tileheight": 16, "width": 1, "height": 1})", "tile size"},
-           {"layers.tmj", R"({"layers": 7, "tilewidth": 16, "tileheight": 16, "width": 1, "height": 1})", "/layers"}}) {
+           {"scale.tmj", R"({"layers": [], "tilewidth": -1, "tileheight": 16, "width": 1, "height": 1})",
+            "tile size"}}) {
     place.write(name, text);
     refused("check " + name, says);
   }
@@ -174,11 +169,7 @@ TEST_F(CommandRefuses, rows_that_are_none) {
       {rows_with("\"tunnels\":0", "\"tunnels\":0,\"tunnels\":1"),
        "2: expected each key once; \"tunnels\" stands twice"},
       {rows_with("\"tunnels\":0", "\"tunnels\":1e999"), "2: expected finite numbers"},
-      {rows_with("\"tunnels\":0", "\"exempted\":{\"hover\":-3}"), "2: /exempted/hover: expected 0 or more"},
-      {rows_with("\"tunnels\":0", "\"parameters\":{\"dt_s\":\"slow\"}"), "2: /parameters/dt_s: expected a number"},
-      {rows_with("\"tunnels\":0", "\"first_tunnel\":{\"step\":1,\"speed\":1}"), "2: /first_tunnel/speed: unknown key"},
       {rows_with("\"tunnels\":0", "\"case\":\"../../etc\""), "2: /case: expected a text like"},
-      {rows_with("\"double\"", "\"half\""), "2: /scalar: expected double, float or \"\", not \"half\""},
       {rows_with("\"mask\"", "\"mask\xff\""), "2: expected JSON"},
       {std::string(header_line) + "[1]\n" + good_row, "2: /: expected an object, not [1]"},
       {std::string(header_line) + std::string(100'000, '[') + "\n" + good_row, "2: expected at most 100 levels"},
@@ -189,10 +180,6 @@ TEST_F(CommandRefuses, rows_that_are_none) {
       {header_line + std::string(5'000'000, ' '), "2: expected lines of at most 4 MB"},
       {std::string("{\"paperproof_rows\":2}\n") + good_row, " expected rows as JSON Lines"},
       {std::string("{\"paperproof_rows\":1,\"rows\":[]}\n"), " expected rows as JSON Lines"},
-      {std::string("{\"paperproof_rows\":1,\"rows_\":[]}\n"), "1: /rows_: unknown key"},
-      {std::string("{\"paperproof_rows\":1,\"environment\":{\"cpu\":7}}\n"), "1: /environment/cpu: expected a text"},
-      {std::string("{\"paperproof_rows\":1,\"sweep\":{\"id\":\"a\",\"cases\":4,\"shard\":[1]}}\n"),
-       "1: /sweep/shard: expected 2 to 2 entries, not 1"},
       {std::string("{\"paperproof_rows\":1,\"sweep\":{\"id\":\"a\",\"cases\":-4,\"shard\":[1,2]}}\n"),
        "1: /sweep/cases: expected 0 or more"}};
   int fault = 0;
@@ -218,17 +205,10 @@ TEST_F(CommandRefuses, pages_and_json_files_of_rows_that_are_none) {
   const auto file = [](const std::string& row) { return "{\"paperproof_rows\": 1, \"rows\": [\n" + row + "]}"; };
   for (const auto& [name, text, says] : std::vector<std::tuple<std::string, std::string, std::string>>{
            {"a.html", page("{}"), "expected a page that paperproof wrote"},
-           {"b.html", page("{\"environment\": 7, \"tolerances\": []}"), "expected a page that paperproof wrote"},
-           {"c.html", page("[]"), "expected a page that paperproof wrote"},
-           {"d.html", page("{"), "expected a page that paperproof wrote"},
            {"e.html", "<script type=\"application/json\" id=\"index\">{}", "expected a page that paperproof wrote"},
            {"a.json", file(with(good_row, "holds", "fine")), "a.json: /rows/0/verdict: expected failed"},
-           {"b.json", file(with(good_row, "\"steps\"", "\"stepps\"")), "b.json: /rows/0/steps: expected this key"},
            {"c.json", file(good_row) + "x", "c.json:3: expected JSON"},
            {"d.json", file(good_row) + std::string("\0", 1), "d.json:3: expected text; a byte of zero"},
-           {"e.json", "{\"paperproof_rows\": 1}", "expected rows as JSON"},
-           {"f.json", "{\"paperproof_rows\": 1, \"rows\": 7}", "f.json: /rows: expected a list, not 7"},
-           {"g.json", good_scene, "expected rows as JSON"},
            {"h.json", std::string(100'000, '['), "levels of nesting"},
            {"rows.csv", "scene,contender\r\npaper,mask\r\n", "rows.csv:1: expected JSON"}}) {
     place.write(name, text);
@@ -257,26 +237,19 @@ TEST_F(CommandRefuses, outputs_that_cannot_be_before_anything_runs) {
            {compare + "--rows o.txt", "expected a name that ends in .json, .jsonl or .csv, not o.txt"},
            {compare + "--rows pipe.json", "pipe.json: cannot be written: nobody reads the pipe"},
            {compare + "--report pipe.html", "pipe.html: cannot be written: nobody reads the pipe"},
-           {"convert bullet pipe.json", "pipe.json: cannot be written: nobody reads the pipe"},
            {compare + "--rows ''", "expected a file name"},
            {compare + "--report o.txt", "expected a name that ends in .html, not o.txt"},
-           {compare + "--report folder.html", "it is a directory"},
            {compare + "--trace nowhere/t", "cannot be written"},
            {compare + "--svg good.json", "good.json"},
            {sweep + "--log nowhere/log", "nowhere/log"},
            {sweep + "--rows o.jsonl --log ./o.jsonl", "expected another file"},
            {sweep + "--resume", "expected --rows FILE.jsonl"},
-           {sweep + "--resume --rows o.csv", "expected --rows FILE.jsonl"},
            {"merge good.jsonl --rows o.csv", "expected a name that ends in .jsonl, not o.csv"},
            {"merge good.jsonl --rows good.jsonl", "expected another file"},
-           {"merge good.jsonl", "--rows is required"},
            {"report o.txt good.jsonl", "expected a name that ends in .html, not o.txt"},
-           {"report folder.html good.jsonl", "it is a directory"},
-           {"report o.html", "ROWS is required"},
            {"convert good.json o.tmx", "expected an output that ends in .json"},
            {"convert good.json good.json", "expected another file"},
-           {"convert good.json folder.json", "it is a directory"},
-           {"convert good.json", "OUT is required"}})
+           {"convert good.json folder.json", "it is a directory"}})
     refused(arguments, says);
 }
 
@@ -361,18 +334,14 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
   for (const auto& [arguments, says] : std::vector<std::pair<std::string, std::string>>{
            {"compare article_bulet", "article_bulet" + scenes + "; did you mean article_bullet?\n"},
            {"compare Corner-Hit", "Corner-Hit" + scenes + "; did you mean corner_to_corner_hit?\n"},
-           {"compare gallary", "gallary" + scenes + "; did you mean technique_gallery?\n"},
            {"plan sawtooth", "sawtooth" + scenes + "; did you mean sawtooth_1, sawtooth_4 or sawtooth_11?\n"},
            {"check nothing", "nothing" + scenes + "\n"},
            {"compare article_bullet ''", "\"\"" + scenes + "\n"},
-           {"compare article_bullet --contender octagon_swep", "--contender octagon_swep" + contenders},
            {"compare article_bullet --contender octagon_swep",
             "box2d or box2d_pieces (see `paperproof list contenders`); did you mean octagon_sweep?\n"},
            {"compare article_bullet --contender grid,nobody", "--contender nobody" + contenders},
-           {"demo octagon_swep", "demo octagon_swep" + contenders},
            {"", commands},
            {"frobnicate", commands},
-           {"study", "paperproof study: expected one of scale, bullet, corner, "},
            {"study bullets",
             "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof "
             "study "
@@ -382,20 +351,12 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
             "list "
             "--help\n"},
            {"check", "paperproof: SCENE is required; see paperproof check --help\n"},
-           {"compare", "SCENE is required"},
-           {"plan", ""},
-           {"convert", ""},
-           {"sweep", ""},
-           {"merge", ""},
-           {"report", ""},
-           {"list", ""},
            {"judge nowhere.jsonl", "nowhere.jsonl: expected a file that exists; there is none\n"},
-           {"compare article_bullet --files-from -", "--files-from -: expected the names of scenes"},
-           {"check 'a\nb'", ""},
-           {"list 'a\rb\n'", ""},
-           {"compare article_bullet --steps '5\n6'", ""},
-           {"compare article_bullet --contender 'a\nb'", ""}})
+           {"compare article_bullet --files-from -", "--files-from -: expected the names of scenes"}})
     refused(arguments, says);
+  for (const std::string& command : words_of("plan convert sweep merge report list")) refused(command);
+  for (const char* arguments : {"check 'a\nb'", "list 'a\rb\n'", "compare article_bullet --contender 'a\nb'"})
+    refused(arguments);
 }
 
 /// At most 300 bytes.
@@ -404,14 +365,11 @@ TEST_F(CommandRefuses, long_texts_in_a_line_that_keeps_file_and_place) {
   place.write("digits.json", with(good_scene, "0.016", digits));
   place.write("line.tmj", "{\"layers\":[1,oops" + std::string(8000, '\'') + "]}");
   place.write("key.json", with(good_scene, "\"dt\"", "\"" + std::string(9000, 'k') + "\": 1, \"dt\""));
-  place.write("accents.json", with(good_scene, "\"gravity\"", "\"" + std::string(299, 'x') + "éééé\": 1, \"gravity\""));
   for (const auto& [arguments, says] : {std::pair{"check digits.json", "digits.json:2:"},
                                         {"check line.tmj", "line.tmj:1:1"},
-                                        {"check key.json", "key.json: /kkk"},
-                                        {"check accents.json", "accents.json: /xxx"}})
+                                        {"check key.json", "key.json: /kkk"}})
     refused(arguments, says);
   refused("compare article_bullet --steps " + digits);
-  refused("check " + digits);
 }
 
 }  // namespace

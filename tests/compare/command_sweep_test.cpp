@@ -38,7 +38,6 @@ TEST_F(CommandSweep, gives_a_row_for_each_case_whatever_the_number_of_jobs_or_sh
   for (const std::string part : {"1", "2", "3"}) runs(sweep + "--shard " + part + "/3 --rows s" + part + ".jsonl");
   runs("merge s3.jsonl s1.jsonl s2.jsonl --rows m.jsonl");
   EXPECT_EQ(rows_in(written("m.jsonl")), rows_in(written("r.jsonl")));
-  EXPECT_EQ(place.run("merge s1.jsonl s2.jsonl s2.jsonl --rows n.jsonl").status, 2);
   const std::vector<nlohmann::json> rows = rows_of("r.jsonl");
   EXPECT_EQ(rows.size(), 108U);
   int through = 0;
@@ -88,22 +87,14 @@ TEST_F(CommandSweep, goes_on_behind_what_a_kill_left) {
 }
 
 TEST_F(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_rows) {
-  place.write("good.json", good_scene);
   runs(sweep + "--rows r.jsonl --report p.html");
-  runs("sweep good.json --vary gravity=10,20 --contender mask --quiet --rows f.jsonl --report f.html");
-  EXPECT_EQ(element(written("f.html"), "cells-0").size(), 2U);
-  std::filesystem::remove(place.path("good.json"));
-  runs("report rows.html r.jsonl f.jsonl");
-  runs("report pages.html p.html f.html");
+  runs("report rows.html r.jsonl");
   const std::string of_rows = written("rows.html");
   const nlohmann::json replays = element(of_rows, "cells-0");
   const nlohmann::json of_sweep = element(written("p.html"), "cells-0");
   EXPECT_EQ(replays.size(), 108U) << "each cell has one case";
   // What counts as bad differs, and with it which cells come first.
   EXPECT_TRUE(std::set(replays.begin(), replays.end()) == std::set(of_sweep.begin(), of_sweep.end()));
-  EXPECT_TRUE(element(of_rows, "cells-1").empty()) << "its scene is gone";
-  EXPECT_TRUE(element(written("pages.html"), "cells-0") == of_sweep);
-  EXPECT_EQ(element(written("pages.html"), "cells-1").size(), 2U);
   const nlohmann::json index = element(of_rows, "index");
   for (const nlohmann::json& grid : index.at("studies")[0].at("grids"))
     for (const nlohmann::json& line : grid.at("cells"))
@@ -116,7 +107,7 @@ TEST_F(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_
       }
 }
 
-TEST_F(CommandSweep, finds_borders_writes_csv_and_pages_and_merges_borders_with_the_cases_that_they_end_at) {
+TEST_F(CommandSweep, finds_borders_and_merges_them_with_the_cases_that_they_end_at) {
   runs("sweep paper --find-border speed --vary thickness=0.01,0.1 --contender penetration_resolution --rows b.jsonl");
   const std::vector<nlohmann::json> rows = rows_of("b.jsonl");
   EXPECT_EQ(rows.size(), 2U);
@@ -124,23 +115,11 @@ TEST_F(CommandSweep, finds_borders_writes_csv_and_pages_and_merges_borders_with_
     EXPECT_LT(row.at("border_low"), row.at("border_high"));
     EXPECT_EQ(row.at("border"), "speed_m_s");
   }
-  runs("sweep paper --vary speed=10,100 --contender mask --rows f.csv --report f.html");
-  EXPECT_TRUE(holds(written("f.csv"), "parameters.speed_m_s"));
-  EXPECT_TRUE(holds(written("f.html"), "do not hold"));
   const std::string ours = "sweep paper --vary thickness=0.01 --contender octagon_sweep --quiet ";
   runs(ours + "--find-border speed=1:100000 --rows e.jsonl");
   runs(ours + "--vary speed=1,100000 --rows f.jsonl");
   runs("merge f.jsonl e.jsonl --rows m.jsonl");
   EXPECT_EQ(rows_of("m.jsonl").size(), 3U);
-}
-
-TEST_F(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
-  for (const auto& [study, rows] : {std::pair{"corner", 12 + 25 + 16}, {"seam", 100}, {"squeeze", 4 + 9 + 9}}) {
-    runs(std::string("study ") + study + " --contender octagon_sweep --rows " + study + ".jsonl");
-    const std::string text = written(std::string(study) + ".jsonl");
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), rows + 1) << study;
-    EXPECT_FALSE(holds(text, "\"verdict\":\"violates\""));
-  }
 }
 
 TEST_F(CommandStudy, of_several_parts_is_sharded_merged_and_gone_on_with) {
@@ -154,8 +133,6 @@ TEST_F(CommandStudy, of_several_parts_is_sharded_merged_and_gone_on_with) {
   runs(study + "k.jsonl --resume --report k.html");
   EXPECT_EQ(written("k.jsonl"), whole);
   EXPECT_EQ(written("k.html"), written("r.html")) << "rows from before the kill count in the maps";
-  for (const char* title : {"a fall down a shaft: ", "walls that close in: ", "a lift under a ceiling: "})
-    EXPECT_TRUE(holds(written("r.html"), title)) << title;
 }
 
 TEST_F(CommandStudy, bullet_counts_and_gives_the_lowest_speeds) {
@@ -174,23 +151,15 @@ TEST_F(CommandSweep, diff_names_what_changed_and_nothing_else) {
   const Finished differs = place.run("diff r.jsonl s.jsonl");
   EXPECT_EQ(differs.status, 1);
   EXPECT_TRUE(holds(differs.out, "tunnels 1 -> 2\n1 row differs"));
-  std::string older = rows;
-  for (std::size_t at = 0; (at = older.find("\"commit\":\"", at)) != std::string::npos;)
-    older.replace(at += 10, 1, "x");
-  place.write("o.jsonl", older);
-  runs("diff r.jsonl o.jsonl");
   place.write("t.jsonl", changed.substr(0, changed.rfind('\n', changed.size() - 2) + 1));
   EXPECT_TRUE(holds(place.run("diff s.jsonl t.jsonl").out, "only in s.jsonl"));
 }
 
 TEST_F(CommandSweep, demo_shows_where_the_bullet_ends_technique_by_technique) {
   const std::string all = runs("demo").out;
-  for (const char* part : {"\nmask: through\n", "\noctagon_sweep: stopped at 0.600\n", "\ngrid: cannot run\n",
-                           "\nspeculative_march: stopped at 0.600\n", "  end of step 1"})
+  for (const char* part : {"\nmask: through\n", "\noctagon_sweep: stopped at 0.600\n", "\ngrid: cannot run\n"})
     EXPECT_TRUE(holds(all, part)) << part;
-  const std::string one = runs("demo wind_back").out;
-  EXPECT_TRUE(holds(one, "wind_back: through"));
-  EXPECT_FALSE(holds(one, "octagon_sweep"));
+  EXPECT_TRUE(holds(runs("demo wind_back").out, "wind_back: through"));
 }
 
 }  // namespace

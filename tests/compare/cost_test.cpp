@@ -74,14 +74,5 @@ TEST(Cost, box2d_alone_goes_the_way_of_the_run) {
   }
 }
 
-TEST(Cost, of_box2d_is_measured_with_the_recorder_and_without) {
-  RunOptions options;
-  options.contenders = {"octagon_sweep"};
-  const ReportScene result = run_scene(built_in("article_bullet"), options);
-  EXPECT_FALSE(row_of(result, "octagon_sweep").ns_per_step_bare);
-  EXPECT_GT(row_of(result, "box2d").ns_per_step_bare.value_or(0), 0);
-  EXPECT_GT(row_of(result, "box2d").ns_per_step.value_or(0), 0);
-}
-
 }  // namespace
 }  // namespace paperproof::compare

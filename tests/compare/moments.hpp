@@ -9,13 +9,12 @@
 
 namespace paperproof::compare {
 
-inline TraceHeader header(bool one_way = false) {
+inline TraceHeader header() {
   TraceHeader header;
   header.contender = "mine";
   header.dt = 0.5;
   header.ids = {"floor", "paper"};
   header.scenery.colliders.resize(2);
-  if (one_way) header.scenery.colliders[1].one_way = Vec2d(0, 1);
   return header;
 }
 

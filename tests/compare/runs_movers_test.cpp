@@ -1,7 +1,6 @@
-/// Runs among what moves: who is handed what, how the twin rides, and what a row says of it.
+/// Runs among what moves, and of several characters: who is handed what, and who cannot run. How stacks carry and
+/// crates crush, and what octagon_sweep makes of crowds, is said by the answers of their scenes.
 #include "compare/scene_runs.hpp"
-
-#include <cmath>
 
 namespace paperproof::compare {
 namespace {
@@ -24,13 +23,6 @@ Scene on_a_slab(int steps) {
   return scene;
 }
 
-Scene on_a_mover(int steps, std::vector<MoverDef::Waypoint> path) {
-  Scene scene = on_a_slab(steps);
-  scene.movers = {{.id = "slab", .path = std::move(path), .loop = MoverDef::Loop::ping_pong}};
-  scene.scenery.colliders[1].mover = 0;
-  return scene;
-}
-
 RunOptions watched(const Scene& scene, std::vector<std::string> contenders) {
   RunOptions options = quick();
   options.contenders = std::move(contenders);
@@ -39,7 +31,11 @@ RunOptions watched(const Scene& scene, std::vector<std::string> contenders) {
 }
 
 TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_last) {
-  const Scene scene = on_a_mover(200, {{.time = 0, .at = {0, 0}}, {.time = 1.1, .at = {4, 3}}});
+  Scene scene = on_a_slab(200);
+  scene.movers = {{.id = "slab",
+                   .path = {{.time = 0, .at = {0, 0}}, {.time = 1.1, .at = {4, 3}}},
+                   .loop = MoverDef::Loop::ping_pong}};
+  scene.scenery.colliders[1].mover = 0;
   const ReportScene result = run_scene(scene, watched(scene, {"speculative"}));
   for (const char* name : {"speculative", "box2d"}) {
     const ReportRun& run = run_of(result, name);
@@ -48,40 +44,9 @@ TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_
       ASSERT_EQ(run.steps[i].movers.size(), 1U);
       const Vec2d to = offset_at(scene.movers[0], static_cast<double>(i + 1) * scene.dt);
       EXPECT_LE((run.steps[i].movers[0].to - to).norm(), name[0] == 'b' ? 2e-6 : 0) << name << " " << i;
-      if (i > 0) {
-        EXPECT_EQ(run.steps[i].movers[0].from, run.steps[i - 1].movers[0].to) << name << " " << i;
-      }
+      EXPECT_TRUE(i == 0 || run.steps[i].movers[0].from == run.steps[i - 1].movers[0].to) << name << " " << i;
     }
   }
-}
-
-/// Whoever stands on it without steering, the twin too: 2 m/s along the surface.
-TEST(Movers, and_conveyors_take_along_whoever_comes_to_rest_on_them) {
-  Scene belt = on_a_slab(120);
-  belt.scenery.colliders[1].surface_speed = 2;
-  belt.scenery.colliders[1].points = slab(-3, -1, 9, 0).points;
-  belt.input.clear();
-  const ReportScene result = run_scene(belt, watched(belt, {"octagon_sweep"}));
-  for (const ReportRun& run : result.runs)
-    EXPECT_NEAR(run.steps.back().path.back().position.x(), 4, 0.15) << run.header.contender;
-}
-
-TEST(Movers, carry_the_twin_sideways_as_if_it_stood_still) {
-  const Scene scene = on_a_mover(240, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {6, 2}}});
-  const ReportScene result = run_scene(scene, watched(scene, {"box2d"}));
-  const ReportRun& run = run_of(result, "box2d");
-  // It gets up to the slab's speed as it would from standing to walking: 60 m/s² by the intent, in the third step.
-  const auto place = [&run](std::size_t i) -> Vec2d {
-    return run.steps[i].path.back().position - run.steps[i].movers[0].to;
-  };
-  for (std::size_t i = 30; i < run.steps.size(); ++i) {
-    EXPECT_TRUE(run.steps[i].grounded) << i;
-    EXPECT_NEAR(place(i).x(), place(29).x(), i < 120 ? 1e-3 : 0.06) << i << ": it turns at step 120";
-  }
-  const Row& row = row_of(result, "box2d");
-  EXPECT_EQ(row.verdict, Verdict::holds) << row.reason;
-  ASSERT_TRUE(row.rest_peak_to_peak_m);
-  EXPECT_LE(*row.rest_peak_to_peak_m, 0.02);
 }
 
 /// Beside a wheel that turns, so that a step goes in parts.
@@ -115,18 +80,52 @@ TEST(Movers, that_turn_let_who_lands_in_a_part_of_a_step_jump_in_the_next_and_us
   EXPECT_GE(jumps, 16);
 }
 
-TEST(Lockstep, goes_on_among_movers) {
-  Scene scene = on_a_mover(120, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {2, 1}}});
-  RunOptions options = watched(scene, {"speculative"});
+TEST(Bodies, go_the_same_way_for_every_contender_and_for_the_twin) {
+  const Scene scene = built_in("stack_100");
+  const ReportScene result = run_scene(scene, watched(scene, {"octagon_sweep", "speculative"}));
+  const std::vector<TraceStep>& mine = run_of(result, "octagon_sweep").steps;
+  const std::vector<TraceStep>& other = run_of(result, "speculative").steps;
+  const std::vector<TraceStep>& twin = run_of(result, "box2d").steps;
+  ASSERT_TRUE(mine.size() == 600 && other.size() == 600 && twin.size() == 600);
+  for (std::size_t i = 0; i < mine.size(); ++i)
+    for (std::size_t k = 0; k < mine[i].movers.size(); ++k) {
+      EXPECT_EQ(mine[i].movers[k].to, other[i].movers[k].to) << i;
+      EXPECT_LE((mine[i].movers[k].to - twin[i].movers[k].to).norm(), 1e-6) << i;
+      EXPECT_TRUE(i == 0 || mine[i].movers[k].from == mine[i - 1].movers[k].to) << i;
+    }
+}
+
+TEST(Bodies, that_box2d_cannot_have_leave_rows_that_say_why) {
+  Scene points = empty_sky(10);
+  points.ids.emplace_back("grain");
+  points.scenery.colliders.push_back({.points = {{9, 9}, {9 + 1e-9, 9}, {9, 9 + 1e-9}}, .mover = 0});
+  points.movers.push_back({.id = "grain", .path = {{}}, .body = Body{}});
+  Scene instants = built_in("stack_1");
+  instants.dt = 1e-12;
+  for (const auto& [scene, reason] : {std::pair{points, "single point"}, {instants, "shorter than 1e-9 s"}}) {
+    const ReportScene result = run_scene(scene, watched(scene, {"octagon_sweep"}));
+    for (const char* contender : {"octagon_sweep", "box2d"}) {
+      const Row& row = row_of(result, contender);
+      EXPECT_EQ(row.verdict, Verdict::not_applicable);
+      EXPECT_TRUE(holds(row.reason, "the scene's bodies are moved by Box2D, and ")) << row.reason;
+      EXPECT_TRUE(holds(row.reason, reason)) << row.reason;
+    }
+  }
+}
+
+TEST(Crowd, is_refused_in_words_by_who_knows_one_character) {
+  RunOptions options = quick();
+  Scene scene = built_in("characters_head_on");
+  for (const Row& row : run_scene(scene, options).rows) {
+    const bool knows =
+        row.contender == "octagon_sweep" || row.contender == "discrete" || row.contender.starts_with("box2d");
+    EXPECT_EQ(row.verdict == Verdict::not_applicable, !knows) << row.contender << ": " << row.reason;
+    EXPECT_TRUE(knows || row.reason == row.contender + " knows one character, and here are 2") << row.reason;
+  }
   options.mode = Mode::lockstep;
-  const ReportScene result = run_scene(scene, options);
-  const ReportRun& run = run_of(result, "speculative");
-  const ReportRun& twin = run_of(result, "box2d");
-  ASSERT_EQ(run.steps.size(), twin.steps.size());
-  for (std::size_t i = 1; i < run.steps.size(); ++i) {
-    // Each begins where the other is, moved out to Box2D's rest gap at the most.
-    EXPECT_LE((twin.steps[i].path.front().position - run.steps[i].path.front().position).norm(), 0.0151) << i;
-    EXPECT_LE((twin.steps[i].movers[0].from - run.steps[i].movers[0].from).norm(), 2e-6) << i;
+  for (const Row& row : run_scene(scene, options).rows) {
+    EXPECT_EQ(row.verdict, Verdict::not_applicable);
+    EXPECT_TRUE(holds(row.reason, "lockstep is between one character and its twin"));
   }
 }
 

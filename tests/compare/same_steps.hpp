@@ -28,6 +28,10 @@ inline bool same(const SensorEvent<double>& a, const SensorEvent<double>& b) {
   return a.sensor == b.sensor && a.change == b.change && same(a.fraction, b.fraction);
 }
 
+inline bool same(const MoverMotion<double>& a, const MoverMotion<double>& b) {
+  return same(a.from, b.from) && same(a.to, b.to);
+}
+
 template <class Item>
 inline bool same(const std::vector<Item>& a, const std::vector<Item>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Item& x, const Item& y) { return same(x, y); });
@@ -37,7 +41,7 @@ inline bool same_step(const TraceStep& a, const TraceStep& b) {
   return same(a.path, b.path) && same(a.requested, b.requested) && same(a.velocity, b.velocity) &&
          a.grounded == b.grounded && a.jumping == b.jumping && same(a.contacts, b.contacts) && same(a.met, b.met) &&
          a.crushed == b.crushed && a.dropped_through == b.dropped_through && same(a.sensors, b.sensors) &&
-         a.stuck == b.stuck && a.dropped == b.dropped;
+         same(a.movers, b.movers) && a.stuck == b.stuck && a.dropped == b.dropped;
 }
 
 }  // namespace paperproof::compare

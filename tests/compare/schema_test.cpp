@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -29,14 +31,6 @@ constexpr const char* small_schema = R"({
 
 std::string fault(const std::string& text) {
   return Schema(small_schema).fault(ordered_json::parse(text)).value_or("");
-}
-
-TEST(Schema, takes_what_holds) {
-  for (const char* good :
-       {R"({"name": "a"})", R"({"name": "a", "kind": "two", "version": 1, "count": 0, "length": -1.5})",
-        R"({"name": "a", "count": 3.0, "length": 2, "sure": false, "free": {"any": [null]}})",
-        R"({"name": "a", "pair": [{}, {"x": 1}], "counts": {"b": 2}})"})
-    EXPECT_EQ(fault(good), "") << good;
 }
 
 TEST(Schema, names_the_place_of_what_does_not) {
@@ -95,6 +89,50 @@ TEST(Schema, a_row_whose_numbers_are_not_finite_holds_as_it_is_written) {
   EXPECT_FALSE(read.contains("max_penetration_m"));
   EXPECT_FALSE(read["first_tunnel"].contains("speed_m_s"));
   EXPECT_EQ(read["first_tunnel"]["step"], 3);
+}
+
+std::string type_of(const Metric& metric) {
+  if (std::holds_alternative<std::optional<bool> Row::*>(metric.field)) return "boolean";
+  return std::holds_alternative<std::optional<double> Row::*>(metric.field) ? "number" : "integer";
+}
+
+TEST(Metric, every_number_in_the_schema_of_rows_is_described_alike) {
+  std::ifstream file(ROWS_SCHEMA);
+  const nlohmann::json properties = nlohmann::json::parse(file)["$defs"]["row"]["properties"];
+  for (const Metric& metric : metrics()) {
+    const std::string key(metric.key);
+    ASSERT_TRUE(properties.contains(key)) << key;
+    const std::string unit = metric.unit.empty() ? "" : " [" + std::string(metric.unit) + "]";
+    EXPECT_EQ(properties[key]["description"], std::string(metric.meaning) + unit + ".") << key;
+    EXPECT_EQ(properties[key]["type"], type_of(metric)) << key;
+  }
+  for (const auto& [key, property] : properties.items()) {
+    const std::string type = property.value("type", "");
+    if (type == "string" || type == "object" || type == "array" || key == "steps") continue;
+    EXPECT_NE(find_metric(key), nullptr) << key;
+  }
+}
+
+TEST(Metric, keys_are_unique_and_end_in_their_unit) {
+  std::set<std::string_view> keys;
+  for (const Metric& metric : metrics()) {
+    EXPECT_TRUE(keys.insert(metric.key).second) << metric.key;
+    EXPECT_EQ(metric.unit == "m" || metric.unit.starts_with("m,"), metric.key.ends_with("_m")) << metric.key;
+    EXPECT_FALSE(metric.meaning.ends_with(".")) << metric.key;
+  }
+  EXPECT_EQ(find_metric("no_such_metric"), nullptr);
+}
+
+TEST(Metric, a_row_has_only_the_numbers_that_apply) {
+  Row row;
+  row.tunnels = 3;
+  row.answer_ok = false;
+  std::string seen;
+  for_each_metric(row, [&](const Metric& metric, const auto&) { seen += std::string(metric.key) + " "; });
+  EXPECT_EQ(seen, "tunnels answer_ok ");
+  EXPECT_EQ(value_of(*find_metric("tunnels"), row), 3.0);
+  EXPECT_EQ(value_of(*find_metric("answer_ok"), row), 0.0);
+  EXPECT_EQ(value_of(*find_metric("slope"), row), std::nullopt);
 }
 
 }  // namespace

@@ -143,20 +143,6 @@ TEST(BodyEnergyGained, is_that_of_motion_height_and_springs) {
   EXPECT_FALSE(energy_of(lifted, {0, 0}).body_energy_gained_j);
 }
 
-TEST(Plank, on_springs_gains_nothing_and_carries_up_to_the_nyquist_frequency) {
-  for (const char* stiffness : {"250", "2000", "710612"}) {  // the last one is m (pi / dt)²
-    for (const char* contender : {"octagon_sweep", "box2d"}) {
-      StabilityRegion region;
-      region.sweep.scene = "plank_on_springs";
-      region.sweep.set = {{"stiffness", stiffness}};
-      region.sweep.contenders = {{contender}};
-      const Row row = run_at(region, 0);
-      EXPECT_EQ(row.verdict, Verdict::holds) << stiffness << " " << contender << ": " << row.reason;
-      EXPECT_EQ(row.body_energy_gained_j.has_value(), contender == std::string("box2d"));
-    }
-  }
-}
-
 TEST(StabilityRegions, have_cases_on_every_grid_and_more_on_a_larger_one) {
   const auto count = [](const char* grid) {
     std::size_t cases = 0;
@@ -170,18 +156,6 @@ TEST(StabilityRegions, have_cases_on_every_grid_and_more_on_a_larger_one) {
   EXPECT_LT(count("quick"), count("standard"));
   EXPECT_LT(count("standard"), count("full"));
   for (const StabilityBorder& border : stability_borders({})) EXPECT_NO_THROW(check(border.sweep)) << border.name;
-}
-
-TEST(StabilityRegions, compare_the_events_of_replicas_with_the_first) {
-  const std::vector<StabilityRegion> regions = stability_regions({"octagon_sweep"});
-  const auto region = std::find_if(regions.begin(), regions.end(),
-                                   [](const StabilityRegion& one) { return one.name == "perturbed start"; });
-  ASSERT_NE(region, regions.end());
-  for (std::size_t index = 0; index < region->sweep.size(); ++index) {
-    const Row row = run_at(*region, index);
-    EXPECT_EQ(row.events_ok, true) << row.command << ": " << row.reason;
-    EXPECT_GT(row.events.value_or(0), 4) << "touches, jumps, lands, walks on, meets the wall";
-  }
 }
 
 TEST(StabilityRegions, tell_where_the_events_are_others) {

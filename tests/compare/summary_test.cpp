@@ -1,12 +1,17 @@
-/// What stands on the first screen: outcomes in plain words, and all scenes in one table.
+/// Verdicts, and what is said of many rows: outcomes in plain words, all scenes in one table, and the gallery: who
+/// fails where, and who is the cheapest of those that do not.
 #include "runs/summary.hpp"
 #include "compare/scene_files.hpp"
 #include "compare/scene_runs.hpp"
+#include "records/verdict.hpp"
+#include "runs/gallery.hpp"
 #include "runs/headline.hpp"
 #include "runs/text_columns.hpp"
 #include "words.hpp"
 
-#include <sstream>
+#include <algorithm>
+#include <iterator>
+#include <limits>
 
 namespace paperproof::compare {
 namespace {
@@ -16,21 +21,6 @@ Row row(const std::string& scene, const std::string& contender) {
   row.scene = scene;
   row.contender = contender;
   return row;
-}
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-/// The words of the line that begins with a name.
-std::vector<std::string> line_of(const std::string& text, const std::string& name) {
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    if (line.starts_with(name + " ")) return words_of(line);
-  return {};
 }
 
 TEST(Headline, says_the_worst_that_happened_in_plain_words) {
@@ -49,8 +39,6 @@ TEST(Headline, says_the_worst_that_happened_in_plain_words) {
   EXPECT_EQ(outcome_of(one), "through");
   one.tunnels = 2;
   EXPECT_EQ(outcome_of(one), "through on 2 steps");
-  one.verdict = Verdict::failed;
-  EXPECT_EQ(outcome_of(one), "failed");
   one.verdict = Verdict::not_applicable;
   EXPECT_EQ(outcome_of(one), "cannot run");
 }
@@ -78,23 +66,11 @@ TEST(Summary, adds_up_steps_and_counts_scenes) {
   rows[2].ns_per_step = 10;
   rows[4].ns_per_step = 20;
   const std::string text = summary_table(rows);
-  EXPECT_EQ(line_of(text, "contender"), (std::vector<std::string>{"contender", "scenes", "through", "ns/step"}))
-      << "nothing is said of inside, as no row has it:\n"
-      << text;
-  EXPECT_EQ(line_of(text, "one"), (std::vector<std::string>{"one", "3", "5", "in", "2", "20"}));
-  EXPECT_EQ(line_of(text, "two"), (std::vector<std::string>{"two", "1", "0", "-"}));
-}
-
-TEST(Summary, tells_number_types_and_knobs_apart_and_names_failures) {
-  std::vector<Row> rows{row("a", "one"), row("a", "one"), row("a", "one"), row("b", "one")};
-  rows[1].scalar = "float";
-  rows[2].knob = "unit=1";
-  rows[3].verdict = Verdict::failed;
-  const std::string text = summary_table(rows);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5) << "a heading, three rows, and what they mean:\n" << text;
-  EXPECT_TRUE(holds(text, "one in float"));
-  EXPECT_TRUE(holds(text, "one with unit=1"));
-  EXPECT_TRUE(holds(text, "failed"));
+  std::string single;  // spaces
+  std::unique_copy(text.begin(), text.end(), std::back_inserter(single),
+                   [](char a, char b) { return a == ' ' && b == ' '; });
+  for (const char* line : {"contender scenes through ns/step\n", "\none 3 5 in 2 20\n", "\ntwo 1 0 -\n"})
+    EXPECT_TRUE(holds(single, line)) << "nothing is said of inside, as no row has it";
 }
 
 TEST(Words, of_a_sentence_are_left_out_where_a_terminal_has_no_room) {
@@ -103,7 +79,79 @@ TEST(Words, of_a_sentence_are_left_out_where_a_terminal_has_no_room) {
   const std::string umlauts = "\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4";
   EXPECT_EQ(shortened(umlauts, 10), "\u00e4\u00e4\u00e4 …") << "no character is cut in two";
   EXPECT_EQ(in_lines("A is 0.5 m. B is 1 m."), "A is 0.5 m.\nB is 1 m.\n");
-  EXPECT_EQ(in_lines(""), "");
+}
+
+Row row(const std::string& scene, const std::string& contender, double ns) {
+  Row row;
+  row.scene = scene;
+  row.contender = contender;
+  row.ns_per_step = ns;
+  return row;
+}
+
+TEST(Gallery, names_the_worst_failure_and_the_largest_lead) {
+  std::vector<Row> rows{row("a", "one", 10),  row("a", "two", 30), row("b", "one", 10),
+                        row("b", "two", 100), row("c", "one", 20), row("c", "two", 5)};
+  rows[4].contact_recall = 0.5;
+  rows[1].verdict = Verdict::tunnels;
+  rows[1].reason = "step 3: passed `paper`";
+  const std::vector<GalleryEntry> gallery = gallery_of(rows);
+  ASSERT_EQ(gallery.size(), 2U);
+  ASSERT_TRUE(gallery[0].fails && gallery[0].cheapest && gallery[1].fails && gallery[1].cheapest);
+  EXPECT_EQ(gallery[0].fails->scene, "c");
+  EXPECT_EQ(gallery[0].fails->failure.words, "misses 50 % of the contacts that exact arithmetic has");
+  EXPECT_EQ(gallery[0].cheapest->scene, "a") << "where nobody else is without a failure";
+  EXPECT_EQ(gallery[0].cheapest->next, "");
+  EXPECT_EQ(gallery[1].fails->failure.words, "step 3: passed `paper`");
+  EXPECT_EQ(gallery[1].cheapest->scene, "c");
+}
+
+TEST(Gallery, a_run_without_a_number_is_no_failure_and_a_nan_is_one) {
+  EXPECT_FALSE(failure_of(row("a", "one", 1)));
+  Row odd = row("a", "one", 1);
+  odd.rest_peak_to_peak_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(failure_of(odd));
+}
+
+TEST(Verdict, is_the_worst_of_all_axes_and_the_reason_names_each) {
+  Row row;
+  settle(row);
+  EXPECT_EQ(row.verdict, Verdict::holds);
+  EXPECT_EQ(row.reason, "");
+  add_fault(row, Axis::validity, Verdict::flagged, "3 steps beyond the cap");
+  add_fault(row, Axis::safety, Verdict::tunnels, "passes the paper");
+  add_fault(row, Axis::progress, Verdict::flagged, "hangs on 2 steps");
+  add_fault(row, Axis::progress, Verdict::flagged, "drops 1 step");
+  settle(row);
+  EXPECT_EQ(row.verdict, Verdict::tunnels) << "the cap hides no tunnel";
+  EXPECT_EQ(row.reason,
+            "safety: passes the paper; progress: hangs on 2 steps, drops 1 step; validity: 3 steps beyond the cap");
+  add_fault(row, Axis::answer, Verdict::flagged, "1 m off");
+  settle(row);
+  EXPECT_EQ(row.verdict, Verdict::tunnels);
+  EXPECT_TRUE(row.reason.ends_with("; answer: 1 m off; validity: 3 steps beyond the cap")) << row.reason;
+}
+
+TEST(Verdict, goes_from_failed_through_a_broken_guarantee_to_what_is_only_flagged) {
+  const std::vector<Verdict> worst_first{Verdict::violates, Verdict::tunnels, Verdict::flagged};
+  for (std::size_t i = 0; i < worst_first.size(); ++i) {
+    Row row;
+    for (std::size_t k = i; k < worst_first.size(); ++k) add_fault(row, Axis::safety, worst_first[k], "x");
+    settle(row);
+    EXPECT_EQ(row.verdict, worst_first[i]);
+  }
+}
+
+TEST(Verdict, of_a_run_that_was_not_made_stays) {
+  for (const Verdict verdict : {Verdict::failed, Verdict::not_applicable}) {
+    Row row;
+    row.verdict = verdict;
+    row.reason = "no slopes";
+    add_fault(row, Axis::progress, Verdict::flagged, "hangs");
+    settle(row);
+    EXPECT_EQ(row.verdict, verdict);
+    EXPECT_EQ(row.reason, "no slopes");
+  }
 }
 
 }  // namespace
