@@ -237,6 +237,18 @@ TEST(Characters, two_bullets_do_not_pass_each_other_and_both_name_the_other) {
   EXPECT_EQ(steps[0].met[0].normal, -steps[1].met[0].normal);
 }
 
+TEST(Characters, who_stands_on_another_is_grounded_and_nothing_carries_it) {
+  ColliderDef belt = box(-20, -1, 20, 0);
+  belt.surface_speed = 1;
+  ReferenceWorld world(level({belt}), {}, std::array{standing, Vec2d(0, 3 * half_height + 2 * rest_gap)});
+  const std::vector<TwinWish> fall(2, {.velocity = {0, -0.5}});
+  world.step_all(fall, frame);
+  const std::span<const TwinStep> steps = world.step_all(fall, frame);
+  EXPECT_TRUE(steps[0].ground && steps[1].grounded);
+  EXPECT_FALSE(steps[1].ground);
+  EXPECT_TRUE(steps[1].contacts.empty());
+}
+
 TEST(Characters, another_number_of_velocities_is_refused_and_one_is_placed) {
   ReferenceWorld world = characters_at({{0, 3}, {9, 3}});
   EXPECT_THROW(world.step({1, 0}, frame), InvalidDefinition);
