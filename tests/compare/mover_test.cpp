@@ -51,17 +51,6 @@ TEST(MoverOffset, of_a_ping_pong_comes_back_the_same_way) {
   }
 }
 
-TEST(MoverOffset, one_step_begins_where_the_one_before_ended) {
-  const MoverDef mover = crooked(Loop::ping_pong);
-  const double dt = 1.0 / 60;
-  for (int step = 1; step < 3600; ++step) {
-    const StepTimes times(dt, {});
-    const auto motion = [&](int at) { return motion_between(mover, times.begin(at), times.end(at)); };
-    EXPECT_EQ(motion(step).from, motion(step - 1).to);
-    EXPECT_EQ(motion(step).from, offset_at(mover, step * dt));
-  }
-}
-
 TEST(StepTimes, one_step_begins_when_the_one_before_ends_round_after_round) {
   const StepTimes times(1, {0.1, 0.2, 0.3, 1e-9, 7});
   for (int step = 1; step < 1000; ++step) EXPECT_EQ(times.begin(step), times.end(step - 1)) << step;

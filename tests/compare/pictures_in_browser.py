@@ -3,7 +3,6 @@
 
 usage: pictures_in_browser.py COMMAND FOLDER_TO_WORK_IN    (exit status 77: skipped, with the reason)
 """
-import html
 import json
 import os
 import re
@@ -15,7 +14,9 @@ from urllib.parse import quote
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 CONTENDERS = "mask,penetration_resolution,octagon_sweep"
 
-# Runs in the page once its own scripts have run, and leaves what it saw as JSON.
+COMPLAINTS = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")
+
+# Runs in the page once it is loaded; `seen` is what it saw last.
 PROBE = """
 const seen = {};
 const text = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
@@ -41,19 +42,19 @@ function look() {
   seen.points = [...document.querySelectorAll('.chart canvas')].map((one) => one.dataset.points);
   seen.numbers = document.querySelectorAll('.picture tbody tr').length;
   seen.maps = [...document.querySelectorAll('.map')].map((map) => map.querySelector('figcaption').textContent);
-  seen.pixels = [...document.querySelectorAll('.map canvas')].map((canvas) => pixels(canvas, COLUMNS, ROWS));
+  seen.pixels = [...document.querySelectorAll('.map canvas')].map((canvas) => pixels(canvas, 4, 3));
   seen.text = document.body.innerText;
   seen.labels = [...document.querySelectorAll('[aria-label]')].map((one) => one.getAttribute('aria-label'));
   seen.colours = Number(document.documentElement.dataset.colours || 0);
   seen.view = (document.documentElement.dataset.seen || '').split(' ').map(Number);
   seen.cells = [...document.querySelectorAll('.matrix td a')].map((a) => [a.getAttribute('aria-label'), a.textContent]);
 }
-function done() {
-  const pre = document.createElement('pre');
-  pre.id = 'probe';
-  pre.textContent = JSON.stringify(seen);
-  document.body.append(pre);
+const drawn = () => document.documentElement.dataset.drawn || '';
+async function until(so) {
+  for (let k = 0; k < 1000 && !so(); ++k) await new Promise((again) => setTimeout(again, 20));
+  look();
 }
+const changed = () => until(() => drawn() !== seen.drawn);
 """
 
 
@@ -62,33 +63,58 @@ def run(*arguments):
 
 
 class Browser:
-    """Shows the page and brings back what a probe saw."""
+    """One Chromium, told over pipes what to show; it brings back what a probe saw."""
 
-    def __init__(self, program, page):
-        self.program = program
-        with open(page, encoding="utf-8") as file:
-            self.page = file.read()
+    def __init__(self, program):
+        (its_in, ours), (back, its_out) = os.pipe(), os.pipe()
+        self.process = subprocess.Popen(
+            ["sh", "-c", f'exec "$@" 3<&{its_in} 4>&{its_out}', "sh", program, "--headless", "--no-sandbox", "--disable-gpu",
+             "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+             "--disable-extensions", "--disable-dev-shm-usage", "--user-data-dir=" + os.path.abspath("profile"),
+             "--hide-scrollbars", "--remote-debugging-pipe"], pass_fds=(its_in, its_out), stderr=subprocess.DEVNULL)
+        os.close(its_in), os.close(its_out)
+        self.to, self.back = os.fdopen(ours, "wb"), os.fdopen(back, "rb")
+        self.rest, self.number, self.complaints, self.session = b"", 0, [], {}
+        target = self.ask("Target.createTarget", url="about:blank")["targetId"]
+        self.session = {"sessionId": self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]}
+        for domain in ("Page", "Runtime", "Log"):
+            self.ask(domain + ".enable")
 
-    def look(self, act="", size=(1280, 800), dark=False, address=""):
-        probe = PROBE.replace("COLUMNS", "4").replace("ROWS", "3")
-        with open("probed.html", "w", encoding="utf-8") as file:
-            file.write(self.page + f"<script>{probe}look(); {act or 'done();'}</script>")
-        command = [self.program, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-                   "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                   "--disable-extensions", "--disable-dev-shm-usage", "--user-data-dir=" + os.path.abspath("profile"),
-                   f"--window-size={size[0]},{size[1]}", "--virtual-time-budget=4000", "--hide-scrollbars",
-                   f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--enable-logging=stderr", "--dump-dom",
-                   "file://" + os.path.abspath("probed.html") + address]
-        for _ in range(2):  # a browser that does not come up is asked once more
-            shown = subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
-            found = re.search(r'<pre id="probe">(.*?)</pre>', shown.stdout, re.S)
-            if found:
-                break
-        assert found, f"the probe left nothing: {shown.stderr[-2000:]}"
-        # The probe reads canvases more than once, which the browser remarks on.
-        complaints = [line for line in shown.stderr.splitlines() if "CONSOLE" in line and "willReadFrequently" not in line]
-        assert not complaints, f"the console has errors: {complaints}"
-        seen = json.loads(html.unescape(found.group(1)))
+    def read_until(self, so):
+        while True:
+            *messages, self.rest = self.rest.split(b"\0", 1)
+            if not messages:
+                more = self.back.read1(1 << 20)
+                assert more, "the browser has ended"
+                self.rest += more
+                continue
+            message = json.loads(messages[0])
+            # The probe reads canvases more than once, which the browser remarks on.
+            if message.get("method") in COMPLAINTS and "willReadFrequently" not in str(message):
+                self.complaints.append(message["params"])
+            if so(message):
+                return message
+
+    def ask(self, method, **parameters):
+        self.number += 1
+        question = {"id": self.number, "method": method, "params": parameters, **self.session}
+        self.to.write(json.dumps(question).encode() + b"\0")
+        self.to.flush()
+        answer = self.read_until(lambda message: message.get("id") == self.number)
+        assert "result" in answer, answer
+        return answer["result"]
+
+    def look(self, page, act="", size=(1280, 800), dark=False, address=""):
+        self.ask("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=False)
+        self.ask("Emulation.setEmulatedMedia",
+                 features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.ask("Page.navigate", url=f"file://{os.path.abspath(page)}?{self.number}{address}")  # not only to another place in it
+        self.read_until(lambda message: message.get("method") == "Page.loadEventFired")
+        probe = f"(async () => {{ {PROBE} look(); {act}; return seen; }})()"
+        found = self.ask("Runtime.evaluate", expression=probe, awaitPromise=True, returnByValue=True)
+        assert "exceptionDetails" not in found, found["exceptionDetails"]
+        assert not self.complaints, f"the console has errors: {self.complaints}"
+        seen = found["result"]["value"]
         assert seen["error"] == "", seen["error"]
         return seen
 
@@ -125,15 +151,15 @@ def check_pictures(seen, swept, precise):
     assert len(seen["maps"]) == 3
 
 
-# Clicks the cell of a map, by its title, and looks half a second later.
+# Clicks the cell of a map, by its title, and looks at the replay.
 CLICK = """const map = [...document.querySelectorAll('.map')].find((one) => one.textContent.startsWith('%s:'));
     const canvas = map.querySelector('canvas'), box = canvas.getBoundingClientRect(), width = (box.width - 58) / 4;
     canvas.dispatchEvent(new MouseEvent('click', {bubbles: true, clientX: box.left + 54 + (%d + 0.5) * width,
-                                                  clientY: box.top + 4 + (2 - %d + 0.5) * 24}));"""
-LATER = """setTimeout(() => { look(); seen.title = text('h2')[0]; seen.words = text('.sentence')[0];
+                                                  clientY: box.top + 4 + (2 - %d + 0.5) * 24}));
+    await changed();"""
+REPLAY = """seen.title = text('h2')[0]; seen.words = text('.sentence')[0];
     seen.facts = text('dl.pairs > *'); seen.code = text('code').at(-1); seen.hash = location.hash;
-    seen.shown = text('.legend button'); seen.box = document.documentElement.dataset.seen.split(' ').map(Number);
-    seen.state = text('.readout td'); %s }, 500);"""
+    seen.shown = text('.legend button'); seen.state = text('.readout td');"""
 
 
 def check_replays_of_cells(browser, swept):
@@ -151,8 +177,8 @@ def check_replays_of_cells(browser, swept):
             assert float(facts[name]) == row["parameters"][key], (facts, row["parameters"])
         assert seen["code"] == row["command"], seen["code"]
         assert row.get("reason", "") in seen["words"], seen["words"]
-        left, bottom, right, top = seen["box"]
-        assert bottom < 0 < top and top - bottom < 6, seen["box"]  # the paper is at 0, and seen from near
+        _, bottom, _, top = seen["view"]
+        assert bottom < 0 < top and top - bottom < 6, seen["view"]  # the paper is at 0, and seen from near
         assert seen["overflow"] <= 0, seen["overflow"]
         if row["tunnels"] > 0:
             assert seen["drawn"].startswith(f"cell step {row['first_tunnel']['step']} "), (seen["drawn"], row["first_tunnel"])
@@ -161,29 +187,29 @@ def check_replays_of_cells(browser, swept):
     passed, held = first_of("mask", 2000, 0.1), first_of("octagon_sweep", 2000, 0.01)
     assert passed["tunnels"] > 0 and held["tunnels"] == 0
     for dark in (False, True):
-        seen = browser.look(CLICK % ("mask", 3, 1) + LATER % "done();", dark=dark)
+        seen = browser.look("all.html", CLICK % ("mask", 3, 1) + REPLAY, dark=dark)
         check(seen, "mask", passed)
-    check(browser.look(CLICK % ("octagon_sweep", 3, 0) + LATER % "done();"), "octagon_sweep", held)
+    check(browser.look("all.html", CLICK % ("octagon_sweep", 3, 0) + REPLAY), "octagon_sweep", held)
     address = seen["hash"]
-    check(browser.look(LATER % "done();", address=address, size=(390, 844)), "mask", passed)
+    check(browser.look("all.html", REPLAY, address=address, size=(390, 844)), "mask", passed)
 
-    # Enter opens it, Escape and the link lead back to the cell. (The browser's own way back waits for real time.)
+    # Enter opens it; Escape, the link and the browser's own way back lead back to the cell.
     enter = """const map = document.querySelector('.map canvas'), press = (to, key) => to.dispatchEvent(
             new KeyboardEvent('keydown', {key, bubbles: true}));
         for (const key of ['ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowUp', 'Enter'])
-          press(map, key);"""
-    back = """setTimeout(() => { const map = document.activeElement.getBoundingClientRect(); look();
-        seen.told = text('.told')[0]; seen.hash = location.hash; seen.from = first; seen.at = [map.top, map.bottom];
-        seen.told_at = document.querySelector('.told').getBoundingClientRect().top; done(); }, 500);"""
-    for act in ("press(document.body, 'Escape')", "document.querySelector('main a').click()"):
-        seen = browser.look(f"{enter} let first = ''; setTimeout(() => {{ first = document.documentElement.dataset.drawn; "
-                            f"{act}; {back} }}, 500);", size=(1000, 500))
+          press(map, key);
+        await changed(); seen.from = drawn(); %s; await until(() => drawn() === 'summary');
+        const box = document.activeElement.getBoundingClientRect();
+        seen.told = text('.told')[0]; seen.hash = location.hash; seen.at = [box.top, box.bottom];
+        seen.told_at = document.querySelector('.told').getBoundingClientRect().top;"""
+    for act in ("press(document.body, 'Escape')", "document.querySelector('main a').click()", "history.back()"):
+        seen = browser.look("all.html", enter % act, size=(1000, 500))
         assert seen["from"].startswith("cell step ") and seen["drawn"] == "summary", (act, seen["from"], seen["drawn"])
         assert "mask at speed [m/s] = 2000, thickness [m] = 0.1" in seen["told"], seen["told"]
         assert "at=3%2C1" in seen["hash"], seen["hash"]
         assert 0 <= seen["at"][0] and seen["at"][1] <= seen["height"] and 0 <= seen["told_at"] < seen["height"], seen
     # An address of no replay is the summary.
-    assert browser.look(address=address.replace("cell=3%2C1", "cell=30%2C1"))["drawn"] == "summary"
+    assert browser.look("all.html", address=address.replace("cell=3%2C1", "cell=30%2C1"))["drawn"] == "summary"
 
 
 def write_replays(command):
@@ -204,7 +230,6 @@ def write_replays(command):
     run(command, "report", "replays.html", "several.html", "grid.html")
 
 
-LOOK_LATER = "setTimeout(() => { look(); done(); }, 500);"
 HOSTILE = "</script><script>throw 1</script><!-- & \" ' ]]>"
 WHERE_HOSTILE = "scene=" + quote(HOSTILE)
 # Of each address: what is drawn, a height [m] that the view shows, how high it is at most, and words of the page.
@@ -246,15 +271,15 @@ def check_replays(browser):
             assert part in seen["text"], (address, part)
 
     for address, *expected in REPLAYS:
-        check(browser.look(address=f"#{address}&check=1" if address else ""), address, *expected)
+        check(browser.look("replays.html", address=f"#{address}&check=1" if address else ""), address, *expected)
     # After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
     # often a headless browser draws on its own after that is its affair.
-    played = browser.look(address="#scene=slow&step=0&t=0&play=0.5&check=1")
+    played = browser.look("replays.html", address="#scene=slow&step=0&t=0&play=0.5&check=1")
     check(played, "played", r"scene 4 step 1 t (0\.0|[0-9.]*e-).*", None, None, [])
     assert "Pause" in played["labels"], played["labels"]
     # Jumps move the view, too: from all of the ways to what is touched first, by Box2D with its gap of 5 mm.
     act = "[...document.querySelectorAll('button')].find((one) => one.textContent === 'first contact').click();"
-    jumped = browser.look(act + LOOK_LATER, address=f"#{BULLET}&step=9&view=fit&check=1")
+    jumped = browser.look("replays.html", act + "await changed();", address=f"#{BULLET}&step=9&view=fit&check=1")
     check(jumped, "first contact", DRAWN_AT + "0.5968", 0, 1, [])
 
 
@@ -274,11 +299,21 @@ def main():
     run(command, "work-precision", "bullet", *some, "--rows", "w.jsonl")
     run(command, "report", "all.html", "m.html", "s.jsonl", "w.jsonl")
     compared, swept, precise = (rows_of(name) for name in ("m.jsonl", "s.jsonl", "w.jsonl"))
-    browser = Browser(program, "all.html")
     write_replays(command)
-    check_replays(Browser(program, "replays.html"))
+    browser = Browser(program)
+    try:
+        check_replays(browser)
+        check_summary(browser, compared, swept, precise)
+        check_replays_of_cells(browser, swept)
+    finally:
+        browser.process.terminate()
+        browser.process.wait()
+    print("the pictures show what the rows say")
+    return 0
 
-    seen = browser.look()
+
+def check_summary(browser, compared, swept, precise):
+    seen = browser.look("all.html")
     assert seen["drawn"] == "summary" and seen["strip"] == "step 0 t 1", seen
     assert all(0 <= top < seen["height"] - 200 for top in seen["above"]) and len(seen["above"]) == 3, seen["above"]
     assert len(seen["tiles"]) == len([row for row in compared if row["scene"] == "article_bullet"])
@@ -292,20 +327,20 @@ def main():
         scene, who = re.match(r"(\w+), (\w+)", about).groups()
         assert mark == marks.get(verdicts[scene, who], mark), (about, mark)
 
-    dark = browser.look(dark=True)
+    dark = browser.look("all.html", dark=True)
     assert dark["background"] != seen["background"] and dark["ink"] != seen["ink"], dark
     check_pictures(dark, swept, precise)
     for page in ("", "#scene=article_bullet&contender=mask"):
-        phone = browser.look(size=(390, 844), address=page)
+        phone = browser.look("all.html", size=(390, 844), address=page)
         assert phone["overflow"] <= 0, f"the page is {phone['overflow']} px wider than a phone at {page or 'the summary'}"
 
     # A cell leads to the replay of this case alone.
-    clicked = browser.look("""document.querySelector('.matrix a[aria-label^="thin_platform, mask"]').click();
-        setTimeout(() => { look(); seen.shown = text('.legend button[aria-pressed="true"]'); done(); }, 500);""")
+    clicked = browser.look("all.html", """document.querySelector('.matrix a[aria-label^="thin_platform, mask"]').click();
+        await changed(); seen.shown = text('.legend button[aria-pressed="true"]');""")
     assert clicked["drawn"].startswith("scene 1 "), clicked["drawn"]
     assert clicked["shown"] == ["mask"], clicked["shown"]
     # Without a mouse: the fraction of the step, a cell of a map, a curve of the chart.
-    keyed = browser.look("""const slider = document.querySelector('.fraction input');
+    keyed = browser.look("all.html", """const slider = document.querySelector('.fraction input');
         slider.value = 0.5; slider.dispatchEvent(new Event('input'));
         const map = document.querySelector('.map canvas');
         for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp'])
@@ -314,15 +349,11 @@ def main():
         curve.click();
         look(); seen.told = text('.told')[0]; seen.pressed = curve.getAttribute('aria-pressed');
         seen.reachable = [slider, map, curve, document.querySelector('.tile[href]'), document.querySelector('.matrix a')]
-            .every((one) => one.tabIndex === 0);
-        done();""")
+            .every((one) => one.tabIndex === 0);""")
     assert keyed["strip"] == "step 0 t 0.5", keyed["strip"]
     assert "speed [m/s] = 50, thickness [m] = 0.1" in keyed["told"], keyed["told"]
     assert keyed["told"].endswith("Click or Enter: its replay."), keyed["told"]
     assert keyed["pressed"] == "false" and keyed["reachable"], keyed
-    check_replays_of_cells(browser, swept)
-    print("the pictures show what the rows say")
-    return 0
 
 
 if __name__ == "__main__":

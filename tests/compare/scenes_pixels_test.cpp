@@ -156,6 +156,16 @@ TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
   const std::string no_colour =
       "/solid: expected a colour like '#00a0ff', or the index of one in the picture's palette";
   const std::string no_index = "/background: expected an index from 0 to 3, the last in the palette of entries.png";
+  const auto expect_said = [&files](const std::string& entry, const std::string& message) {
+    // The message has ' in it, which is no quote.
+    const std::string said = files.complaint("drawn.json", scene_with("{ 'picture': " + entry + " }"));
+    EXPECT_TRUE(begins(quoted(said), quoted(": /scenery/0" + message))) << entry;
+  };
+  for (const std::string solid : {"'white'", "'#fff'", "'#00000g'", "'ffffff'", "'#ffffff0'"})
+    expect_said("'level.png', 'solid': " + solid, no_colour);
+  for (const std::string solid : {"true", "null", "[0]"}) expect_said("'entries.png', 'solid': " + solid, no_colour);
+  for (const std::string index : {"4", "-1", "0.5", "256", "1e300"})
+    expect_said("'entries.png', 'background': " + index, no_index);
   for (const auto& [entry, message] : std::initializer_list<std::pair<std::string, std::string>>{
            {"'none.png'", "/picture: none.png: expected a file that exists; there is none"},
            {"'text.png'", "/picture: text.png: expected a PNG picture ("},
@@ -165,19 +175,6 @@ TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
            {"'noise.png'",
             "/picture: noise.png: expected a drawing; its solid pixels make more than 200000 rectangles"},
            {"'level.png', 'solid': '#123456'", "/picture: level.png: expected a solid pixel; none is #123456"},
-           {"'level.png', 'solid': 'white'", no_colour},
-           {"'level.png', 'solid': '#fff'", no_colour},
-           {"'level.png', 'solid': '#00000g'", no_colour},
-           {"'level.png', 'solid': 'ffffff'", no_colour},
-           {"'level.png', 'solid': '#ffffff0'", no_colour},
-           {"'entries.png', 'solid': true", no_colour},
-           {"'entries.png', 'solid': null", no_colour},
-           {"'entries.png', 'solid': [0]", no_colour},
-           {"'entries.png', 'background': 4", no_index},
-           {"'entries.png', 'background': -1", no_index},
-           {"'entries.png', 'background': 0.5", no_index},
-           {"'entries.png', 'background': 256", no_index},
-           {"'entries.png', 'background': 1e300", no_index},
            {"'entries.png', 'solid': 3",
             "/picture: entries.png: expected a solid pixel; none is colour 3 of the palette"},
            {"'level.png', 'solid': 0",
@@ -185,11 +182,8 @@ TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
            {"'level.png', 'solid': '#ffffff', 'background': '#000000'",
             "/background: expected one of 'solid' and 'background', not both"},
            {"'level.png', 'one_way': [0,1]", "/one_way: expected only beside 'polygon', 'chain' or 'circle'"},
-           {"'level.png', 'tiled': 'a.tmx'", ": expected exactly one shape"}}) {
-    // The message has ' in it, which is no quote.
-    const std::string said = files.complaint("drawn.json", scene_with("{ 'picture': " + entry + " }"));
-    EXPECT_TRUE(begins(quoted(said), quoted(": /scenery/0" + message))) << entry;
-  }
+           {"'level.png', 'tiled': 'a.tmx'", ": expected exactly one shape"}})
+    expect_said(entry, message);
   EXPECT_EQ(files.complaint("drawn.json", scene_with("{ 'chain': [[0,0],[1,0]], 'solid': '#ffffff' }")),
             ": /scenery/0/solid: expected only beside \"picture\"");
 }

@@ -105,13 +105,6 @@ TEST(BuiltInScenes, a_corner_meets_a_corner_or_not_by_one_ulp) {
   }
 }
 
-TEST(Describe, counts_what_is_there) {
-  const std::string text = describe(load_scenes("flush_tiles").front());
-  EXPECT_NE(text.find("64 polygons"), std::string::npos) << text;
-  EXPECT_NE(text.find("64 convex"), std::string::npos) << text;
-  EXPECT_NE(describe(load_scenes("zero_thickness_paper").front()).find("1 two-sided"), std::string::npos);
-}
-
 TEST(Describe, names_one_way_segments_that_block_nothing) {
   Scene scene = load_scenes("article_bullet").front();
   scene.ids.emplace_back("ledge");
