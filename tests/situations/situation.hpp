@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct Situation {
   nlohmann::ordered_json text;    ///< As it stands in the file.
   nlohmann::ordered_json shared;  ///< Of all in the file: `scene` and `let`.
 };
+
+/// For GoogleTest, which prints bytes otherwise.
+inline void PrintTo(const Situation& situation, std::ostream* out) { *out << situation.name; }
 
 /// All situations of a folder, by file. @throws std::exception that names the file.
 [[nodiscard]] std::vector<Situation> read_situations(const std::string& folder);
