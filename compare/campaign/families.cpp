@@ -36,6 +36,7 @@ std::vector<Family> still() {
             .covers = {{"contact", 0.1, 0.9},
                        {"falling", 0.1},
                        {"launched", 0.1},
+                       {"unnamed", 0, 0},
                        {"through", has_ledges ? ever : 0, has_ledges ? 1.0 : 0.0}}};
   });
 }
@@ -60,7 +61,8 @@ std::vector<Family> movers(bool up_turns) {
             .draw = [terrain, up_turns](std::uint64_t seed) { return draw_among_movers(terrain, seed, up_turns); },
             .first_seed = 2000003 * number,
             .share = up_turns ? 2.0 / 9 : 1,
-            .covers = {{"contact", 0.1, 0.9}, {"riding", ever}, {"crushed", ever, 0.2}}};
+            .covers = {
+                {"contact", 0.1, 0.9}, {"riding", ever}, {"crushed", ever, 0.2}, {"unnamed", 0, up_turns ? 1.0 : 0.0}}};
   });
 }
 
@@ -134,7 +136,7 @@ std::vector<Family> rest() {
            .name = "chambers",
            .draw = draw_among_presses,
            .share = 1.0 / 3,
-           .covers = {{"aside", 0.02}, {"crushed", 0.005}, {"again", 0.0005}, {"freed", 0.002}}},
+           .covers = {{"aside", 0.02}, {"crushed", 0.005}, {"again", 0.0005}, {"freed", 0.002}, {"unnamed", 0, 1e-4}}},
           {.kind = "crowd",
            .name = "rooms",
            .draw = draw_crowd,

@@ -35,6 +35,13 @@ bool goes_aside(const Moment& m) {
          (way_of(m.record) - m.record.requested).cwiseAbs().maxCoeff() > restored;
 }
 
+/// From the air, where it neither follows ground nor climbs, and says that it met nothing.
+bool goes_aside_from_nothing(const Moment& m) {
+  const CharacterDef& character = m.header.character;
+  return goes_aside(m) && m.record.contacts.empty() && m.record.met.empty() && !m.was_grounded && !m.record.dropped &&
+         character.snap == 0 && character.step_height == 0;
+}
+
 /// By a leg straight up that takes no time, as stairs are climbed.
 bool climbs(const Moment& m) {
   constexpr double kerb = 1e-3;
@@ -91,6 +98,7 @@ constexpr std::array all{
     Happening{"again", "with something on it already",
               [](const Moment& m) { return !m.record.crushed.empty() && !m.record.start_overlap.empty(); }},
     Happening{"aside", "goes elsewhere than it wants", goes_aside},
+    Happening{"unnamed", "is in the air, goes elsewhere, and names nothing that it met", goes_aside_from_nothing},
     Happening{"stuck", "is stuck", [](const Moment& m) { return m.record.stuck; }},
     Happening{"dropped", "drops motion that it wanted", [](const Moment& m) { return m.record.dropped; }},
 };
