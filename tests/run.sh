@@ -3,13 +3,17 @@
 # undefined behaviour sanitizers, and what threads share under the thread sanitizer. The last lines are CTest's summaries.
 # The exit status is 0 only if everything was built and passed.
 #   tests/run.sh            all of it
-#   tests/run.sh --quick    only the release build, without the tests that take long (CTest's label `slow`)
+#   tests/run.sh --quick    only the release build, with a few random steps and without the tests that take long (CTest's
+#                           label `slow`)
 set -euo pipefail
 
 quick=()
 case ${1-} in
   "") ;;
-  --quick) quick=(--label-exclude '^slow$') ;;
+  --quick)
+    quick=(--label-exclude '^slow$')
+    export PAPERPROOF_GUARANTEE_STEPS=${PAPERPROOF_GUARANTEE_STEPS:-500}
+    ;;
   *)
     echo "$0: expected nothing or --quick, not $1" >&2
     exit 2
