@@ -44,8 +44,8 @@ from fractions import Fraction
 
 from trace_company import Company, places_at
 from trace_geometry import (
-    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, exact, hull, less,
-    scaled, size)
+    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, exact, less, scaled,
+    shifted, sides, size, vector)
 from trace_ground import Ground
 from trace_legs import Legs
 from trace_motion import Frame, Intent, differs
@@ -74,15 +74,14 @@ def show(point):
     return f"({float(point[0])}, {float(point[1])})"
 
 
-def vector(v):
-    return tuple(map(Fraction, v))
-
-
 class Step:
     """One record, with what the checks need of it."""
 
     def __init__(self, record, colliders, header):
         self.record, self.motion = record, Motion(record, colliders)
+        self.who, self.last = record.get("character", 0), None  # the step before of the same character
+        self.told = f"character {self.who} " if header.get("characters", 1) > 1 else ""
+        self.sampled = record.get("path_exact") is False
         self.path = exact(record["path"])
         self.contacts = record["contacts"]
         self.dt = record.get("dt", header["dt"])
@@ -98,6 +97,14 @@ class Step:
 
     def first_event(self):
         return min((event["fraction"] for event in self.contacts + self.get("met", [])), default=None)
+
+    def unjudgeable(self):
+        """What must not be before anything else can be asked."""
+        fractions = [corner[2] for corner in self.path]
+        if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
+            yield "its way does not go from fraction 0 to 1"
+        for way in self.motion.ways.values():
+            yield from way.faults()
 
     def way(self):
         return less(self.path[-1][:2], self.path[0][:2])
@@ -124,7 +131,7 @@ class Checker:
         self.company = Company(self.body)
         self.intents = [Intent(header, start) for start in header["starts"]]
         self.last = {}  # by character: the step before,
-        self.repeated = {}  # how often it has been the same,
+        self.repeated = collections.Counter()  # how often it has been the same,
         self.put = {}  # the step in which it was put where it began,
         self.sides = collections.defaultdict(dict)  # and where it was last free of what it is inside of
         self.judged = collections.Counter()
@@ -138,108 +145,78 @@ class Checker:
             self.skipped[clause, why] += 1
 
     def check(self, records):
-        """Yields (record, clause, words) of every clause that is asked for and broken."""
-        together, number, last = [], 0, None
-        for record in records:
+        """(record, clause, words) of every clause that is asked for and broken."""
+        return (fault for fault in self.faults(records) if fault[1] in self.clauses)
+
+    def faults(self, records):
+        together, record = [], None
+        for number, record in enumerate(records):
             needed = NEEDED_IN_A_STEP + (() if "refused" in record else NEEDED_UNLESS_REFUSED)
             missing = [key for key in needed if key not in record]
             if missing:
                 raise ValueError(f"step {record.get('step', 'without a number')}: no {', '.join(missing)}")
-            last = record
             if number == 0 and "movers" in record:
                 self.world.find_surfaces(record["movers"])
-            who = record.get("character", 0)
-            told = f"character {who} " if self.count > 1 else ""
             self.judged["steps"] += 1
-            if who != number % self.count or who >= len(self.intents):
-                yield record, "continuity", f"has a record of character {who} where that of {number % self.count} belongs"
+            who, due = record.get("character", 0), number % self.count
+            if who != due or who >= len(self.intents):
+                yield self.fatal(record, f"has a record of character {who} where that of {due} belongs")
                 return
-            number += 1
             if "refused" in record:
-                yield from ((record, *broken) for broken in self.check_refusal(record) if broken[0] in self.clauses)
+                yield from ((record, "refusal", words) for words in self.check_refusal(record))
                 continue
             self.judged["contacts"] += len(record["contacts"])
-            step = Step(record, self.colliders, self.header)
-            faults = list(self.check_ways(step, who))
-            yield from ((record, clause, told + words) for clause, words in faults if clause in self.clauses)
-            if any(clause == "fatal" for clause, _ in faults):
-                yield record, "continuity", told + "cannot be judged: " + "; ".join(words for _, words in faults)
+            together.append(Step(record, self.colliders, self.header))
+            words = "; ".join(together[-1].unjudgeable())
+            if words:
+                yield self.fatal(record, f"{together[-1].told}cannot be judged: {words}")
                 return
-            together.append((step, who, told))
             if len(together) == self.count:
                 yield from self.check_together(together)
                 together = []
-        if last is None:
+        if record is None:
             raise ValueError("expected a step")
-        if self.asks("continuity"):
-            yield from self.check_end(last)
+        steps, had = self.header.get("steps"), record["step"] + 1
+        if steps is not None and had != steps and not ("refused" in record and had < steps):
+            yield record, "continuity", f"is the last one, and the run has {steps} steps"
 
-    def check_end(self, last):
-        steps, had = self.header.get("steps"), last["step"] + 1
-        if steps is not None and had != steps and not ("refused" in last and had < steps):
-            yield last, "continuity", f"is the last one, and the run has {steps} steps"
-
-    def check_ways(self, step, who):
-        """What must hold before anything else can be asked."""
-        fractions = [corner[2] for corner in step.path]
-        if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
-            yield "fatal", "its way does not go from fraction 0 to 1"
-        for way in step.motion.ways.values():
-            yield from (("fatal", words) for words in way.faults())
+    def fatal(self, record, words):
+        """Nothing after it can be judged, which is said whatever is asked for."""
+        self.clauses.add("continuity")
+        return record, "continuity", words
 
     def check_together(self, together):
-        for step, who, told in together:
-            same = self.is_repeated(step, who)
-            others = [other for other, _, _ in together if other is not step]
-            for clause, words in self.check_alone(step, who, others, same):
-                if clause in self.clauses:
-                    yield step.record, clause, told + words
-        for (one, _, told), (other, _, _) in itertools.combinations(together, 2):
-            faults = list(self.company.check(one.record, other.record))
-            if self.asks("time_of_impact", "contact_invented", "normal") and not self.is_sampled(one):
-                faults += self.company.check_met(one.record, other.record, lambda record: next(
-                    step.wanted for step in (one, other) if step.record is record), lambda record, fraction: next(
-                    self.is_turned(step, fraction) for step in (one, other) if step.record is record))
-            yield from ((one.record, clause, told + words) for clause, words in faults if clause in self.clauses)
-        for step, who, _ in together:
-            self.last[who] = step
+        for step in together:
+            step.last = self.last.get(step.who)
+            others = [other for other in together if other is not step]
+            yield from ((step.record, clause, step.told + words) for clause, words in self.check_alone(step, others))
+        for one, other in itertools.combinations(together, 2):
+            faults = list(self.company.check(one, other))
+            if self.asks("time_of_impact", "contact_invented", "normal") and not one.sampled:
+                faults += self.company.check_met(one, other, self.is_turned)
+            yield from ((one.record, clause, one.told + words) for clause, words in faults)
+        self.last.update((step.who, step) for step in together)
 
-    def is_repeated(self, step, who):
+    def is_repeated(self, step):
         """Whether nothing differs from the step before, so that neither does the verdict."""
-        last = self.last.get(who)
-        same = last is not None and self.count == 1 and {**step.record, "step": 0} == {**last.record, "step": 0}
-        self.repeated[who] = self.repeated.get(who, 0) + 1 if same else 0
-        return self.repeated[who] > 1  # once more than needed: the state before was another one
+        same = step.last is not None and self.count == 1 and {**step.record, "step": 0} == {**step.last.record, "step": 0}
+        self.repeated[step.who] = self.repeated[step.who] + 1 if same else 0
+        return self.repeated[step.who] > 1  # once more than needed: the state before was another one
 
-    @staticmethod
-    def is_sampled(step):
-        return step.get("path_exact") is False
-
-    def check_alone(self, step, who, others, same):
-        last = self.last.get(who)
-        yield from self.check_start(step, who, last)
-        yield from self.check_wanted(step, who, last)
-        if self.asks("mover_way") and not same:
-            yield from (("mover_way", words) for words in self.scripts.faults(step.record, step.motion, step.path))
-        elif self.asks("mover_way"):
-            self.scripts.times(step.record)
-        yield from self.check_rest(step, last)
+    def check_alone(self, step, others):
+        same = self.is_repeated(step)
+        for check in (self.check_start, self.check_wanted, self.check_movers, self.check_rest):
+            yield from check(step, same)
         if not same:
-            yield from self.check_crush(step, who, others)
-            yield from self.check_stuck(step, who, others)
-            yield from self.check_way(step)
-            if not self.is_sampled(step):
-                yield from self.check_contacts(step, who, others)
-                yield from self.check_sensors(step)
-            yield from self.check_ground(step, last, others)
-            yield from self.check_speed(step, who, others)
-            yield from self.check_legs(step, who, others)
-        self.note_sides(step, who)
+            for check in (self.check_crush, self.check_stuck, self.check_way, self.check_contacts, self.check_sensors,
+                          self.check_ground, self.check_speed, self.check_legs):
+                yield from check(step, others)
+        self.note_sides(step)
 
     # Where a step begins, and what it wants.
 
-    def check_start(self, step, who, last):
-        start = step.path[0]
+    def check_start(self, step, _):
+        start, who, last = step.path[0], step.who, step.last
         if last is None or step.get("respawn"):
             self.put[who] = step
         if last is None or last.path[-1][:2] != start[:2]:
@@ -250,7 +227,7 @@ class Checker:
             if not size(less(start, at)) <= rounding and not step.get("respawn"):
                 yield "continuity", f"begins at {show(start)}, not where the scene puts it: {show(at)}"
         elif step.get("respawn"):
-            if not self.may_respawn(start, who, last):
+            if not self.may_respawn(start, step):
                 yield "continuity", "says that it was put back, and had not left the map"
         elif last.path[-1][:2] != start[:2]:
             yield "continuity", f"begins at {show(start)}, not where the last one ended"
@@ -263,23 +240,23 @@ class Checker:
             if now[name][0] != before[name][1]:
                 yield "continuity", f"has {name} begin elsewhere, not where it was"
 
-    def may_respawn(self, start, who, last):
+    def may_respawn(self, start, step):
         if self.header.get("mode") == "lockstep":
             return True
         box = self.header.get("respawn_box")
         if box is None:
             return False
-        left = [float(x) for x in last.path[-1][:2]]
+        left = [float(x) for x in step.last.path[-1][:2]]
         outside = max(max(box[0][k] - left[k], left[k] - box[1][k]) for k in (0, 1))
-        return outside >= LEFT_BOX * (1 - 1e-9) and start[:2] == vector(self.header["starts"][who]["position"])
+        return outside >= LEFT_BOX * (1 - 1e-9) and start[:2] == vector(self.header["starts"][step.who]["position"])
 
-    def check_wanted(self, step, who, last):
-        intent = self.intents[who]
-        if step.get("respawn") and last is not None:
-            moved = last.path[-1][:2] != step.path[0][:2]
+    def check_wanted(self, step, _):
+        intent = self.intents[step.who]
+        if step.get("respawn") and step.last is not None:
+            moved = step.last.path[-1][:2] != step.path[0][:2]
             intent.begin_anew(step.get("from", {"velocity": (0, 0)}), moved)
         elif step.get("from"):
-            intent.begin_anew(step.get("from"))
+            intent.begin_anew(step.record["from"])
         wanted = intent.wanted(step.record, step.dt, step.frame, step.gravity, step.motion, self.colliders,
                                lambda move: self.has_wall(step, move))
         step.began_grounded, step.jumped = intent.began_grounded, intent.jumping and not intent.grounded
@@ -287,7 +264,7 @@ class Checker:
             self.skip("wanted", "carried by what turns")
             step.wanted, step.steered = vector(step.record["requested"]), Fraction(step.record["steered"])
         else:
-            words = differs(wanted, step.record, self.header["scalar"], step.frame)
+            words = differs(wanted, step.record, self.header["scalar"])
             if words:
                 yield "wanted", words
             step.wanted, step.steered = vector(wanted.way), Fraction(wanted.steered)
@@ -298,7 +275,14 @@ class Checker:
         there = add(step.path[0][:2], (step.up[1] * reach, -step.up[0] * reach))
         return any(self.world.met(name, step.motion, step.path[0], (*there, ZERO)) for name in self.world.solids)
 
-    def check_rest(self, step, last):
+    def check_movers(self, step, same):
+        if self.asks("mover_way"):
+            times = self.scripts.times(step.record)
+            faults = [] if same else self.scripts.faults(times, step.motion, step.path)
+            yield from (("mover_way", words) for words in faults)
+
+    def check_rest(self, step, _):
+        last = step.last
         put = step.get("from", {}) if step.get("respawn") else {}
         step.before = put.get("velocity", last.record["velocity"] if last else None)
         if not self.asks("rest") or last is None or step.get("respawn") or step.way() == STAYS or self.count > 1:
@@ -310,29 +294,28 @@ class Checker:
 
     # The way.
 
-    def note_sides(self, step, who):
+    def note_sides(self, step):
         """Where the character was last free of what it ends inside of, as the collider sees it."""
-        sides = self.sides[who]
+        known = self.sides[step.who]
         inside = self.world.overlapped(step.motion, step.path[-1]) if self.near_anything(step) else []
-        for name in list(sides):
-            if name not in inside:
-                del sides[name]
+        for name in set(known) - set(inside):
+            del known[name]
         for name in inside:
-            if name in sides or step.motion.turns(name):
+            if name in known or step.motion.turns(name):
                 continue
             free = [corner for corner in step.path if not self.world.met(name, step.motion, corner, corner)]
             if free:
-                sides[name] = step.motion.seen(name, free[-1])
+                known[name] = step.motion.seen(name, free[-1])
 
     def near_anything(self, step):
         return any(step.motion.turns(name) or self.world.met(name, step.motion, step.path[-1], step.path[-1])
                    for name in self.world.solids)
 
-    def others_free(self, others):
-        ways = [other.path for other in others]
-        return lambda way: all(self.company.leaves_free(way, other) for other in ways)
+    def room(self, step, others):
+        return Room(self.world, step.motion, self.sides[step.who],
+                    lambda way: all(self.company.leaves_free(way, other.path) for other in others))
 
-    def check_crush(self, step, who, others):
+    def check_crush(self, step, others):
         named = step.get("crush", [])
         if not named:
             return
@@ -346,14 +329,14 @@ class Checker:
             self.skip("crush", "begins inside what turns")
             step.excused = moving
             return
-        room = Room(self.world, step.motion, self.sides[who], self.others_free(others)).find(step.path, moving)
+        room = self.room(step, others).find(step.path, moving)
         self.judged["crushes"] += 1
         if room is None or "crush" in self.clauses:  # one breach is said once
             step.excused = moving
         if room is not None:
             yield "crush", f"is crushed by {', '.join(moving)}, and has room at {show(room)}"
 
-    def check_stuck(self, step, who, others):
+    def check_stuck(self, step, others):
         if not step.get("stuck") or not self.asks("start_inside"):
             return
         start, inside = step.path[0], step.record["start_overlap"]
@@ -364,13 +347,13 @@ class Checker:
         if any(map(step.motion.goes, step.motion.first_and_last())):
             self.skip("start_inside", "among what moves")
             return
-        out = Room(self.world, step.motion, self.sides[who], self.others_free(others)).way_out(start, WAY_OUT)
+        out = self.room(step, others).way_out(start, WAY_OUT)
         if out:
             yield "start_inside", f"says that it is stuck, and there is a way out to {show(out)}"
 
-    def check_legs(self, step, who, others):
+    def check_legs(self, step, others):
         """How far and how fast it goes at most, and whether it leaves what it begins inside of at once, or is held there."""
-        if not self.asks("velocity", "start_inside") or self.is_sampled(step):
+        if not self.asks("velocity", "start_inside") or step.sampled:
             return
         inside, says_so = step.record["start_overlap"], step.get("stuck") or step.get("crush")
         if any(map(step.motion.turns, inside)):
@@ -380,7 +363,7 @@ class Checker:
         left = [name for name in inside if after[2] == 0 and not self.world.met(name, step.motion, after, after)]
         held = len(left) < len(inside)
         ends_inside = any(self.world.met(name, step.motion, step.path[-1], step.path[-1]) for name in inside)
-        characters = [other for other in others if other.record.get("character", 0) in step.get("start_overlap_characters", [])
+        characters = [other for other in others if other.who in step.get("start_overlap_characters", [])
                       and self.company.meet(step.path[-1:] * 2, other.path[-1:] * 2)]
         if ((held and ends_inside) or characters) and not says_so:
             yield "start_inside", "begins and ends inside, and does not say that it is stuck"
@@ -388,11 +371,11 @@ class Checker:
             yield "start_inside" if held else "velocity", words
         shorter = size(less(after[:2], start[:2])) - SHORTEST
         if inside and not held and shorter > 0:
-            out = Room(self.world, step.motion, self.sides[who], self.others_free(others)).way_out(start, shorter)
+            out = self.room(step, others).way_out(start, shorter)
             if out:
                 yield "start_inside", f"leaves what it begins inside of to {show(after)}, and the way to {show(out)} is shorter"
 
-    def check_way(self, step):
+    def check_way(self, step, _):
         path, motion, allowed = step.path, step.motion, step.record["start_overlap"]
         for name in allowed:
             if not self.world.met(name, motion, path[0], path[0]):
@@ -423,14 +406,13 @@ class Checker:
 
     # Contacts.
 
-    def check_contacts(self, step, who, others):
-        if not self.asks("gap", "normal", "contact_invented", "contact_missed", "time_of_impact"):
-            return
-        for contact in step.contacts:
-            yield from self.check_contact(contact, step, self.put[who])
-        yield from self.check_impacts(step, others)
+    def check_contacts(self, step, _):
+        if self.asks("gap", "normal", "contact_invented", "contact_missed", "time_of_impact") and not step.sampled:
+            for contact in step.contacts:
+                yield from self.check_contact(contact, step)
+            yield from self.check_impacts(step)
 
-    def check_contact(self, contact, step, put):
+    def check_contact(self, contact, step):
         name, n = contact["collider"], vector(contact["normal"])
         if name not in self.colliders or self.colliders[name].sensor:
             yield "contact_invented", f"has a contact with {name}, which is no solid of the scene"
@@ -442,28 +424,22 @@ class Checker:
         if not corners or not 0 <= contact["fraction"] <= 1:
             yield "contact_invented", f"has a contact with {name} at {contact['fraction']}, outside the step"
             return
-        found = [list(self.faults(contact, corner, step, put)) for corner in reversed(step.path)]
-        in_time = min(found[-len(corners):], key=self.weight)
+        found = [list(self.contact_faults(contact, corner, step)) for corner in reversed(step.path)]
+        in_time = min(found[-len(corners):], key=lambda faults: ("contact_invented" in dict(faults), len(faults)))
         if in_time and not all(found):
             yield "time_of_impact", f"has a contact with {name} at {contact['fraction']}, and comes to it later"
         else:
             yield from in_time
 
-    @staticmethod
-    def weight(faults):
-        return any(clause == "contact_invented" for clause, _ in faults), len(faults)
-
-    def faults(self, contact, corner, step, put):
-        """Of a contact, if this is the corner where the character stopped before it."""
+    def contact_faults(self, contact, corner, step):
+        """If this is the corner where the character stopped before it."""
         name, n, point = contact["collider"], vector(contact["normal"]), vector(contact["point"])
         collider, place = self.colliders[name], corner[:2]
         edges = step.motion.edges(name, collider, corner[2])
-        body = [add(place, corner) for corner in self.body]
-        sides = list(zip(body, body[1:] + body[:1]))
         # Along a side that nearly faces the character the middle of both its ends is a little off.
         if not collider.distance(point, edges) <= 10 * ROUNDING * max(1, float(collider.radius)):
             yield "contact_invented", f"has a contact point {show(point)} that is not on {name}"
-        off = min(distance(point, a, b) for a, b in sides)
+        off = min(distance(point, a, b) for a, b in sides(shifted(self.body, place)))
         if not off <= GAP + Fraction(ROUNDING):
             clause = "gap" if off <= NEARLY else "contact_invented"
             yield clause, f"has a contact point {show(point)} with {name} that is {off} m from the character"
@@ -473,10 +449,9 @@ class Checker:
             yield "gap" if 0 < gap <= NEARLY else "normal", f"is nowhere {contact['separation']} m from {name} along its normal"
         elif not self.keeps_apart(n, point, edges, collider):
             yield "normal", f"has the normal {show(n)} at {name}, which is of no face there"
-        first = put.path[0]
-        first_edges = put.motion.edges(name, collider, first[2])
-        moved = less(place, first[:2])
-        is_as_put = gap == 0 and edges == [(add(a, moved), add(b, moved)) for a, b in first_edges]
+        put = self.put[step.who]
+        moved = less(place, put.path[0][:2])
+        is_as_put = gap == 0 and edges == [tuple(shifted(edge, moved)) for edge in put.motion.edges(name, collider, ZERO)]
         if not (0 < gap <= GAP or is_as_put):
             yield "gap" if abs(gap) <= NEARLY else "normal", f"keeps a gap of {float(gap)} m at {name}"
 
@@ -488,7 +463,7 @@ class Checker:
         touched = [(a, b) for a, b in edges if distance(point, a, b) <= 10 * ROUNDING]
         return any(max(dot(n, less(end, point)) for end in edge) <= 10 * ROUNDING for edge in touched)
 
-    def check_impacts(self, step, others):
+    def check_impacts(self, step):
         """What the wanted motion meets first, and when."""
         path, record, motion = step.path, step.record, step.motion
         if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.in_parts:
@@ -578,8 +553,8 @@ class Checker:
                 instant = before if i % 2 == 0 else now
                 yield "enter" if now[0] else "exit", instant[1], instant[2]
 
-    def check_sensors(self, step):
-        if not self.asks("sensor"):
+    def check_sensors(self, step, _):
+        if not self.asks("sensor") or step.sampled:
             return
         path = step.path
         for name, collider in self.colliders.items():
@@ -604,14 +579,13 @@ class Checker:
 
     # Ground, falls and speeds.
 
-    def check_ground(self, step, last, others):
+    def check_ground(self, step, others):
         path, motion, record = step.path, step.motion, step.record
         if record["start_overlap"] or step.get("crush") or self.world.overlapped(motion, path[-1]):
             self.skip("hanging", "inside of something")
             return
-        bodies = [[add(other.path[-1][:2], p) for p in self.body] for other in others
-                  if size(less(other.path[-1][:2], path[-1][:2])) <= 2 * sum(self.company.size)]
-        edges = [edge for body in bodies for edge in zip(body, body[1:] + body[:1])]
+        edges = [edge for other in others if size(less(other.path[-1][:2], path[-1][:2])) <= 2 * sum(self.company.size)
+                 for edge in sides(shifted(self.body, other.path[-1][:2]))]
         before = path[-2]
         if record["grounded"] and self.asks("ground_invented"):
             if not self.ground.is_grounded(motion, path[-1], step.up, before, edges):
@@ -650,7 +624,7 @@ class Checker:
                     yield "ground_missed", f"touches {name}, does not leave it, and is not grounded"
                     return
 
-    def check_speed(self, step, who, others):
+    def check_speed(self, step, _):
         if not self.asks("speed_lost", "velocity"):
             return
         record, frame = step.record, step.frame
@@ -720,7 +694,7 @@ class Checker:
         far = last is not None and max(
             abs(float(x) + v * values[0]) for x, v in zip(last.path[-1][:2], last.record["velocity"])) > FARTHEST / 2
         if not bad and values[0] > 0 and not far:
-            yield "refusal", f"is refused ({record['refused']}), and nothing is wrong with it"
+            yield f"is refused ({record['refused']}), and nothing is wrong with it"
 
     def summary(self):
         told = []

@@ -5,13 +5,12 @@
 """
 import json
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-CHECKER = Path(__file__).with_name("check_trace.py")
+from judging import CHECKER, call, compare, read
 
 
 def section(readme, title):
@@ -40,13 +39,10 @@ class TypedTrace(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "box.jsonl"
             path.write_text(trace, encoding="utf-8")
-            command, checker = (
-                subprocess.run([*call, *options, path], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               check=False)
-                for call in ([COMMAND, "judge"], [sys.executable, "-B", CHECKER]))
-        named = re.findall(r"^  (\w+) on \d+ step", command.stdout, re.MULTILINE)
-        found = re.findall(r"box.jsonl: step \d+: (\w+): ", checker.stdout)
-        return (command.returncode, set(named)), (checker.returncode, set(found))
+            command, checker = (call(*judge, *options, path) for judge in ((COMMAND, "judge"), CHECKER))
+        named = re.findall(r"^  (\w+) on \d+ step", command[1], re.MULTILINE)
+        found = re.findall(r"box.jsonl: step \d+: (\w+): ", checker[1])
+        return (command[0], set(named)), (checker[0], set(found))
 
     def test_holds_every_clause(self):
         self.assertEqual(self.judged(self.trace, "--all"), ((0, set()), (0, set())))
@@ -74,14 +70,12 @@ class Arcs(unittest.TestCase):
         self.assertGreaterEqual(len(said), 2)
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "rows.jsonl"
-            subprocess.run([COMMAND, "compare", *said, "--contender", "octagon_sweep", "--no-reference", "--no-timing",
-                            "--quiet", "--rows", out, "--trace", Path(folder) / "t"], stdout=subprocess.DEVNULL, check=True)
-            found = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()[1:]]
+            compare(COMMAND, *said, "--rows", out, "--trace", Path(folder) / "t")
+            found = read(out)[1:]
             self.assertEqual({row["scene"]: f"{row['arc_error_max_m']:.2g}" for row in found}, said)
             for row in found:
                 trace = Path(folder) / f"t.{row['scene']}.octagon_sweep.double.jsonl"
-                judged = subprocess.run([COMMAND, "judge", trace], stdout=subprocess.PIPE, text=True, check=True).stdout
-                self.assertIn(f"leaves its arc by at most {row['arc_error_max_m']:.3g} m", judged)
+                self.assertIn(f"leaves its arc by at most {row['arc_error_max_m']:.3g} m", call(COMMAND, "judge", trace)[1])
 
 
 class Tables(unittest.TestCase):
@@ -91,8 +85,8 @@ class Tables(unittest.TestCase):
                          schema["$defs"]["clause"]["enum"])
 
     def test_of_exemptions_is_the_one_that_the_command_prints(self):
-        out = subprocess.run([COMMAND, "compare", "article_bullet", "--contender", "octagon_sweep", "--no-reference",
-                              "--no-timing", "--explain"], stdout=subprocess.PIPE, text=True, check=True).stdout
+        _, out, _ = call(COMMAND, "compare", "article_bullet", "--contender", "octagon_sweep", "--no-reference",
+                         "--no-timing", "--explain")
         printed = re.findall(r"^- (\w+): (.*)\. octagon_sweep in double (.*), Box2D (.*), who searches by units (.*), "
                              r"others (.*)$", out, re.MULTILINE)
         self.assertTrue(printed)

@@ -3,13 +3,13 @@
 
     judge_reads_back_test.py PAPERPROOF
 """
-import json
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+from judging import call, read
 
 # What stands, goes, turns beside its origin, turns at it, lets through from one side, is a crowd, and breaks a clause.
 SCENES = ("slope_joints", "jump_into_corner", "lift_up", "closing_ceiling", "rotating_paper", "turning_arm",
@@ -20,22 +20,22 @@ class ReadBack(unittest.TestCase):
     def test_is_judged_as_the_run_was(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            subprocess.run([COMMAND, "compare", *SCENES, "--no-timing", "--quiet", "--steps", "150", "--rows",
-                            folder / "rows.jsonl", "--trace", folder / "t"], stdout=subprocess.DEVNULL, check=True)
-            rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text(encoding="utf-8").splitlines()[1:]]
+            status, _, errors = call(COMMAND, "compare", *SCENES, "--no-timing", "--quiet", "--steps", "150", "--rows",
+                                     folder / "rows.jsonl", "--trace", folder / "t")
+            self.assertEqual(status, 0, errors)
             clauses, scenes = set(), set()
-            for row in rows:
+            for row in read(folder / "rows.jsonl")[1:]:
                 trace = folder / f"t.{row['scene']}.{row['contender']}.{row['scalar']}.jsonl"
                 if not trace.exists():
                     self.assertEqual(row["verdict"], "not_applicable")
                     continue
                 with self.subTest(trace.name):
-                    judged = subprocess.run([COMMAND, "judge", trace], stdout=subprocess.PIPE, text=True, check=False)
-                    broken = re.findall(r"^  (\w+)(?: \(not guaranteed\))? on (\d+) step", judged.stdout, re.MULTILINE)
-                    excused = re.findall(r"^  exempted: (\w+) on (\d+) step", judged.stdout, re.MULTILINE)
+                    status, said, _ = call(COMMAND, "judge", trace)
+                    broken = re.findall(r"^  (\w+)(?: \(not guaranteed\))? on (\d+) step", said, re.MULTILINE)
+                    excused = re.findall(r"^  exempted: (\w+) on (\d+) step", said, re.MULTILINE)
                     self.assertEqual({clause: int(steps) for clause, steps in broken}, row.get("broken", {}))
                     self.assertEqual({which: int(steps) for which, steps in excused}, row.get("exempted", {}))
-                    self.assertEqual(judged.returncode, 1 if row["verdict"] == "violates" else 0)
+                    self.assertEqual(status, 1 if row["verdict"] == "violates" else 0)
                     clauses.update(row.get("broken", {}))
                     scenes.add(row["scene"])
             self.assertEqual(scenes, set(SCENES))

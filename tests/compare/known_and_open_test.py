@@ -8,11 +8,12 @@ of them with PAPERPROOF_EVERY_LEVEL=1.
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+from judging import call, compare, read
 
 LONG = "long_rest"  # a million steps: it is run by the main comparison
 LEVELS = Path("/usr/share/games/supertux2/levels")
@@ -28,17 +29,15 @@ class KnownAndOpen(unittest.TestCase):
         """The clauses that octagon_sweep in double breaks, by scene. The exit status says the same."""
         with tempfile.TemporaryDirectory() as folder:
             rows = Path(folder) / "rows.jsonl"
-            done = subprocess.run([COMMAND, "compare", *arguments, "--contender", "octagon_sweep", "--no-reference",
-                                   "--no-timing", "--quiet", "--rows", rows], stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.PIPE, text=True, check=False)
-            self.assertTrue(rows.exists(), done.stderr)
-            found = [json.loads(line) for line in rows.read_text(encoding="utf-8").splitlines()[1:]]
+            status, _, errors = compare(COMMAND, *arguments, "--rows", rows)
+            self.assertTrue(rows.exists(), errors)
+            found = read(rows)[1:]
         failed = [row for row in found if row["verdict"] == "failed"]
         self.assertTrue(all(row["reason"].endswith(NO_LEVEL) for row in failed), failed)
         ran = [row for row in found if row["scalar"] == "double" and row["verdict"] not in ("not_applicable", "failed")]
         self.assertTrue(ran)
         broken = {row["scene"]: sorted(row["broken"]) for row in ran if "broken" in row}
-        self.assertEqual(done.returncode, 1 if broken else 2 if failed else 0)
+        self.assertEqual(status, 1 if broken else 2 if failed else 0)
         return broken
 
     def test_what_is_named_is_still_broken(self):
@@ -67,8 +66,7 @@ class KnownAndOpen(unittest.TestCase):
         self.assertEqual(self.broken(*levels, "--keep-going"), named)
 
     def test_nothing_else_is_broken(self):
-        listed = subprocess.run([COMMAND, "list", "scenes"], capture_output=True, text=True, check=True).stdout
-        scenes = [line.split()[0] for line in listed.splitlines() if line.strip()]
+        scenes = [line.split()[0] for line in call(COMMAND, "list", "scenes")[1].splitlines() if line.strip()]
         scenes.remove(LONG)
         named = {entry["compare"][0]: sorted(entry["clauses"]) for entry in self.known["commands"]
                  if entry["compare"][0] in scenes and len(entry["compare"]) == 1}
@@ -77,9 +75,8 @@ class KnownAndOpen(unittest.TestCase):
     def test_lies_that_are_believed_are_named(self):
         for lie in self.known["lies"]:
             with self.subTest(lie["trace"]):
-                done = subprocess.run([COMMAND, "judge", Path(KNOWN).parent / lie["trace"]], capture_output=True, text=True,
-                                      check=False)
-                self.assertEqual(done.returncode, 0, "it is found: it belongs to tests/compare/lies\n" + done.stdout)
+                status, said, _ = call(COMMAND, "judge", Path(KNOWN).parent / lie["trace"])
+                self.assertEqual(status, 0, "it is found: it belongs to tests/compare/lies\n" + said)
         named = {Path(lie["trace"]).name for lie in self.known["lies"]}
         self.assertEqual(named, {file.name for file in (Path(KNOWN).parent / "known_and_open/lies").glob("*")})
 

@@ -7,10 +7,11 @@ honest and were accused once: they hold.
 lies/*.json say of each what must be named. One whose name begins with scene_ is judged with the scene of its header.
 """
 import json
-import subprocess
 import sys
 import unittest
 from pathlib import Path
+
+from judging import call, read
 
 LIES = Path(__file__).parent / "lies"
 
@@ -22,17 +23,13 @@ class Lies(unittest.TestCase):
         for name, clause in sorted(expected.items()):
             with self.subTest(name):
                 file = LIES / f"{name}.jsonl"
-                arguments = [COMMAND, "judge", file]
-                if name.startswith("scene_"):
-                    with file.open(encoding="utf-8") as lines:
-                        arguments += ["--scene", json.loads(next(lines))["scene"]]
-                done = subprocess.run(arguments, capture_output=True, text=True, check=False)
-                said = done.stdout + done.stderr
-                self.assertEqual(done.returncode, {"status 2": 2, "holds": 0}.get(clause, 1), said)
-                if done.returncode == 1:
-                    self.assertIn(f"\n  {clause} on ", said)
-                elif done.returncode == 2:
-                    self.assertEqual(len(said.splitlines()), 1, said)
+                scene = ("--scene", read(file)[0]["scene"]) if name.startswith("scene_") else ()
+                status, out, errors = call(COMMAND, "judge", file, *scene)
+                self.assertEqual(status, {"status 2": 2, "holds": 0}.get(clause, 1), out + errors)
+                if status == 1:
+                    self.assertIn(f"\n  {clause} on ", out)
+                elif status == 2:
+                    self.assertEqual(len((out + errors).splitlines()), 1, out + errors)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,10 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 from urllib.parse import quote
+
+from judging import read, write
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 CONTENDERS = "mask,penetration_resolution,octagon_sweep"
@@ -119,11 +122,6 @@ class Browser:
         return seen
 
 
-def rows_of(name):
-    with open(name, encoding="utf-8") as file:
-        return [json.loads(line) for line in file][1:]
-
-
 def check_pictures(seen, swept, precise):
     """Charts and heat maps against the rows."""
     curves = [row for row in precise if "curve" in row]
@@ -215,14 +213,12 @@ def check_replays_of_cells(browser, swept):
 def write_replays(command):
     """A page with events of every kind, steps of different lengths, and texts that try to break out of it."""
     run(command, "convert", "closing_ceiling", "hostile.json")
-    with open("hostile.json", encoding="utf-8") as file:
-        hostile = json.load(file)
+    hostile = json.loads(Path("hostile.json").read_text(encoding="utf-8"))
     hostile["name"] = hostile["movers"][0]["id"] = HOSTILE
     slow = {"paperproof_scene": 1, "name": "slow", "gravity": [0, 0], "dt": 1, "dt_list": [1 / 64, 100], "steps": 2,
             "character": {"position": [0, 1], "velocity": [0.01, 0]}, "scenery": [{"chain": [[-4, 0], [4, 0]]}]}
-    for name, scene in (("hostile.json", hostile), ("slow.json", slow)):
-        with open(name, "w", encoding="utf-8") as file:
-            json.dump(scene, file)
+    write("hostile.json", [hostile])
+    write("slow.json", [slow])
     some = ("--quiet", "--no-timing", "--contender", "mask,octagon_sweep,box2d")
     run(command, "compare", "article_bullet", "sensor_gate", "characters_head_on", "one_way_drop", "slow.json",
         "hostile.json", *some, "--report", "several.html")
@@ -298,7 +294,7 @@ def main():
         "phase=0,0.2,0.5", *some, "--rows", "s.jsonl")
     run(command, "work-precision", "bullet", *some, "--rows", "w.jsonl")
     run(command, "report", "all.html", "m.html", "s.jsonl", "w.jsonl")
-    compared, swept, precise = (rows_of(name) for name in ("m.jsonl", "s.jsonl", "w.jsonl"))
+    compared, swept, precise = (read(name)[1:] for name in ("m.jsonl", "s.jsonl", "w.jsonl"))
     write_replays(command)
     browser = Browser(program)
     try:

@@ -1,7 +1,7 @@
 """Several characters in a trace, for check_trace.py: where they come to overlap, and whether they say so."""
 from fractions import Fraction
 
-from trace_geometry import GAP, GRAZING, NEAR_PASS, ZERO, add, dot, enters, exact, hull, less, scaled, size
+from trace_geometry import GAP, GRAZING, NEAR_PASS, ZERO, add, between, dot, enters, hull, less, scaled, size, vector
 
 
 def places_at(way, t):
@@ -11,8 +11,7 @@ def places_at(way, t):
         return corners
     before = max(i for i, corner in enumerate(way) if corner[2] < t)
     a, b = way[before], way[before + 1]
-    share = (t - a[2]) / (b[2] - a[2])
-    return [add(a[:2], scaled(less(b, a), share))]
+    return [between(a[:2], b[:2], (t - a[2]) / (b[2] - a[2]))]
 
 
 def parts(one, other):
@@ -53,61 +52,52 @@ class Company:
         return not any(self.meet(*part) for part in parts(way, other))
 
     def check(self, one, other):
-        """Two records of one step: (clause, words)."""
-        i, j = one["character"], other["character"]
-        mine, theirs = exact(one["path"]), exact(other["path"])
-        overlapped = self.meet((mine[0], mine[0]), (theirs[0], theirs[0]))
-        for a, b in ((one, j), (other, i)):
-            if (b in a.get("start_overlap_characters", [])) != overlapped:
-                yield "continuity", f"and character {j}: {a['character']} says {not overlapped} of an overlap at the start"
+        """Two steps at the same time: (clause, words)."""
+        mine, theirs = one.path, other.path
+        overlapped = self.meet(mine[:1] * 2, theirs[:1] * 2)
+        for a, b in ((one, other), (other, one)):
+            if (b.who in a.get("start_overlap_characters", [])) != overlapped:
+                yield "continuity", f"and character {other.who}: {a.who} says {not overlapped} of an overlap at the start"
         if overlapped:
             return
         if one.get("path_exact") is False:
             mine, theirs = [mine[0], mine[-1]], [theirs[0], theirs[-1]]
-        if self.meet((mine[-1], mine[-1]), (theirs[-1], theirs[-1])):
-            yield "overlap", f"and character {j} come to overlap or pass through each other"
+        if self.meet(mine[-1:] * 2, theirs[-1:] * 2):
+            yield "overlap", f"and character {other.who} come to overlap or pass through each other"
         elif not self.leaves_free(mine, theirs):
-            yield "passage", f"and character {j} come to overlap or pass through each other"
+            yield "passage", f"and character {other.who} come to overlap or pass through each other"
 
-    def check_met(self, one, other, wanted, is_turned):
-        """What two say of how they met. `wanted(step)`: the displacement, or None. `is_turned(step, fraction)`: something
-        may have turned it aside before."""
-        j = other["character"]
-        of_one = [met for met in one.get("met", []) if met["character"] == j]
-        of_other = [met for met in other.get("met", []) if met["character"] == one["character"]]
+    def check_met(self, one, other, is_turned):
+        """What two say of how they met. `is_turned(step, fraction)`: something may have turned it aside before."""
+        of_one, of_other = ([met for met in a.get("met", []) if met["character"] == b.who]
+                            for a, b in ((one, other), (other, one)))
         if [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
                 (met["normal"], met["fraction"]) for met in of_other]:
-            yield "contact_invented", f"and character {j} do not say the same of how they met"
+            yield "contact_invented", f"and character {other.who} do not say the same of how they met"
             return
         for met in of_one:
-            n = tuple(map(Fraction, met["normal"]))
+            n = vector(met["normal"])
             if abs(met["normal"][0] ** 2 + met["normal"][1] ** 2 - 1) > 1e-12:
-                yield "normal", f"has a normal that is no unit vector at character {j}"
-            moments = [(m[k], t[k]) for m, t in parts(exact(one["path"]), exact(other["path"])) for k in (0, 1)]
+                yield "normal", f"has a normal that is no unit vector at character {other.who}"
+            moments = [(m[k], t[k]) for m, t in parts(one.path, other.path) for k in (0, 1)]
             gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
             if not any(0 < gap <= GAP for gap in gaps):
-                yield "contact_invented", (f"and character {j} have met, and at no corner are within 1e-6 m: "
+                yield "contact_invented", (f"and character {other.who} have met, and at no corner are within 1e-6 m: "
                                            f"{[float(gap) for gap in gaps]}")
-                continue
-            ways = wanted(one), wanted(other)
-            if None not in ways and not is_turned(one, met["fraction"]) and not is_turned(other, met["fraction"]):
-                yield from self.check_impact(one, other, met, *ways)
+            elif not is_turned(one, met["fraction"]) and not is_turned(other, met["fraction"]):
+                yield from self.check_impact(one, other, n, Fraction(met["fraction"]))
 
-    def check_impact(self, one, other, met, mine_wanted, theirs_wanted):
-        n, t = tuple(map(Fraction, met["normal"])), Fraction(met["fraction"])
-        mine, theirs = (tuple(map(Fraction, step["path"][0][:2])) for step in (one, other))
-        relative = less(mine_wanted, theirs_wanted)
-        along = -dot(n, relative)
-        if along <= GRAZING * size(relative):
+    def check_impact(self, one, other, n, t):
+        along = -dot(n, less(one.wanted, other.wanted))
+        if along <= GRAZING * size(less(one.wanted, other.wanted)):
             return  # what holds one of them, a micrometre away, turns it into the other
         slack = GAP / along
 
         def meet_until(time, wide=ZERO):
-            reach = scaled(n, -wide)
-            return self.meet((mine, add(add(mine, scaled(mine_wanted, time)), reach)),
-                             (theirs, add(theirs, scaled(theirs_wanted, time))))
+            mine, theirs = ((step.path[0][:2], add(step.path[0][:2], scaled(step.wanted, time))) for step in (one, other))
+            return self.meet((mine[0], add(mine[1], scaled(n, -wide))), theirs)
 
         if t > slack and meet_until(t - slack):
-            yield "time_of_impact", f"meets character {met['character']} earlier than at {float(t)} of the step"
+            yield "time_of_impact", f"meets character {other.who} earlier than at {float(t)} of the step"
         if not meet_until(t + slack, NEAR_PASS):
-            yield "time_of_impact", f"does not meet character {met['character']} by {float(t)} of the step"
+            yield "time_of_impact", f"does not meet character {other.who} by {float(t)} of the step"

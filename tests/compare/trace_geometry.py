@@ -10,8 +10,28 @@ GRAZING = 1e-3  # an approach of less than this part of the relative motion graz
 ZERO = Fraction(0)
 
 
+def vector(v):
+    return tuple(map(Fraction, v))
+
+
 def exact(points):
-    return [tuple(map(Fraction, point)) for point in points]
+    return list(map(vector, points))
+
+
+def sides(ring):
+    return list(zip(ring, ring[1:] + ring[:1]))
+
+
+def shifted(points, by):
+    return [add(point, by) for point in points]
+
+
+def between(start, end, share):
+    return tuple(a + share * (b - a) for a, b in zip(start, end))
+
+
+def middle_of(points):
+    return (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
 
 
 def add(a, b):
@@ -45,7 +65,7 @@ def hull(points):
 def enters(a, b, convex):
     """Whether the segment a b has a point strictly inside a counter-clockwise convex polygon."""
     first, last = ZERO, Fraction(1)
-    for u, v in zip(convex, convex[1:] + convex[:1]):
+    for u, v in sides(convex):
         at_a, at_b = turn(u, v, a), turn(u, v, b)
         if at_a <= 0 and at_b <= 0:
             return False
@@ -60,19 +80,15 @@ def enters(a, b, convex):
 
 def inside(point, rings):
     """Whether a point that is on no edge lies inside an odd number of rings."""
-    odd = False
-    for ring in rings:
-        for a, b in zip(ring, ring[1:] + ring[:1]):
-            if (a[1] > point[1]) != (b[1] > point[1]) and (turn(a, b, point) > 0) == (b[1] > a[1]):
-                odd = not odd
-    return odd
+    return sum((a[1] > point[1]) != (b[1] > point[1]) and (turn(a, b, point) > 0) == (b[1] > a[1])
+               for ring in rings for a, b in sides(ring)) % 2 == 1
 
 
 def is_near(point, convex, radius):
     """Whether a point is inside a counter-clockwise convex polygon, or nearer to it than a radius."""
-    if all(turn(u, v, point) > 0 for u, v in zip(convex, convex[1:] + convex[:1])):
+    if all(turn(u, v, point) > 0 for u, v in sides(convex)):
         return True
-    ways = (way_from_segment(point, a, b) for a, b in zip(convex, convex[1:] + convex[:1]))
+    ways = (way_from_segment(point, a, b) for a, b in sides(convex))
     return any(dot(way, way) < radius * radius for way in ways)
 
 
@@ -82,7 +98,7 @@ def circle_crossings(start, way, body, centre, radius):
     if length == 0:
         return
     r, along = float(radius), [float(k) / length for k in way]
-    for a, b in zip(body, body[1:] + body[:1]):
+    for a, b in sides(body):
         arm = [float(k) for k in less(centre, add(start, a))]
         foot, aside = arm[0] * along[0] + arm[1] * along[1], arm[0] * along[1] - arm[1] * along[0]
         if abs(aside) <= r:
@@ -98,8 +114,7 @@ def circle_crossings(start, way, body, centre, radius):
 def crossings(start, way, body, edges):
     """Where on a straight way a corner of the body meets an edge, or an end of an edge one of the body."""
     pairs = [(add(start, corner), a, b, way) for corner in body for a, b in edges]
-    sides = [(add(start, a), add(start, b)) for a, b in zip(body, body[1:] + body[:1])]
-    pairs += [(end, a, b, scaled(way, -1)) for edge in edges for end in edge for a, b in sides]
+    pairs += [(end, a, b, scaled(way, -1)) for edge in edges for end in edge for a, b in sides(shifted(body, start))]
     for point, a, b, moved in pairs:
         along = less(b, a)
         speed = moved[1] * along[0] - moved[0] * along[1]

@@ -8,7 +8,7 @@ direction, for what it wants, is what it wants projected onto that direction.
 from fractions import Fraction
 from math import cos, hypot, inf, nextafter, radians
 
-from trace_geometry import GAP, ZERO, add, dot, enters, hull, less, scaled, size
+from trace_geometry import GAP, ZERO, add, dot, enters, hull, less, scaled, shifted, sides, size
 from trace_world import wider
 
 GROUND = 7.01e-7  # farther away nothing holds [m]
@@ -27,14 +27,13 @@ class Ground:
     def supports(self, motion, corner, up, before=None, others=()):
         """(collider, unit normal, how much that is along up, gap) of what is right under the body; `others`: edges of other
         characters. One-way chains hold from the corner, or from the one before."""
-        places = [add(corner[:2], point) for point in self.world.body]
-        sides = list(zip(places, places[1:] + places[:1]))
+        places = shifted(self.world.body, corner[:2])
         edges = list(self.world.edges_near(motion, corner, NEAR)) + [(None, edge) for edge in others]
         for name, (a, b) in edges:
             if name and not self.holds(name, (a, b), motion, [corner, before or corner]):
                 continue
             normals = [(end[1] - start[1], start[0] - end[0]) for start, end in [(a, b), (b, a)]]
-            normals += [(u[1] - v[1], v[0] - u[0]) for u, v in sides]  # into the body
+            normals += [(u[1] - v[1], v[0] - u[0]) for u, v in sides(places)]  # into the body
             for n in normals:
                 length = size(n)
                 if length == 0 or float(dot(n, up)) <= 1e-9 * length:
@@ -43,7 +42,7 @@ class Ground:
                 if not -1e-10 <= gap <= float(GAP) * 1.01:
                     continue
                 down = scaled(n, -Fraction(1.5e-6) / Fraction(length))
-                if enters(a, b, hull(places + [add(p, down) for p in places])):
+                if enters(a, b, hull(places + shifted(places, down))):
                     yield name, scaled(n, 1 / Fraction(length)), float(dot(n, up)) / length, gap
 
     def holds(self, name, edge, motion, corners):
@@ -54,8 +53,8 @@ class Ground:
             return False
         for corner in corners:
             seen, offset = motion.seen(name, corner), motion.offset(name, corner[2])
-            blocking = collider.blocking_edges([add(seen, point) for point in self.world.body])
-            if any({add(a, offset), add(b, offset)} == set(edge) for a, b in blocking):
+            blocking = collider.blocking_edges(shifted(self.world.body, seen))
+            if any(set(shifted(ends, offset)) == set(edge) for ends in blocking):
                 return True
         return False
 
@@ -75,22 +74,19 @@ class Ground:
         if others or any(motion.goes(name) for corner in path for name, _ in self.world.edges_near(motion, corner, reach)):
             return None
         corners = [corner for k, corner in enumerate(path) if k == 0 or corner[:2] != path[k - 1][:2]]
-        for before, corner in zip([path[0]] + corners, corners):
-            if any(along >= self.walkable for *_, along, _ in self.supports(motion, corner, up, before)):
-                return False
-        for way in self.directions(motion, corners, unsteered, up):
-            could = -float(dot(way, up))
-            if could > least and fell < could / 2 and all(self.is_open(motion, corner, way, dropped) for corner in corners):
-                return True
-        return False
+        if any(along >= self.walkable for before, corner in zip([path[0]] + corners, corners)
+               for *_, along, _ in self.supports(motion, corner, up, before)):
+            return False
+        falls = ((-float(dot(way, up)), way) for way in self.directions(motion, corners, unsteered, up))
+        return any(could > least and fell < could / 2 and all(self.is_open(motion, corner, way, dropped) for corner in corners)
+                   for could, way in falls)
 
     def directions(self, motion, corners, unsteered, up):
         """Ways that lead down: what is wanted, as far as it goes along each direction."""
         yield unsteered
         edges = [edge for corner in corners for _, edge in self.world.edges_near(motion, corner, NEAR)]
-        body = list(self.world.body)
         seen = set()
-        for a, b in edges + list(zip(body, body[1:] + body[:1])):
+        for a, b in edges + sides(self.world.body):
             along = less(b, a)
             if along == (ZERO, ZERO):
                 continue

@@ -4,6 +4,7 @@ The law: the speed across up comes nearer to what the input asks for by accelera
 that is allowed sets the speed along up. Gravity is added, the fall limited, and the way is the speed times dt. Whoever
 rides something does all of that relative to it, and goes along besides.
 """
+from collections import namedtuple
 from math import cos, hypot, radians, tan, ulp
 
 from trace_geometry import less
@@ -31,10 +32,9 @@ class Frame:
         return (across * self.y + rise * self.x, rise * self.y - across * self.x)
 
 
-class Wanted:
-    def __init__(self, way, steered, size):
-        self.way, self.steered = way, steered  # [m]; the part of the way across up that steering added
-        self.size = size  # of the largest of the numbers that it was computed from [m]
+# In metres; `steered`: the part of the way across up that steering added; `size`: of the largest of the numbers that it was
+# computed from.
+Wanted = namedtuple("Wanted", "way steered size")
 
 
 class Intent:
@@ -159,19 +159,14 @@ class Intent:
         self.sides = {contact["side"] for contact in step["contacts"]}
         self.ride = step.get("ride")
         self.left_ground = not self.ride and any(step.get("ground_velocity", (0, 0)))
-        change = motion.change(self.ride["collider"]) if self.ride else (0, 0)
-        self.carrier = tuple(float(x) / dt for x in change)
+        self.carrier = tuple(float(x) / dt for x in (motion.change(self.ride["collider"]) if self.ride else (0, 0)))
 
 
-def rounding(wanted, scalar):
-    """How far two answers may differ by rounding alone [m]."""
-    return (1e-5 if scalar == "float" else 2e-12) * wanted.size + 1e-300
-
-
-def differs(wanted, step, scalar, frame):
-    """In words, where the step says that it was asked for something else."""
-    if hypot(*less(wanted.way, step["requested"])) > rounding(wanted, scalar):
+def differs(wanted, step, scalar):
+    """In words, where the step says that it was asked for something else, by more than rounding."""
+    rounding = (1e-5 if scalar == "float" else 2e-12) * wanted.size + 1e-300
+    if hypot(*less(wanted.way, step["requested"])) > rounding:
         return f"wanted to go {tuple(wanted.way)}, and says {tuple(step['requested'])}"
-    if abs(wanted.steered - step["steered"]) > rounding(wanted, scalar):
+    if abs(wanted.steered - step["steered"]) > rounding:
         return f"was steered by {wanted.steered} m, and says {step['steered']}"
     return None

@@ -5,9 +5,9 @@ Chains of equal `one_way` that stand, or are of one mover, are joined where one 
 is a surface: its end segments go on straight. A body is above where its open interior is wholly on the `one_way` side of
 that line; then, and only then, every real segment of the part is in its way.
 """
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 
-from trace_geometry import ZERO, hull, less, turn
+from trace_geometry import ZERO, hull, less, sides, turn
 
 
 def across(v, one_way):
@@ -30,26 +30,19 @@ class Surface:
         """Of a convex body, by its corners. Between two vertices the line is straight, and so is the rim of a body."""
         if any(turn(*self.edge_at(across(corner, self.one_way)), corner) < 0 for corner in body):
             return False
-        body = hull(body)
-        sides = list(zip(body, body[1:] + body[:1]))
-        rim = [(a, b) for a, b in sides if across(less(b, a), self.one_way) > 0]
+        rim = [(a, b) for a, b in sides(hull(body)) if across(less(b, a), self.one_way) > 0]
         places = [across(corner, self.one_way) for corner in body]
-        first = bisect_left(self.places, min(places), 1, len(self.line) - 1)
-        for i in range(first, len(self.line) - 1):
-            if self.places[i] >= max(places):
-                break
-            if self.places[i] > min(places) and all(turn(a, b, self.line[i]) > 0 for a, b in rim):
-                return False
-        return True
+        first, last = (bisect(self.places, end, 1, len(self.line) - 1)
+                       for bisect, end in ((bisect_right, min(places)), (bisect_left, max(places))))
+        return not any(all(turn(a, b, vertex) > 0 for a, b in rim) for vertex in self.line[first:last])
 
 
 def lines_of(ring, one_way):
     """The lines of a one-way polygon: the runs of its edges that face where `one_way` points, by their corners."""
-    doubled_area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
-    if doubled_area < 0:
+    if sum(a[0] * b[1] - a[1] * b[0] for a, b in sides(ring)) < 0:
         ring = ring[::-1]
     # Counter-clockwise a face is on the right: `across` descends where it faces along `one_way`.
-    edges = [(a, b, across(less(b, a), one_way) < 0) for a, b in zip(ring, ring[1:] + ring[:1])]
+    edges = [(a, b, across(less(b, a), one_way) < 0) for a, b in sides(ring)]
     start = next(i for i, (*_, faces) in enumerate(edges) if not faces)
     lines, before = [], False
     for a, b, faces in edges[start:] + edges[:start]:

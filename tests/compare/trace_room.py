@@ -10,9 +10,10 @@ between two crossings, and a fan. They are guessed in doubles, and each is tried
 that there is room. None found is no proof that there is none.
 """
 from fractions import Fraction
+from itertools import islice
 from math import cos, hypot, pi, sin
 
-from trace_geometry import ZERO, add, hull, less
+from trace_geometry import ZERO, add, between, hull, less, sides, vector
 from trace_world import wider
 
 BEYOND = 0.25  # how far may be pushed beyond the crusher's own motion [m]
@@ -36,7 +37,7 @@ def crossing(a, b, c, d):
 
 def is_in(point, convex):
     return all((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) > 1e-12
-               for a, b in zip(convex, convex[1:] + convex[:1]))
+               for a, b in sides(convex))
 
 
 def guesses(world, motion, at, reach):
@@ -48,8 +49,7 @@ def guesses(world, motion, at, reach):
         # Around nothing larger than the reach: what lies beyond does not matter, and doubles are fine near zero.
         taken.append([tuple(map(float, p)) for p in hull([less(end, corner) for end in ends for corner in body])])
     rims = [(ring[k - 1], ring[k]) for ring in taken for k in range(len(ring))]
-    found = [(0.0, 0.0)]
-    found += [(d * reach * cos(2 * pi * k / FAN), d * reach * sin(2 * pi * k / FAN)) for k in range(FAN) for d in STRIDES]
+    found = [(0.0, 0.0)] + [(d * reach * cos(2 * pi * k / FAN), d * reach * sin(2 * pi * k / FAN)) for k in range(FAN) for d in STRIDES]
     for i, (a, b) in enumerate(rims):
         along = (b[0] - a[0], b[1] - a[1])
         length = along[0] ** 2 + along[1] ** 2
@@ -85,45 +85,35 @@ class Room:
         first, last = ZERO, Fraction(1)
         for _ in range(40):
             middle = (first + last) / 2
-            there = tuple(a + middle * (b - a) for a, b in zip(corner, following))
+            there = between(corner, following, middle)
             if any(self.world.met(name, self.motion, corner, there) is not False for name in crushers):
                 last = middle
             else:
                 first = middle
-        return tuple(a + first * (b - a) for a, b in zip(corner, following)) if first else None
+        return between(corner, following, first) if first else None
 
     def find(self, path, crushers):
         """The end of a way, or None."""
         reach = max(self.motion.longest(name) for name in crushers) + BEYOND
-        for so_far in self.starts(path, crushers):
-            start = so_far[-1]
-            # Each wider body begins where the body is: what it overlaps there it need not be clear of.
-            body = wider(self.world.body, CLEAR)
-            inside = self.world.overlapped(self.motion, start)
-            close = self.world.overlapped(self.motion, start, body)
-            tried = 0
-            for d in guesses(self.world, self.motion, (*start[:2], Fraction(1)), reach):
-                there = (start[0] + Fraction(d[0]), start[1] + Fraction(d[1]), Fraction(1))
-                if hypot(*map(float, less(there[:2], path[-1][:2]))) > reach:
-                    continue
-                tried += 1
-                if self.is_room(start, there, inside, close, body) and self.others_free(so_far + [there]):
-                    return there
-                if tried == MOST_TRIED:
-                    break
-        return None
+        ends = (self.straight(so_far, Fraction(1), reach, path[-1]) for so_far in self.starts(path, crushers))
+        return next(filter(None, ends), None)
 
-    def way_out(self, start, reach):
-        """The end of a straight way out of what is overlapped at a corner, as things are then; or None."""
-        there = (*start[:2], start[2])
+    def straight(self, so_far, until, reach, around=None):
+        """The end of a free straight way from the last of the corners so far, at that fraction, or None; with `around` it is
+        no farther than the reach from there."""
+        start = so_far[-1]
+        # Each wider body begins where the body is: what it overlaps there it need not be clear of.
         body = wider(self.world.body, CLEAR)
         inside = self.world.overlapped(self.motion, start)
         close = self.world.overlapped(self.motion, start, body)
-        for d in guesses(self.world, self.motion, there, reach)[:MOST_TRIED]:
-            end = (start[0] + Fraction(d[0]), start[1] + Fraction(d[1]), start[2])
-            if self.is_room(start, end, inside, close, body) and self.others_free([start, end]):
-                return end
-        return None
+        ends = ((*add(start[:2], vector(d)), until) for d in guesses(self.world, self.motion, (*start[:2], until), reach))
+        near = (end for end in ends if not around or hypot(*map(float, less(end[:2], around[:2]))) <= reach)
+        return next((end for end in islice(near, MOST_TRIED) if self.is_room(start, end, inside, close, body)
+                     and self.others_free(so_far + [end])), None)
+
+    def way_out(self, start, reach):
+        """The end of a straight way out of what is overlapped at a corner, as things are then; or None."""
+        return self.straight([start], start[2], reach)
 
     def is_room(self, start, there, inside, close, body):
         world, motion = self.world, self.motion

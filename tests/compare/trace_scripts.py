@@ -33,6 +33,12 @@ def value_at(entries, time, loop):
     return a["at"] + share * (b["at"] - a["at"]), rounds
 
 
+def angle_at(mover, time):
+    turns = mover.get("turns") or [{"t": 0, "at": 0}]
+    angle, rounds = value_at(turns, time, mover["loop"])
+    return angle + rounds * (turns[-1]["at"] - turns[0]["at"])
+
+
 class Scripts:
     def __init__(self, header, world):
         self.movers = header.get("movers", [])
@@ -41,7 +47,7 @@ class Scripts:
         box = world.box_of(world.body)
         self.extent = hypot(*(high - low for low, high in box))
         self.farthest = max(size(corner) for corner in world.body)
-        self.dt, self.begins, self.step = header["dt"], 0.0, -1
+        self.dt, self.begins, self.length, self.step = header["dt"], 0.0, 0.0, -1
         self.float = header["scalar"] == "float"
 
     def times(self, step):
@@ -54,16 +60,10 @@ class Scripts:
         self.length = step["dt"]
         return self.begins, self.begins + step["dt"]
 
-    length = 0.0
-
-    def faults(self, step, motion, path):
-        begin, end = self.times(step)
-        told = set()
+    def faults(self, times, motion, path):
+        begin, end = times
         for mover in self.movers:
-            told.update(mover["colliders"])
-            if mover.get("body"):
-                continue  # Box2D moves it
-            for name in mover["colliders"]:
+            for name in mover["colliders"] if not mover.get("body") else ():  # that Box2D moves
                 if motion.turns(name):
                     yield from self.turned(mover, name, motion, begin, end, path)
                 elif name in motion.ends:
@@ -74,6 +74,7 @@ class Scripts:
                             yield f"has {name} {off} m from where its script has it at {time} s"
                 else:
                     yield f"has no place of {name}, which goes by a script"
+        told = {name for mover in self.movers for name in mover["colliders"]}
         for name in motion.first_and_last():
             if name not in told:
                 yield f"moves {name}, of which there is no script"
@@ -83,11 +84,7 @@ class Scripts:
 
     def pose(self, mover, time, point):
         at, _ = value_at(mover["path"], time, mover["loop"])
-        turns = mover.get("turns")
-        if not turns:
-            return [float(p) + x for p, x in zip(point, at)]
-        angle, rounds = value_at(turns, time, mover["loop"])
-        angle += rounds * (turns[-1]["at"] - turns[0]["at"])
+        angle = angle_at(mover, time)
         x, y = map(float, point)
         return [x * cos(angle) - y * sin(angle) + at[0], x * sin(angle) + y * cos(angle) + at[1]]
 
@@ -95,10 +92,7 @@ class Scripts:
         """Poses at both ends. In between a vertex may leave its arc: what is near a character turns at once, about a point
         near it, by a small angle, and then goes straight."""
         way, points = motion.ways[name], self.colliders[name].points
-        turns = mover.get("turns") or [{"t": 0, "at": 0}]
-        angles = [angle + rounds * (turns[-1]["at"] - turns[0]["at"])
-                  for angle, rounds in (value_at(turns, time, mover["loop"]) for time in (begin, end))]
-        turn = abs(angles[1] - angles[0])
+        turn = abs(angle_at(mover, end) - angle_at(mover, begin))
         is_near = self.world.met(name, motion, path[0], path[0], self.near) is not False
         at_once = min(turn, max(AT_ONCE / self.extent, turn / PARTS)) if is_near else turn
         for share in [0, 1] + [k / SAMPLES for k in range(1, SAMPLES)]:

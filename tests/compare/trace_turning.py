@@ -7,7 +7,8 @@ from bisect import bisect_right
 from collections import deque
 from fractions import Fraction
 
-from trace_geometry import ZERO, add, enters, exact, hull, inside, is_near, less, scaled, size, turn
+from trace_geometry import (
+    ZERO, add, between, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, turn)
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
 MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60
@@ -40,7 +41,7 @@ class Way:
         """All vertices at a moment."""
         k = min(bisect_right(self.instants, fraction), len(self.instants) - 1) - 1
         share = (fraction - self.instants[k]) / (self.instants[k + 1] - self.instants[k])
-        return [add(a, scaled(less(b, a), share)) for a, b in zip(self.vertices[k], self.vertices[k + 1])]
+        return [between(a, b, share) for a, b in zip(self.vertices[k], self.vertices[k + 1])]
 
     def edges(self, fraction):
         return self.collider.edges_of(self.at(fraction))
@@ -59,21 +60,12 @@ class Way:
         return [less(vertex, corner[:2]) for vertex in self.at(corner[2])]
 
 
-def middle_of(body):
-    return (sum(p[0] for p in body) / len(body), sum(p[1] for p in body) / len(body))
-
-
-def between(start, end, share):
-    return tuple(a + share * (b - a) for a, b in zip(start, end))
-
-
 def overlaps(way, vertices, body):
     """Whether the body overlaps the collider, as it sees its vertices at one moment."""
     if way.collider.radius:
         return is_near(vertices[0], body, way.collider.radius)
-    if any(enters(a, b, body) for a, b in way.collider.edges_of(vertices)):
-        return True
-    return inside(middle_of(body), way.collider.rings_of(vertices))
+    return any(enters(a, b, body) for a, b in way.collider.edges_of(vertices)) or inside(
+        middle_of(body), way.collider.rings_of(vertices))
 
 
 def cross(a, b):
@@ -93,7 +85,7 @@ def stays_right(first, last, corner):
 def keeps_apart(first, last, body):
     """Whether one line separates the body from an edge all the time: along a side of the body, or along the edge."""
     ends = first + last
-    if any(all(turn(u, v, end) <= 0 for end in ends) for u, v in zip(body, body[1:] + body[:1])):
+    if any(all(turn(u, v, end) <= 0 for end in ends) for u, v in sides(body)):
         return True
     if first[0] == first[1] and last[0] == last[1]:
         return False
@@ -109,12 +101,10 @@ def may_meet(way, first, last, body):
 
 def comes_to_overlap(way, body, start, end):
     """Whether the body overlaps the collider at any moment of a leg; None where that is too close to tell."""
-    parts, close = deque(), False
-    for first, last in way.stretches(start, end):
-        corners = between(start, end, first), between(start, end, last)
-        parts.append((way.seen(corners[0]), way.seen(corners[1]), last - first))
+    parts, close = deque((way.seen(between(start, end, first)), way.seen(between(start, end, last)), last - first)
+                         for first, last in way.stretches(start, end)), False
     if way.collider.radius:  # its centre goes straight, and so does the body
-        return any(is_near(first[0], hull(body + [add(corner, less(first[0], last[0])) for corner in body]),
+        return any(is_near(first[0], hull(body + shifted(body, less(first[0], last[0]))),
                            way.collider.radius) for first, last, _ in parts)
     for _ in range(MOST_PARTS):
         if not parts:

@@ -4,7 +4,8 @@ from fractions import Fraction
 from functools import lru_cache
 
 from trace_geometry import (
-    ZERO, add, distance, dot, enters, exact, hull, inside, is_near, less, scaled, size, way_from_segment)
+    ZERO, add, distance, dot, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, vector,
+    way_from_segment)
 from trace_one_way import lines_of, surfaces_of
 from trace_turning import Way, comes_to_overlap, overlaps
 
@@ -13,8 +14,13 @@ AT_ONCE = Fraction(1, 10**5)  # a turn at once takes less than this part of the 
 
 
 def edges_of(rings, lines):
-    return [edge for line in lines for edge in zip(line, line[1:])] + [
-        edge for ring in rings for edge in zip(ring, ring[1:] + ring[:1])]
+    return [edge for line in lines for edge in zip(line, line[1:])] + [edge for ring in rings for edge in sides(ring)]
+
+
+def box_around(points, radius):
+    """Its lower and its upper corner, in doubles."""
+    points = [tuple(map(float, point)) for point in points]
+    return ([pick(p[k] for p in points) + sign * float(radius) for k in (0, 1)] for pick, sign in ((min, -1), (max, 1)))
 
 
 def wider(body, by):
@@ -27,21 +33,19 @@ class Collider:
     def __init__(self, entry):
         self.id = entry["id"]
         self.sensor = entry.get("sensor", False)
-        self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
+        self.one_way = vector(entry["one_way"]) if "one_way" in entry else None
         self.surface_speed = entry.get("surface_speed", 0)
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
         self.lines = [exact(entry["chain"])] if "chain" in entry else []
         self.sizes = [len(ring) for ring in self.rings + self.lines]
-        *centre, self.radius = exact([entry["circle"]])[0] if "circle" in entry else (0,)
+        *centre, self.radius = vector(entry.get("circle", (0,)))
         self.centre = tuple(centre)
         self.points = [point for ring in self.rings + self.lines for point in ring] or [self.centre]
         self.vertex_count = len(self.points)
         if self.rings and self.one_way is not None:  # it has no inside
             self.lines, self.rings = lines_of(self.rings[0], self.one_way), []
         self.edges = [(self.centre, self.centre)] if self.radius else edges_of(self.rings, self.lines)
-        points = [tuple(map(float, point)) for edge in self.edges for point in edge]
-        self.low = [min(p[k] for p in points) - float(self.radius) for k in (0, 1)]
-        self.high = [max(p[k] for p in points) + float(self.radius) for k in (0, 1)]
+        self.low, self.high = box_around((end for edge in self.edges for end in edge), self.radius)
         self.segments = []  # of a one-way chain, with their surfaces
 
     def rings_of(self, vertices):
@@ -65,12 +69,8 @@ class Collider:
 
     def blocking_edges(self, body):
         """Of a one-way chain, the segments that a body may not pass on its way from here."""
-        above = {}
-        for a, b, surface in self.segments:
-            if surface not in above:
-                above[surface] = surface.is_below(body)
-            if above[surface]:
-                yield a, b
+        above = {surface: surface.is_below(body) for surface in {surface for _, _, surface in self.segments}}
+        return [(a, b) for a, b, surface in self.segments if above[surface]]
 
 
 class Motion:
@@ -93,8 +93,7 @@ class Motion:
 
     def first_and_last(self):
         """Of everything that moves, where it is when the step begins and when it ends."""
-        ends = {name: (way.vertices[0], way.vertices[-1]) for name, way in self.ways.items()}
-        return {**self.ends, **ends}
+        return {**self.ends, **{name: (way.vertices[0], way.vertices[-1]) for name, way in self.ways.items()}}
 
     def change(self, name):
         ends = self.ends.get(name)
@@ -170,17 +169,13 @@ class World:
         collider = self.colliders[name]
         if self.is_beside(body, start, add(start, way), collider.low, collider.high):
             return False
-        places = [add(start, corner) for corner in body]
         edges = collider.edges
         if collider.one_way is not None:
-            edges = collider.blocking_edges([add(start, corner) for corner in self.body])
-        swept = hull(places + [add(corner, way) for corner in places])
+            edges = collider.blocking_edges(shifted(self.body, start))
+        swept = hull(shifted(body, start) + shifted(body, add(start, way)))
         if collider.radius:
             return is_near(collider.centre, swept, collider.radius)
-        if any(enters(a, b, swept) for a, b in edges):
-            return True
-        middle = (sum(p[0] for p in swept) / len(swept), sum(p[1] for p in swept) / len(swept))
-        return inside(middle, collider.rings)
+        return any(enters(a, b, swept) for a, b in edges) or inside(middle_of(swept), collider.rings)
 
     def met(self, name, motion, start, end, body=None):
         """Whether the body meets a collider between two corners (x, y, fraction) of a way; None where what turns is too
@@ -192,10 +187,8 @@ class World:
         way = motion.ways[name]
         if self.colliders[name].one_way is not None:
             return False
-        points = [tuple(map(float, vertex)) for vertices in way.vertices for vertex in vertices]
-        radius = float(way.collider.radius)
-        low, high = ([pick(p[k] for p in points) + sign * radius for k in (0, 1)] for pick, sign in ((min, -1), (max, 1)))
-        if self.is_beside(body, start, end, low, high):
+        vertices = (vertex for vertices in way.vertices for vertex in vertices)
+        if self.is_beside(body, start, end, *box_around(vertices, way.collider.radius)):
             return False
         if start == end:
             return overlaps(way, way.seen(start), list(body))
@@ -229,8 +222,7 @@ class World:
                     yield name, (a, b)
 
     def tangent(self, collider, centre, corner, body):
-        places = [add(corner[:2], point) for point in body]
-        ways = [way_from_segment(centre, a, b) for a, b in zip(places, places[1:] + places[:1])]
+        ways = [way_from_segment(centre, a, b) for a, b in sides(shifted(body, corner[:2]))]
         nearest = min(ways, key=lambda way: dot(way, way))
         if nearest == STAYS:
             return centre, centre
