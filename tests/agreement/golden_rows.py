@@ -33,6 +33,7 @@ def hashes_of(rows):
     """By scene: by contender and number type."""
     hashes = {}
     for row in rows:
+        row.pop("commit", None)
         who = f"{row['contender']}.{row['scalar']}" if "scalar" in row else row["contender"]
         text = json.dumps(row, sort_keys=True).encode()
         hashes.setdefault(row["scene"], {})[who] = hashlib.sha256(text).hexdigest()[:10]

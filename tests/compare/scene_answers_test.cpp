@@ -44,14 +44,21 @@ TEST(Answers, are_of_every_registered_scene) {
   for (const BuiltInScene& entry : built_in_scenes()) EXPECT_FALSE(built_in(entry.name).answers.empty()) << entry.name;
 }
 
-TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
-  for (const BuiltInScene& entry : paperproof::test::sampled_of(built_in_scenes())) {
-    const Scene scene = shortened(entry.name);
-    const Row row = ran(scene).row;
-    ASSERT_TRUE(row.answer_ok && row.answer_error) << entry.name;
-    EXPECT_TRUE(*row.answer_ok) << entry.name << ": " << row.answer;
-  }
+/// One step takes it as long as all other scenes together.
+constexpr std::string_view longest_scene = "crush70";
+
+void expect_answers(const std::string& name) {
+  const Row row = ran(shortened(name)).row;
+  ASSERT_TRUE(row.answer_ok && row.answer_error) << name;
+  EXPECT_TRUE(*row.answer_ok) << name << ": " << row.answer;
 }
+
+TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
+  for (const BuiltInScene& entry : paperproof::test::sampled_of(built_in_scenes()))
+    if (entry.name != longest_scene) expect_answers(entry.name);
+}
+
+TEST(Answers, are_met_by_octagon_sweep_in_the_longest_scene) { expect_answers(std::string(longest_scene)); }
 
 /// What a step says in a run that does something else.
 struct Otherwise {
