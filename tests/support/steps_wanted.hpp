@@ -36,7 +36,7 @@ template <class Items>
 /// Fewer steps of a family say nothing about how often a case comes.
 inline constexpr int few_steps = 1500;
 
-/// Of each family, for octagon_sweep. Slow kinds take a third of it, for which that is still enough.
-[[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 4500); }
+/// Of each family, for octagon_sweep. Slow kinds take a share, down to a sixth: that is not too few.
+[[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 9000); }
 
 }  // namespace paperproof::test
