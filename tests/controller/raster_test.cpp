@@ -176,7 +176,7 @@ TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
     }
   }
   EXPECT_GE(overlapping, scenes * 30);
-  EXPECT_LE(overlapping, scenes * 70);
+  EXPECT_LE(overlapping, scenes * 75);
 }
 
 TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
