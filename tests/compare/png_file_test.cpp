@@ -4,6 +4,7 @@
 #include "compare/png_files.hpp"
 #include "compare/scene_files.hpp"
 #include "support/random_runs.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -112,12 +113,7 @@ TEST(PngFiles, of_every_kind_are_read_as_what_is_in_them) {
 }
 
 std::string complaint_about(const SceneFiles& files, const std::string& bytes) {
-  try {
-    (void)read_png(files.write("a.png", bytes), "a.png");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_by<InputError>([&] { (void)read_png(files.write("a.png", bytes), "a.png"); }, "accepted");
 }
 
 TEST(PngFiles, with_an_index_beyond_their_palette_are_refused) {

@@ -6,11 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include <bit>
-#include <fstream>
-
 namespace paperproof::compare {
 
 inline Scene built_in(const std::string& name) { return load_scenes(name).front(); }
@@ -51,19 +46,6 @@ inline Scene empty_sky(int steps) {
   scene.scenery.colliders.push_back({.points = {{500, 500}, {501, 500}, {501, 501}, {500, 501}}});
   scene.ids.emplace_back("far");
   return scene;
-}
-
-inline std::vector<nlohmann::json> lines_of(const std::string& path) {
-  std::vector<nlohmann::json> lines;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) lines.push_back(nlohmann::json::parse(line));
-  return lines;
-}
-
-inline ::testing::AssertionResult reads_back(const nlohmann::json& read, double value) {
-  const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
-  if (bits(read.get<double>()) == bits(value)) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << read << " is not " << value;
 }
 
 }  // namespace paperproof::compare

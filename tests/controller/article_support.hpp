@@ -3,6 +3,7 @@
 
 #include "campaign/random.hpp"
 #include "campaign/shapes.hpp"
+#include "support/refusal.hpp"
 
 #include <paperproof/techniques.hpp>
 
@@ -17,6 +18,7 @@ namespace paperproof::article_tests {
 using compare::half_height;
 using compare::half_width;
 using compare::Random;
+using test::refusal_by;
 
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
@@ -83,16 +85,5 @@ struct Rig {
     return result;
   }
 };
-
-/// What the exception says that `make` throws, or nothing.
-template <class Error>
-std::string refusal_by(const auto& make) {
-  try {
-    make();
-  } catch (const Error& refused) {
-    return refused.what();
-  }
-  return "";
-}
 
 }  // namespace paperproof::article_tests

@@ -7,6 +7,7 @@
 
 #include "campaign/random.hpp"
 #include "exact_reference.hpp"
+#include "support/refusal.hpp"
 #include "support/steps_wanted.hpp"
 
 namespace paperproof {
@@ -30,12 +31,7 @@ std::vector<Points> pairs_of(const CharacterShape& shape) {
 /// What is said to this, or "accepted".
 template <class Make>
 std::string refusal(const Make& make) {
-  try {
-    make();
-  } catch (const InvalidCharacter& refused) {
-    return refused.what();
-  }
-  return "accepted";
+  return test::refusal_by<InvalidCharacter>(make, "accepted");
 }
 std::string refusal_of(const Points& points) {
   return refusal([&] { return CharacterShape(points); });

@@ -18,7 +18,6 @@ namespace {
 using test::PlayLevel;
 using test::Random;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double gravity = -30;
 
 ColliderDef mirrored(ColliderDef collider) {

@@ -5,12 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace paperproof::stepping {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(Float, meets_the_scenes_within_its_own_tolerances) {
   CharacterDef pixel;

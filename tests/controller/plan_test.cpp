@@ -2,6 +2,7 @@
 #include "campaign/shapes.hpp"
 #include "controller/states.hpp"
 #include "support/random_runs.hpp"
+#include "support/refusal.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/plan.hpp>
@@ -26,12 +27,7 @@ Plan plan_for(const SceneryDef& def, const Foreseen& foreseen = nothing) {
 /// What building a controller says, or nothing.
 std::string refusal(const SceneryDef& def, const Stages& stages) {
   const Scenery<double> scenery(def);
-  try {
-    const Controller<double> controller(scenery, {}, {.stages = stages});
-    return {};
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
+  return test::refusal_by<std::invalid_argument>([&] { Controller<double>(scenery, {}, {.stages = stages}); });
 }
 
 TEST(Plan, of_a_floor_that_nothing_happens_on_leaves_out_every_stage_each_with_a_reason) {

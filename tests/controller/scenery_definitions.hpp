@@ -8,6 +8,7 @@
 
 #include "geometry/exact.hpp"
 #include "random_polygons.hpp"
+#include "support/refusal.hpp"
 
 namespace paperproof::test {
 
@@ -18,12 +19,7 @@ inline ColliderDef one_way(ColliderDef def, const Vec2d& direction) {
 
 template <class Scalar = double>
 std::string refusal_of(const SceneryDef& def) {
-  try {
-    const Scenery<Scalar> scenery(def);
-  } catch (const InvalidScenery& refused) {
-    return refused.what();
-  }
-  return "accepted";
+  return refusal_by<InvalidScenery>([&] { Scenery<Scalar>{def}; }, "accepted");
 }
 
 enum class Where { inside, on_the_outline, outside };

@@ -36,22 +36,11 @@ CharacterState<Scalar> busy() {
 template <class Scalar>
 bool same_step(const CharacterState<Scalar>& a, const StepReport<Scalar>& one, const CharacterState<Scalar>& b,
                const StepReport<Scalar>& two) {
-  const auto same_corner = [](const PathPoint<Scalar>& p, const PathPoint<Scalar>& q) {
-    return same_bits(p.position, q.position) && same_bits(p.fraction, q.fraction);
-  };
-  const auto same_contact = [](const Contact<Scalar>& p, const Contact<Scalar>& q) {
-    return p.collider == q.collider && p.side == q.side && same_bits(p.point, q.point) &&
-           same_bits(p.normal, q.normal) && same_bits(p.fraction, q.fraction) && same_bits(p.separation, q.separation);
-  };
-  const auto same_event = [](const SensorEvent<Scalar>& p, const SensorEvent<Scalar>& q) {
-    return p.sensor == q.sensor && p.change == q.change && same_bits(p.fraction, q.fraction);
-  };
   if (!same_bits(a, b) || a != b || one.status != two.status) return false;
   return one.status == StepStatus::invalid_input ||
-         (same_bits(one.requested, two.requested) && std::ranges::equal(one.move.path, two.move.path, same_corner) &&
-          std::ranges::equal(one.move.contacts, two.move.contacts, same_contact) &&
-          std::ranges::equal(one.move.crushed, two.move.crushed) &&
-          std::ranges::equal(one.sensors, two.sensors, same_event));
+         (same_bits(one.requested, two.requested) && test::all_same_bits(one.move.path, two.move.path) &&
+          test::all_same_bits(one.move.contacts, two.move.contacts) &&
+          std::ranges::equal(one.move.crushed, two.move.crushed) && test::all_same_bits(one.sensors, two.sensors));
 }
 
 }  // namespace paperproof::stepping

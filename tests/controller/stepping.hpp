@@ -2,12 +2,9 @@
 #pragma once
 
 #include "controller/article_support.hpp"
+#include "support/same_bits.hpp"
 
 #include <paperproof/techniques.hpp>
-
-#include <bit>
-#include <cstdint>
-#include <type_traits>
 
 namespace paperproof::stepping {
 
@@ -15,12 +12,11 @@ using article_tests::chain;
 using article_tests::px;
 using article_tests::rectangle;
 using article_tests::single_pixel;
-
-/// Half the width and half the height of the article's character [m].
-inline constexpr double half_width = 10 * px;
-inline constexpr double half_height = 20 * px;
-
-inline ColliderDef polygon(std::vector<Vec2d> points) { return {.points = std::move(points)}; }
+using compare::degree;
+using compare::half_height;
+using compare::half_width;
+using compare::polygon;
+using test::same_bits;
 
 template <class Scalar>
 struct Stepper {
@@ -73,17 +69,6 @@ struct Stepper {
     return false;
   }
 };
-
-template <class Scalar>
-bool same_bits(Scalar a, Scalar b) {
-  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
-  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
-}
-
-template <class Scalar>
-bool same_bits(const Vec2<Scalar>& a, const Vec2<Scalar>& b) {
-  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y());
-}
 
 /// Every field, NaN and the sign of zero included.
 template <class Scalar>

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 namespace paperproof::test {
@@ -153,16 +152,16 @@ std::string fault_of(const json& part, const json& wanted) {
     if (!is_near(part, wanted["is"], within))
       return fmt::format("is {} instead of {} within {}", part.dump(), wanted["is"].dump(), within);
   }
-  for (const char* bound : {"at_least", "at_most", "above", "below"}) {
-    if (!wanted.contains(bound)) continue;
-    const double limit = wanted[bound];
-    const double value = part.is_number() ? part.get<double>() : NAN;
-    const std::string which = bound;
-    const bool holds = which == "at_least"  ? value >= limit
-                       : which == "at_most" ? value <= limit
-                       : which == "above"   ? value > limit
-                                            : value < limit;
-    if (!holds) return fmt::format("is {}, and not {} {}", part.dump(), which, limit);
+  const double value = part.is_number() ? part.get<double>() : NAN;
+  const std::pair<const char*, bool (*)(double, double)> bounds[]{
+      {"at_least", [](double a, double b) { return a >= b; }},
+      {"at_most", [](double a, double b) { return a <= b; }},
+      {"above", [](double a, double b) { return a > b; }},
+      {"below", [](double a, double b) { return a < b; }}};
+  for (const auto& [name, holds] : bounds) {
+    if (!wanted.contains(name)) continue;
+    const double limit = wanted[name];
+    if (!holds(value, limit)) return fmt::format("is {}, and not {} {}", part.dump(), name, limit);
   }
   return {};
 }

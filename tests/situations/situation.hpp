@@ -1,8 +1,6 @@
 /// A situation: a scene, what happens in it, and numbers that follow by a formula. README.md has the format.
 #pragma once
 
-#include "runs/lane.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -15,7 +13,7 @@ namespace paperproof::test {
 /// Numbers by name, for formulas.
 using Values = std::map<std::string, double>;
 
-/// @throws mu::Parser::exception_type for what is no formula; std::invalid_argument with the formula in it.
+/// @throws std::invalid_argument with the formula, where it is none. Not thread-safe.
 [[nodiscard]] double value_of(const std::string& formula, const Values& values);
 
 /// The same document with a number for every text that begins with `=`, and the corners of every `box`.

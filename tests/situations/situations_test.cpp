@@ -2,6 +2,7 @@
 #include "situations/situation.hpp"
 
 #include "runs/input_cursor.hpp"
+#include "runs/lane.hpp"
 #include "scenes/load.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,6 @@
 namespace paperproof::test {
 namespace {
 
-using compare::Clause;
 using nlohmann::json;
 
 const std::vector<Situation>& all_situations() {
