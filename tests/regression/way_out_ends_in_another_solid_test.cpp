@@ -3,6 +3,8 @@
 // among the pieces within 8 character sizes (10 m), but a facet of a large solid can be further away than that, and
 // nothing near that facet was looked at. Remedy: a way out that is further away than what was looked at is asked for
 // again with all that is as near as it.
+#include "campaign/shapes.hpp"
+
 #include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
@@ -10,15 +12,13 @@
 namespace paperproof {
 namespace {
 
-ColliderDef rectangle(double left, double bottom, double right, double top) {
-  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
-}
+using compare::box;
 
 TEST(Regression, a_way_out_further_than_ten_metres_does_not_end_in_another_solid) {
   const double block = 100;  // half its side
   const double beam = 50;    // half its length
   const Scenery<double> scenery(
-      SceneryDef{{rectangle(-block, -block, block, block), rectangle(-beam, block + 0.3, beam, block + 1)}});
+      SceneryDef{{box(-block, -block, block, block), box(-beam, block + 0.3, beam, block + 1)}});
   const Controller<double> controller(scenery, {});
   const Vec2d half = controller.character().shape.box().upper;
   Scratch<double> scratch = controller.make_scratch();

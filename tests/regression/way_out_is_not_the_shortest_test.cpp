@@ -3,6 +3,8 @@
 // out only feet of perpendiculars and crossings of facets were looked at, never the edge of what a crate hides; and
 // only the 96 facets nearest to the start, which in a gear are flanks that other teeth cover. Remedy: every facet is
 // cut by all obstacles and by the shadows of those that may not be passed.
+#include "campaign/shapes.hpp"
+
 #include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
@@ -13,9 +15,7 @@
 namespace paperproof {
 namespace {
 
-ColliderDef rectangle(double left, double bottom, double right, double top) {
-  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
-}
+using compare::box;
 
 struct Out {
   StepStatus status;
@@ -34,7 +34,7 @@ Out out_of(std::vector<ColliderDef> colliders, const Vec2d& from) {
 }
 
 TEST(Regression, a_way_out_passes_beside_a_crate) {
-  const Out out = out_of({rectangle(-5, -10, 5, 0), rectangle(-0.1, -0.9, 0.1, -0.8)}, {0, -2});
+  const Out out = out_of({box(-5, -10, 5, 0), box(-0.1, -0.9, 0.1, -0.8)}, {0, -2});
   ASSERT_EQ(out.status, StepStatus::moved);
   // Seen by the position, the crate is larger by the octagon: the lower corners beside it are (0.1 + 5 px, -0.9 - 20
   // px) and (0.1 + 10 px, -0.9 - 10 px). The steepest way past both ends 20 px above the block.
