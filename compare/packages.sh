@@ -15,7 +15,7 @@ build_packages=(
 test_packages=(
   clang lld      # the same bits from a second compiler; a linker that takes a quarter of the time for sanitized programs
   supertux-data  # real levels
-  python3        # the checker of traces that shares no code with the project
+  python3 python3-gmpy2        # the checker of traces that shares no code with the project
   python3-jsonschema parallel  # schemas of what is written; shards over several processes
 )
 # Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), and the sanitizers' part

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace paperproof::compare {
@@ -152,13 +153,26 @@ std::string describe(const Breaches& breaches, const std::string& begin) {
   return lines;
 }
 
+namespace {
+
+/// By how much a count may differ from what is expected: what happens lasts for some steps, so that it comes in groups, and
+/// differs by more than the root.
+double chance(double expected) { return 3 + 8 * std::sqrt(expected); }
+
+/// From so many records on, what may be as rare as it likes has to come.
+constexpr int many_records = 3000;
+
+}  // namespace
+
 std::vector<std::string> uncovered(const Family& family, const Findings& findings) {
   std::vector<std::string> said;
   for (const Coverage& part : family.covers) {
     const std::size_t which = happening_named(part.happening);
     const int found = findings.happened[which];
-    const double share = static_cast<double>(found) / std::max(findings.records, 1);
-    if (share < part.least || share > part.most)
+    const double least = part.least * findings.records;
+    const double most = part.most * findings.records;
+    const bool never = found == 0 && part.least > 0 && findings.records >= many_records;
+    if (never || found < least - chance(least) || found > most + chance(most))
       said.push_back(fmt::format("{}: {} of {} steps {}, expected from {} to {} of them", family.title(), found,
                                  findings.records, happenings()[which].meaning, part.least, part.most));
   }

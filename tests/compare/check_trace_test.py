@@ -18,7 +18,7 @@ from judging import CHECKER, call, read, traces_of, write
 
 # A character falls onto a floor, walks through a gate to a wall, comes back, jumps and rests; a lift goes up far away.
 YARD = {
-    "paperproof_scene": 1, "name": "yard", "pixels_per_metre": 32, "gravity": [0, -32], "dt": 1 / 64, "steps": 400,
+    "paperproof_scene": 1, "name": "yard", "pixels_per_metre": 32, "gravity": [0, -32], "dt": 1 / 64, "steps": 200,
     "character": {"position": [0, 1.625], "velocity": [0, 0], "walk_speed": 4, "acceleration": 64, "jump_speed": 8},
     "scenery": [{"id": "floor", "polygon": [[-10, -1], [10, -1], [10, 0], [-10, 0]]},
                 {"id": "wall", "polygon": [[3, 0], [4, 0], [4, 3], [3, 3]]},

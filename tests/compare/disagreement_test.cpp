@@ -8,13 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace paperproof::compare {
 namespace {
 
-/// Longer scenes repeat the same rest.
-constexpr int most_steps = 10'000;
+/// Longer scenes, and some others, take minutes: the study itself runs them.
+constexpr int most_steps = 1000;
+const std::set<std::string> left_out{"crush70", "crowd_of_16", "technique_gallery"};
 
 using Counts = std::map<std::string, int>;  ///< By cause.
 
@@ -23,6 +25,7 @@ using Counts = std::map<std::string, int>;  ///< By cause.
 Counts count_over_scenes(std::string& bad) {
   Counts counts;
   for (const DisagreementCase& one : test::sampled_of(disagreement_cases(registered_scenes()))) {
+    if (left_out.contains(one.scene)) continue;
     if (load_scenes(one.scene).at(one.index).steps > most_steps) continue;
     const Row row = run_disagreement(one);
     EXPECT_NE(row.verdict, Verdict::failed) << one.scene << ": " << row.reason;

@@ -1,7 +1,7 @@
 """Several characters in a trace, for check_trace.py: where they come to overlap, and whether they say so."""
-from fractions import Fraction
 
-from trace_geometry import GAP, GRAZING, NEAR_PASS, ZERO, add, between, dot, enters, hull, less, scaled, size, vector
+from trace_geometry import (
+    GAP, GRAZING, NEAR_PASS, ZERO, Fraction, add, between, dot, enters, hull, less, scaled, size, vector)
 
 
 def places_at(way, t):

@@ -1,5 +1,8 @@
 """For check_trace.py: exact geometry of the plane, whose points are pairs of fractions, and the tolerances."""
-from fractions import Fraction
+try:
+    from gmpy2 import mpq as Fraction  # the same numbers, in a fifth of the time
+except ImportError:
+    from fractions import Fraction
 
 GAP = Fraction(1, 10**6)  # largest gap at a contact, and largest error of an impact along its normal [m]
 ROUNDING = 1e-8  # of a reported separation or contact point [m]: positions of 1e6 m are known to 1e-10

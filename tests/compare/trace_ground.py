@@ -5,10 +5,9 @@ have gone some way down, straight, from every corner of its way, and did not: th
 that is wanted, and those along every edge of the body and of what is near. The farthest that a body can go on a
 direction, for what it wants, is what it wants projected onto that direction.
 """
-from fractions import Fraction
 from math import cos, hypot, inf, nextafter, radians
 
-from trace_geometry import GAP, ZERO, add, dot, enters, hull, less, scaled, shifted, sides, size
+from trace_geometry import GAP, ZERO, Fraction, add, dot, enters, hull, less, scaled, shifted, sides, size
 from trace_world import wider
 
 GROUND = 7.01e-7  # farther away nothing holds [m]

@@ -9,11 +9,10 @@ The places that are looked at are those where the rims of the space that each ed
 between two crossings, and a fan. They are guessed in doubles, and each is tried exactly: whoever finds one has proved
 that there is room. None found is no proof that there is none.
 """
-from fractions import Fraction
 from itertools import islice
 from math import cos, hypot, pi, sin
 
-from trace_geometry import ZERO, add, between, hull, less, sides, vector
+from trace_geometry import ZERO, Fraction, add, between, hull, less, sides, vector
 from trace_world import wider
 
 BEYOND = 0.25  # how far may be pushed beyond the crusher's own motion [m]

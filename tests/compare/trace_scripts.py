@@ -1,9 +1,8 @@
 """The movers' scripts, for check_trace.py: where each mover is at a time, and whether a trace has it there."""
 from bisect import bisect_right
-from fractions import Fraction
 from math import cos, fmod, hypot, sin
 
-from trace_geometry import less, size
+from trace_geometry import Fraction, less, size
 from trace_world import wider
 
 POSE = 1e-9  # rounding of a pose [m], for each metre of its coordinates

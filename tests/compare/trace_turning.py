@@ -5,10 +5,9 @@ all the time; else its middle is looked at, and then its halves, down to WIDTH.
 """
 from bisect import bisect_right
 from collections import deque
-from fractions import Fraction
 
 from trace_geometry import (
-    ZERO, add, between, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, turn)
+    ZERO, Fraction, add, between, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, turn)
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
 MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60

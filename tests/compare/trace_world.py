@@ -1,11 +1,10 @@
 """The scenery of a trace for check_trace.py, and exact questions about it: what a body meets on its way."""
 import itertools
-from fractions import Fraction
 from functools import lru_cache
 
 from trace_geometry import (
-    ZERO, add, distance, dot, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, vector,
-    way_from_segment)
+    ZERO, Fraction, add, distance, dot, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size,
+    vector, way_from_segment)
 from trace_one_way import lines_of, surfaces_of
 from trace_turning import Way, comes_to_overlap, overlaps
 

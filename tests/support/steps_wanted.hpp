@@ -33,10 +33,10 @@ template <class Items>
   return wanted != nullptr ? std::atoi(wanted) : otherwise;
 }
 
-/// Fewer steps of a family say nothing about how often a case comes.
-inline constexpr int few_steps = 1500;
+/// Who asks for fewer wants an answer soon.
+inline constexpr int few_steps = 1000;
 
-/// Of each family, for octagon_sweep. Slow kinds take a share, down to a sixth: that is not too few.
-[[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 9000); }
+/// Of each family, for octagon_sweep.
+[[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 2000); }
 
 }  // namespace paperproof::test
