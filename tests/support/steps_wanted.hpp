@@ -18,12 +18,12 @@ inline constexpr bool sanitized = false;
 /// other builds run all of them.
 [[nodiscard]] constexpr int sampled(int cases) { return sanitized ? (cases + 15) / 16 : cases; }
 
-/// All of a list, or the last of every sixteen where sanitizers look on.
+/// All of a list, or the last of every `of` where sanitizers look on.
 template <class Items>
-[[nodiscard]] Items sampled_of(const Items& items) {
+[[nodiscard]] Items sampled_of(const Items& items, std::size_t of = 16) {
   Items some;
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (!sanitized || i % 16 == 15) some.push_back(items[i]);
+    if (!sanitized || i % of == of - 1) some.push_back(items[i]);
   return some;
 }
 
