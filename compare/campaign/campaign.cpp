@@ -155,11 +155,10 @@ std::string describe(const Breaches& breaches, const std::string& begin) {
 
 namespace {
 
-/// By how much a count may differ from what is expected: what happens lasts for some steps, so that it comes in groups, and
-/// differs by more than the root.
-double chance(double expected) { return 3 + 8 * std::sqrt(expected); }
+/// How far a count may be from its expectation by chance.
+double chance(double expected) { return 3 + 4 * std::sqrt(expected); }
 
-/// From so many records on, what may be as rare as it likes has to come.
+/// So many records must have a happening that has any share.
 constexpr int many_records = 3000;
 
 }  // namespace

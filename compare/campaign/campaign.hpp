@@ -51,7 +51,7 @@ struct Findings {
 /// A line for each clause that was broken. @param begin stands before each.
 [[nodiscard]] std::string describe(const Breaches& breaches, const std::string& begin);
 
-/// A sentence for each happening whose share is too small or too large, by more than chance.
+/// A sentence for each happening that is rarer or more frequent than its family says. Chance is allowed for.
 [[nodiscard]] std::vector<std::string> uncovered(const Family& family, const Findings& findings);
 
 }  // namespace paperproof::compare

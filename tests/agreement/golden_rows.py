@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 STEPS = 60
-LONG = {"crush70", "scaled_1e3", "technique_gallery"}  # seconds each: their answers are asked for elsewhere
+LONG = {"crush70", "scaled_1e3", "technique_gallery"}  # seconds each: other tests run them
 
 
 def rows_of(command):

@@ -7,7 +7,7 @@ namespace paperproof::compare {
 namespace {
 
 /// A slab with its top at 0 that a character stands on, and a floor far below.
-Scene on_a_box(int steps) {
+Scene on_a_slab(int steps) {
   Scene scene;
   scene.name = "slab";
   scene.steps = steps;
@@ -26,7 +26,7 @@ RunOptions watched(const Scene& scene, std::vector<std::string> contenders) {
 }
 
 TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_last) {
-  Scene scene = on_a_box(200);
+  Scene scene = on_a_slab(200);
   scene.movers = {{.id = "slab",
                    .path = {{.time = 0, .at = {0, 0}}, {.time = 1.1, .at = {4, 3}}},
                    .loop = MoverDef::Loop::ping_pong}};
@@ -53,7 +53,7 @@ TEST(Movers, that_turn_let_who_lands_in_a_part_of_a_step_jump_in_the_next_and_us
   for (const Presses& presses :
        {Presses{press}, {press, at(4, false)}, {press, at(20, false), at(30, true)}, {press, at(1, false)}})
     for (const double height : {0.16, 0.22, 0.27, 0.34}) {
-      Scene scene = on_a_box(100);
+      Scene scene = on_a_slab(100);
       scene.start = {.position = {0, half_height + height}, .velocity = {0, -9}};
       scene.scenery.colliders.push_back(box(-0.5, -0.5, 0.5, 0.5));
       scene.scenery.colliders.back().mover = 0;

@@ -44,7 +44,7 @@ TEST(Answers, are_of_every_registered_scene) {
   for (const BuiltInScene& entry : built_in_scenes()) EXPECT_FALSE(built_in(entry.name).answers.empty()) << entry.name;
 }
 
-/// All, but the one whose only step takes as long as all others together: known_and_open_test.py runs it.
+/// All scenes but crush70, whose only step takes half a minute. known_and_open_test.py judges that one.
 std::vector<std::string> scenes_to_ask() {
   std::vector<std::string> names;
   for (const BuiltInScene& entry : paperproof::test::sampled_of(built_in_scenes()))

@@ -158,6 +158,23 @@ TEST(StabilityRegions, have_cases_on_every_grid_and_more_on_a_larger_one) {
   for (const StabilityBorder& border : stability_borders({})) EXPECT_NO_THROW(check(border.sweep)) << border.name;
 }
 
+TEST(StabilityRegions, hold_for_octagon_sweep_in_their_first_cases_and_every_replica) {
+  int replicas = 0;
+  for (const StabilityRegion& region : stability_regions({"octagon_sweep"}, "quick")) {
+    const bool has_replicas = !region.replicas_along.empty();
+    const std::size_t cases = has_replicas ? region.sweep.size() : 2;  // one in double, one in float
+    for (std::size_t k = 0; k < cases; ++k) {
+      const Row row = run_at(region, k);
+      if (row.scalar != "double") continue;
+      EXPECT_EQ(row.verdict, Verdict::holds) << region.name << ", case " << k << ": " << row.reason;
+      if (!has_replicas) continue;
+      EXPECT_EQ(row.events_ok, true) << region.name << ", case " << k;
+      ++replicas;
+    }
+  }
+  EXPECT_GT(replicas, 2);
+}
+
 TEST(StabilityRegions, tell_where_the_events_are_others) {
   StabilityRegion region;
   region.sweep.scene = "ramp";

@@ -1,11 +1,11 @@
-/// What is said where something is refused.
+/// The message of a refusal.
 #pragma once
 
 #include <string>
 
 namespace paperproof::test {
 
-/// What the exception says that `make` throws. @param otherwise the answer where it throws none.
+/// The message of the exception that `make` throws. @param otherwise the answer where it throws none.
 template <class Error>
 std::string refusal_by(const auto& make, std::string otherwise = "") {
   try {
