@@ -10,16 +10,3 @@ target_compile_options(paperproof_options INTERFACE
   # Several sources in one: g++ then takes their unnamed namespaces for those of a header.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
   $<$<BOOL:${PAPERPROOF_WARNINGS_AS_ERRORS}>:-Werror>)
-if(PAPERPROOF_SANITIZE)
-  target_compile_options(paperproof_options INTERFACE -fsanitize=${PAPERPROOF_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  target_link_options(paperproof_options INTERFACE -fsanitize=${PAPERPROOF_SANITIZE})
-  if(PAPERPROOF_SANITIZE MATCHES "address")
-    target_compile_options(paperproof_options INTERFACE
-      # A null pointer ends a run under the address sanitizer as well, which also finds what is outside of an object; no
-      # pointer here is cast to a class that its object may not be, and no function to another type. These look at every
-      # access: more than half of the time to compile.
-      -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow,function
-      # Calls of the checks instead of their code at every access: a quarter of what then is left.
-      "$<$<CXX_COMPILER_ID:Clang>:SHELL:-mllvm -asan-instrumentation-with-call-threshold=0>")
-  endif()
-endif()

@@ -27,8 +27,8 @@ void check_map(const TiledMap& map, const std::string& orientation, const std::s
   if (orientation != "orthogonal") refuse(where, fmt::format("expected an orthogonal map, not \"{}\"", orientation));
   if (!(map.tile_size.minCoeff() > 0)) refuse(where, "expected a tile size greater than 0");
   if (!map.infinite && (map.width < 1 || map.height < 1)) refuse(where, "expected a map of at least one tile");
-  if (!map.infinite && static_cast<double>(map.width) * map.height > most_tiles) {
-    refuse(where, fmt::format("expected a map of at most {} tiles", most_tiles));
+  if (!map.infinite && static_cast<double>(map.width) * map.height > most_tiles_of_a_map) {
+    refuse(where, fmt::format("expected a map of at most {} tiles", most_tiles_of_a_map));
   }
   for (std::size_t i = 1; i < map.tilesets.size(); ++i) {
     if (map.tilesets[i].first <= map.tilesets[i - 1].first) {
@@ -40,7 +40,8 @@ void check_map(const TiledMap& map, const std::string& orientation, const std::s
 void TileBudget::spend(const TiledChunk& chunk, const std::string& where) {
   if (chunk.width < 1 || chunk.height < 1) refuse(where, "expected a width and a height of at least one tile");
   spent_ += static_cast<double>(chunk.width) * chunk.height;
-  if (spent_ > most_tiles) refuse(where, fmt::format("expected at most {} tiles in all layers", most_tiles));
+  if (spent_ > most_tiles_of_a_map)
+    refuse(where, fmt::format("expected at most {} tiles in all layers", most_tiles_of_a_map));
 }
 
 }  // namespace paperproof::compare

@@ -84,7 +84,7 @@ inline constexpr TileNumber flipped_diagonally = 0x20000000U;
 inline constexpr TileNumber tile_number_mask = 0x0fffffffU;
 
 /// Maps with more than this in all their layers are refused before memory is taken [tiles].
-inline constexpr double most_tiles = 1 << 24;
+inline constexpr double most_tiles_of_a_map = 1 << 24;
 /// Groups within groups deeper than this are refused.
 inline constexpr int deepest_group = 32;
 
@@ -102,7 +102,7 @@ inline constexpr int deepest_group = 32;
 
 /// Refuses what no map may be: other projections, no size, tilesets that do not ascend.
 void check_map(const TiledMap& map, const std::string& orientation, const std::string& where);
-/// What is left of `most_tiles` for a map: packed layers of a few kilobytes could take all the memory.
+/// What is left of `most_tiles_of_a_map` for a map: packed layers of a few kilobytes could take all the memory.
 class TileBudget {
  public:
   /// @throws InputError for a chunk without a size, or one too many.

@@ -151,9 +151,9 @@ struct RandomPapers {
 /// Whether a crush was without room, `presses/chambers` of the campaign asks.
 TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) {
   constexpr double contact_reach = 1e-6;  ///< What comes nearer than this may be called a contact [m].
-  constexpr int cases = sampled(400);
-  int crushed = 0;
-  int by_many = 0;
+  const unsigned cases = sampled(400U);
+  unsigned crushed = 0;
+  unsigned by_many = 0;
   for (std::uint64_t seed = 1; seed <= cases && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -178,7 +178,7 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
     crushed += !named.empty();
     by_many += named.size() > 64;
   }
-  std::printf("%d cases, %d with a crush, %d by more than 64\n", cases, crushed, by_many);
+  std::printf("%u cases, %u with a crush, %u by more than 64\n", cases, crushed, by_many);
   EXPECT_GE(crushed, cases / 4);
   EXPECT_GE(by_many, cases / 20);
   EXPECT_GE(cases - crushed, cases / 100) << "with room beside";

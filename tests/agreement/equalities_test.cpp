@@ -478,7 +478,7 @@ TEST(ShapeElsewhere, comes_to_the_same_in_a_crowd_and_among_what_turns) {
   for (const char* title : {"crowd/rooms", "turning/planks"}) {
     const compare::Family& family = *compare::families_named(title).front();
     int same = 0;
-    constexpr int runs = sampled(64);
+    const unsigned runs = sampled(64U);
     for (std::uint64_t seed = family.first_seed; seed < family.first_seed + runs; ++seed) {
       RandomRun run = family.draw(seed);
       run.scene.steps = std::min(run.scene.steps, 20);

@@ -41,7 +41,7 @@ TEST(OneWaySurfaces, controller_and_oracle_agree_on_a_lattice_of_ties) {
       std::vector<Vec2d>{{-1, -2}, {1, -2}, {2, -1}, {2, 1}, {1, 2}, {-1, 2}, {-2, 1}, {-2, -1}});
   int above = 0;
   int asked = 0;
-  for (std::uint64_t seed = 1; seed <= sampled(400); ++seed) {
+  for (std::uint64_t seed = 1; seed <= sampled(400U); ++seed) {
     Random random(seed);
     const SceneryDef def = random_chains(random);
     const Scenery<double> scenery(def);

@@ -69,7 +69,7 @@ struct Solids {
 class WayOut : public ::testing::TestWithParam<compare::Family> {};
 
 TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_there) {
-  constexpr int wanted = sampled(200);
+  const int wanted = sampled(200);
   int starts = 0;
   int to_its_side = 0;
   for (std::uint64_t seed = GetParam().first_seed; starts < wanted && !HasFailure(); ++seed) {

@@ -7,7 +7,6 @@
 #include "compare/scene_runs.hpp"
 #include "records/metric.hpp"
 #include "runs/contestant.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <charconv>
 #include <map>
@@ -135,9 +134,6 @@ std::string fault_of(const std::string& check, Runs& runs) {
   return fault;
 }
 
-/// All of them, or one of sixteen where sanitizers look on: others run what these run.
-bool is_sampled(std::size_t number) { return !test::sanitized || number % 16 == 0; }
-
 TEST(ArticleTable, has_a_check_in_every_row_and_all_of_them_hold) {
   Runs runs;
   const std::vector<Cells> rows = table_below("## The statements");
@@ -151,7 +147,6 @@ TEST(ArticleTable, has_a_check_in_every_row_and_all_of_them_hold) {
     for (const std::string& span : code_spans(rows[i][3])) {
       if (span.find("=>") == std::string::npos) continue;
       ++here;
-      if (!is_sampled(ran_checks + here)) continue;
       EXPECT_EQ(fault_of(span, runs), "") << rows[i][1] << "\n  " << span;
     }
     EXPECT_GT(here, 0U) << "nothing is checked: " << rows[i][1];
@@ -176,7 +171,6 @@ TEST(ArticleTable, has_each_of_the_six_demands_for_each_technique) {
       const std::string scene = code_spans(rows.front()[k]).at(0);
       const std::string check = scene + " " + technique + " => " + code_spans(rows[i][k]).at(0);
       ++ran;
-      if (!is_sampled(ran)) continue;
       EXPECT_EQ(fault_of(check, runs), "") << check;
     }
   }

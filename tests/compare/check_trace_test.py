@@ -259,6 +259,8 @@ class Checking(unittest.TestCase):
         before = copy.deepcopy((header, steps))
         spoil(header, steps)
         self.assertNotEqual(before, (header, steps), "nothing was changed")
+        if header == before[0] and len(steps) == len(before[1]):  # what comes long after the first change is checked elsewhere
+            del steps[next(k for k, (new, old) in enumerate(zip(steps, before[1])) if new != old) + 16:]
         path = Path(self.folder.name) / "spoilt.jsonl"
         write(path, [header, *steps])
         return path

@@ -2,7 +2,6 @@
 /// touched.
 #include "compare/command_workplace.hpp"
 #include "compare/tiled_maps.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <sys/stat.h>
 
@@ -361,7 +360,7 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
 
 /// At most 300 bytes.
 TEST_F(CommandRefuses, long_texts_in_a_line_that_keeps_file_and_place) {
-  const std::string digits(paperproof::test::sampled(100'000), '9');
+  const std::string digits(100'000, '9');
   place.write("digits.json", with(good_scene, "0.016", digits));
   place.write("line.tmj", "{\"layers\":[1,oops" + std::string(8000, '\'') + "]}");
   place.write("key.json", with(good_scene, "\"dt\"", "\"" + std::string(9000, 'k') + "\": 1, \"dt\""));

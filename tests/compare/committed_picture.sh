@@ -40,7 +40,8 @@ curves() {
 }
 
 same article_bullet compare article_bullet --no-timing
-same Where-do-bullets-pass study bullet --contender penetration_resolution,wind_back,box2d,octagon_sweep
+# A minute of a core.
+[ "${PAPERPROOF_LONG_TESTS-}" != 1 ] || same Where-do-bullets-pass study bullet --contender penetration_resolution,wind_back,box2d,octagon_sweep
 same a-tip-between-two-points study corner --contender speculative_march,box2d,octagon_sweep
 same sweep-of-drop sweep drop --vary gravity=10,100,1e3,1e4,1e5,1e6 --vary dt=1e-4,1e-3,0.01,0.1,1 --contender octagon_sweep,box2d
 curves level work-precision level

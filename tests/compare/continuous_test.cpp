@@ -2,7 +2,6 @@
 #include "continuous/roots.hpp"
 #include "scenes/scene.hpp"
 #include "support/random_runs.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
 #include <paperproof/techniques.hpp>
@@ -299,7 +298,7 @@ double median(std::vector<double> values) {
 /// into a step, and a long step may miss a ledge, or land too late for a jump, and go another way altogether: that is
 /// what the share is for. All scenes together have slope 1; and no scene stays away from its reference.
 TEST(ContinuousReference, octagon_sweep_comes_to_it_with_the_first_power_of_the_step) {
-  constexpr int scenes = test::sampled(200);
+  constexpr int scenes = 200;
   std::array<std::vector<double>, halvings.size()> all;
   int of_order_one = 0;
   int elsewhere = 0;

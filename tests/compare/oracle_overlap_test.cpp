@@ -1,6 +1,5 @@
 /// What is overlapped and passed, how deep, and how far away it is.
 #include "compare/exact_shapes.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +21,7 @@ TEST(ExactOverlap, touching_is_not_overlapping_and_one_ulp_more_is) {
 TEST(ExactOverlap, agrees_with_the_area_left_by_clipping) {
   constexpr std::uint64_t seed = 20;
   Random random(seed);
-  constexpr int rounds = paperproof::test::sampled(2000);
+  constexpr int rounds = 2000;
   for (const bool on_grid : {false, true}) {
     int overlaps = 0;
     int touches = 0;
@@ -67,7 +66,7 @@ TEST(ExactOverlap, is_right_within_an_ulp_of_touching_where_the_filter_gives_up)
   int overlaps = 0;
   int rounds = 0;
   std::uint64_t exact_decisions = 0;
-  constexpr int impacts = paperproof::test::sampled(800);
+  constexpr int impacts = 800;
   for (int i = 0; i < impacts; ++i) {
     const double scale = i % 2 == 0 ? 1 : 1e6;
     const Vec2d origin = random.point(scale);
@@ -156,7 +155,7 @@ TEST(ExactDepth, leaving_by_it_along_the_normal_of_an_overlap_frees) {
   constexpr std::uint64_t seed = 25;
   Random random(seed);
   int overlaps = 0;
-  constexpr int rounds = paperproof::test::sampled(1000);
+  constexpr int rounds = 1000;
   for (int i = 0; i < rounds; ++i) {
     const std::vector<Vec2d> triangle{random.point(1), random.point(1), random.point(1)};
     const ExactScenery there = world({polygon(triangle)});

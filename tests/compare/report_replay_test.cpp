@@ -2,7 +2,6 @@
 #include "compare/report_pages.hpp"
 #include "report/run_json.hpp"
 #include "report/scenery_json.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <limits>
 #include <set>
@@ -184,7 +183,7 @@ TEST_F(ReportTest, the_step_of_a_disagreement_survives_thinning) {
 }
 
 TEST(ThinForReplay, keeps_ends_events_and_first_contact_within_the_limit) {
-  for (const int steps : {5, 8, 9, 100, 1200, 1201, test::sanitized ? 1201 : 3600}) {
+  for (const int steps : {5, 8, 9, 100, 1200, 1201, 3600}) {
     for (const int limit : {8, 20, 60, 1200}) {
       ReportRun run = walk_of(steps).runs[0];
       for (TraceStep& step : run.steps)

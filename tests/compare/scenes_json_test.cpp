@@ -3,7 +3,6 @@
 
 #include "compare/scene_files.hpp"
 #include "scenes/describe.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -74,7 +73,7 @@ TEST(JsonScene, every_key_arrives_and_is_written_as_it_was_read) {
   const Scene timed = files.load("timed.json", with(full, "\"steps\"", "\"dt_list\": [0.01, 0.02], \"steps\""));
   EXPECT_EQ(timed.dt_list, (std::vector<double>{0.01, 0.02}));
   EXPECT_EQ(timed.dt, 1.0 / 128);
-  EXPECT_EQ(scene_json(timed)["dt_list"], json::parse("[0.01, 0.02]"));
+  EXPECT_EQ(scene_json(timed)["dt_list"].dump(), "[0.01,0.02]");
   const std::string text = describe(scene);
   for (const char* part :
        {"left: plank to the ground, a spring of 2 m, 1000 N/m, 8 N s/m", "rod: plank to crate, a rod of 1.5 m",
@@ -301,7 +300,7 @@ TEST(JsonJoints, grow_and_shift_with_the_scene_and_are_written_there) {
 
 /// Written, read, and written again.
 TEST(WrittenScenes, read_back_as_they_were) {
-  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
+  for (const BuiltInScene& entry : built_in_scenes()) {
     const SceneFiles files;
     const Scene scene = load_scene(entry.name, {});
     const nlohmann::ordered_json written = scene_json(scene);

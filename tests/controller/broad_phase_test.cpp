@@ -67,7 +67,7 @@ TYPED_TEST_SUITE(BroadPhases, Scalars, );
 
 TYPED_TEST(BroadPhases, find_exactly_what_overlaps_without_memory_and_no_more_than_most_at_once_on_10000_scenes) {
   using Scalar = TypeParam;
-  constexpr int scenes = test::sampled(10000);
+  const unsigned scenes = test::sampled(10000U);
   int not_empty = 0;
   int selective = 0;
   for (unsigned seed = 0; seed < scenes; ++seed) {

@@ -72,7 +72,7 @@ TEST(CharacterShape, it_accepts_exactly_the_points_that_are_all_corners_of_their
   constexpr unsigned seed = 7;
   compare::Random random(seed);
   int accepted = 0;
-  constexpr int cases = test::sampled(20000);
+  const int cases = test::sampled(20000);
   for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
     Points points(static_cast<std::size_t>(random.integer(3, 6)));

@@ -17,7 +17,7 @@ using test::ExactPoint;
 using test::Rational;
 
 constexpr unsigned seed = 20240607;
-constexpr int cases = test::sampled(20000);
+const int cases = test::sampled(20000);
 
 class Dice : public compare::Random {
  public:

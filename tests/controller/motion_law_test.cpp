@@ -215,7 +215,7 @@ class ExactSlope {
 
 TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
   constexpr double microradian = 1e-6;
-  constexpr std::uint64_t cases = test::sampled(10000);
+  const std::uint64_t cases = test::sampled(10000U);
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     const ExactSlope slope(seed);
     ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;

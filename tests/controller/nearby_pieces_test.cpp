@@ -160,7 +160,7 @@ Tally expect_the_same_of_all_and_of_each(int sceneries) {
 }
 
 TEST(SensorsNearby, are_those_of_a_look_at_each_alone) {
-  constexpr int sceneries = sampled(3'000);
+  const int sceneries = sampled(3'000);
   const Tally tally = expect_the_same_of_all_and_of_each(sceneries);
   EXPECT_GT(tally.some, sceneries * 6 * 3 / 10);
   EXPECT_LT(tally.some, sceneries * 6 * 8 / 10);

@@ -10,8 +10,8 @@
 namespace paperproof::stepping {
 namespace {
 
-constexpr int a_million = test::sampled(1'000'000);
-constexpr int an_hour = test::sampled(216'000);
+const int a_million = test::sampled(1'000'000);
+const int an_hour = test::sampled(216'000);
 
 /// Steps until position and velocity repeat, then a given number of steps more, on which nothing may change.
 template <class Scalar>

@@ -24,8 +24,8 @@ TEST(PixelTileSlope, takes_nobody_down_who_jumps) {
 TEST(PixelTiles, agree_with_the_bitmap_for_tiles_of_any_size) {
   Random random(9);
   std::size_t solid = 0;
-  constexpr int sceneries = test::sampled(60);
-  for (int i = 0; i < sceneries; ++i) {
+  const unsigned sceneries = test::sampled(60U);
+  for (unsigned i = 0; i < sceneries; ++i) {
     SceneryDef scenery;
     for (int k = 0; k < 3; ++k) scenery.colliders.push_back({.points = on_an_ellipse(random, random.point(3), {3, 3})});
     const int size = 1 + random.below(100);

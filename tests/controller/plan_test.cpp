@@ -142,7 +142,7 @@ std::size_t run_both(const SceneryDef& def, const Foreseen& foreseen, test::Rand
 
 TEST(Plan, planned_and_full_give_the_same_bits_in_10000_random_sceneries) {
   std::array<int, all_stages.size() + 1> omissions{};
-  for (std::uint64_t seed = 0; seed < test::sampled(10'000) && !testing::Test::HasFailure(); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::sampled(10'000U) && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     test::Random random(seed);
     const auto terrain = test::all_terrains[seed % test::all_terrains.size()];

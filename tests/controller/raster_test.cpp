@@ -61,8 +61,8 @@ Pixels pixels_of(const ColliderDef& collider, double pixels_per_metre) {
 TEST(Rasteriser, gives_each_pixel_of_two_polygons_with_a_common_edge_to_exactly_one) {
   Random random(4);
   std::size_t shared = 0;
-  constexpr int pairs = test::sampled(2000);
-  for (int i = 0; i < pairs; ++i) {
+  const unsigned pairs = test::sampled(2000U);
+  for (unsigned i = 0; i < pairs; ++i) {
     const auto corner = [&](double x, double y) { return Vec2d{x * random.between(1, 9), y * random.between(1, 9)}; };
     // One corner in each quadrant; cut from the first to the third.
     const std::vector<Vec2d> quad{corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
@@ -91,8 +91,8 @@ TEST(Rasteriser, respects_holes) {
 
 TEST(Rasteriser, draws_a_chain_as_a_line_without_gaps_or_thickness) {
   Random random(5);
-  constexpr int chains = test::sampled(2000);
-  for (int i = 0; i < chains; ++i) {
+  const unsigned chains = test::sampled(2000U);
+  for (unsigned i = 0; i < chains; ++i) {
     const std::vector<Vec2d> points{random.point(30), random.point(30), random.point(30)};
     const Pixels pixels = pixels_of(chain(points), 1);
     std::size_t longest = 0;

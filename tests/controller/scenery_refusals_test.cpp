@@ -52,7 +52,7 @@ bool is_simple(const Points& ring) {
 
 TEST(Refusals, exactly_the_rings_that_touch_or_cross_themselves_are_refused) {
   int valid = 0;
-  constexpr int cases = test::sampled(20000);
+  const unsigned cases = test::sampled(20000U);
   for (unsigned seed = 0; seed < cases; ++seed) {
     test::Random random(seed);
     Points ring(3 + random.index(4));

@@ -111,7 +111,7 @@ struct Family {
 class Cutting : public testing::TestWithParam<Family> {};
 
 TEST_P(Cutting, pieces_tile_random_polygons_exactly_whatever_the_winding_and_the_scalar) {
-  constexpr int polygons = test::sampled(1000);
+  const unsigned polygons = test::sampled(1000U);
   int valid = 0;
   int concave = 0;
   int valid_in_float = 0;

@@ -137,7 +137,7 @@ void try_world(Random& random, Outcomes& outcomes) {
 
 TEST(InvalidDefinitions, random_definitions_never_abort_and_never_give_a_nan) {
   Outcomes outcomes;
-  constexpr int definitions = paperproof::test::sampled(20000);
+  const unsigned definitions = paperproof::test::sampled(20000U);
   for (std::uint64_t seed = 0; seed < definitions; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
