@@ -134,8 +134,6 @@ TEST_P(Queries, are_answered_as_by_exact_arithmetic) {
     Questions(GetParam(), seed).ask(tally);
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
-  std::printf("%s: %d casts, %d hit, %d grazing, %d positions overlap, %d are near\n", name_of(GetParam()).c_str(),
-              tally.casts, tally.hits, tally.grazing, tally.overlapping, tally.near);
   EXPECT_GE(tally.hits, tally.casts / 20);
   EXPECT_LE(tally.grazing, tally.casts / 50);
   EXPECT_GE(tally.overlapping, 10);

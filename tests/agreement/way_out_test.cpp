@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <numbers>
 
 namespace paperproof::test {
@@ -97,7 +96,6 @@ TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_ther
     EXPECT_FALSE(shorter) << "there is a way from " << solids.start.transpose() << " on the side of "
                           << last_free.transpose() << " to " << shorter->transpose();
   }
-  std::printf("%s: %d starts, %d to their side\n", GetParam().title().c_str(), starts, to_its_side);
   EXPECT_GE(to_its_side, starts / 10);
 }
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace paperproof::box2d::hero_test {
@@ -64,57 +63,45 @@ TEST(OneSidedChain, that_reaches_into_a_hero_from_behind_between_its_feet_does_n
   EXPECT_EQ(game.x(), 0);
 }
 
-/// Nobody gets behind these, whatever the player does.
-struct Held {
-  std::string name;
-  std::vector<Line> lines;
-  Vec2d start;  ///< Of the feet.
-  std::function<bool(const Game&)> holds;
-  std::function<Input(const Game&, int frame)> play;
-};
-
-std::vector<Held> all_held() {
-  std::vector<Held> all;
-  for (const float bulge : {-0.6F, -0.1F, -0.02F, 0.0F, 0.02F, 0.1F, 0.6F})
-    all.push_back({"wall that bulges by " + std::to_string(bulge),
-                   {{{10, 0}, {-10, 0}},  // the front of the others is on the left
-                    {{3, 12}, {3, 3}},
-                    {{3, 3}, {3 - bulge, 0.6F}},
-                    {{3 - bulge, 0.6F}, {3, -1}}},
-                   {0, 1e-6},
-                   [bulge](const Game& game) { return game.x() < 3 + std::max(0.0F, -bulge); },
-                   [](const Game&, int frame) { return Input{.move = 1.0, .jump = frame > 60}; }});
-  for (const float flank : {0.45F, 0.6F, 0.9F})
-    all.push_back({"steep foot of " + std::to_string(flank),
-                   {{{6, 0}, {0, 0}}, {{0, 0}, {-flank, 1.5F}, {-3, 1.5F}, {-6, -1.5F}}},
-                   {3, 1e-6},
-                   [](const Game& game) { return game.x() > 0; },
-                   [](const Game&, int) { return Input{.move = -1.0, .drop = true}; }});
-  for (const float overhang : {0.0F, 0.3F, -0.3F})
-    all.push_back({"top of a cliff that hangs over by " + std::to_string(overhang),
-                   {{{0, 0}, {-6, -1}}, {{overhang, -5}, {0, 0}}},
-                   {-2, 0.875},
-                   [](const Game& game) { return game.feet() > -half_height; },
-                   [](const Game& game, int) { return Input{.move = game.x() < -0.1 ? 0.5 : 0.0}; }});
-  all.push_back({"hill of several fixtures, that is walked over without a gap",
-                 {{{0, 1}, {-2, 0}, {-9, 0}}, {{3, 0}, {0, 1}}, {{9, -0.5F}, {3, 0}}},
-                 {-6.5, 1e-6},
-                 [](const Game& game) { return game.hero.grounded(); },
-                 [](const Game&, int) { return Input{.move = 1.0}; }});
-  return all;
+/// Nobody gets behind these, whatever the player does. @param feet where they are at first.
+void expect_held(const std::vector<Line>& lines, const Vec2d& feet, const auto& holds, const auto& play) {
+  Game game({.character = {.snap = 0.2}, .position = feet + Vec2d(0, half_height)});
+  for (const Line& line : lines) game.chain(line);
+  for (int i = 0; i < 200 && std::abs(game.x()) <= 7; ++i) {
+    game.go(play(game, i));
+    ASSERT_TRUE(holds(game)) << "frame " << i << ", at " << game.hero.position().transpose();
+  }
 }
 
 TEST(OneSidedChain, holds_whatever_the_player_does) {
-  for (const Held& held : all_held()) {
-    Game game({.character = {.snap = 0.2}, .position = held.start + Vec2d(0, half_height)});
-    for (const Line& line : held.lines) game.chain(line);
-    for (int frame_number = 0; frame_number < 200; ++frame_number) {
-      game.go(held.play(game, frame_number));
-      ASSERT_TRUE(held.holds(game)) << held.name << ", frame " << frame_number << ", at "
-                                    << game.hero.position().transpose();
-      if (std::abs(game.x()) > 7) break;
-    }
+  for (const float bulge : {-0.6F, -0.1F, -0.02F, 0.0F, 0.02F, 0.1F, 0.6F}) {
+    SCOPED_TRACE(testing::Message() << "wall that bulges by " << bulge);
+    expect_held(
+        {{{10, 0}, {-10, 0}},  // the front of the others is on the left
+         {{3, 12}, {3, 3}},
+         {{3, 3}, {3 - bulge, 0.6F}},
+         {{3 - bulge, 0.6F}, {3, -1}}},
+        {0, 1e-6}, [bulge](const Game& game) { return game.x() < 3 + std::max(0.0F, -bulge); },
+        [](const Game&, int frame_number) { return Input{.move = 1.0, .jump = frame_number > 60}; });
   }
+  for (const float flank : {0.45F, 0.6F, 0.9F}) {
+    SCOPED_TRACE(testing::Message() << "steep foot of " << flank);
+    expect_held(
+        {{{6, 0}, {0, 0}}, {{0, 0}, {-flank, 1.5F}, {-3, 1.5F}, {-6, -1.5F}}}, {3, 1e-6},
+        [](const Game& game) { return game.x() > 0; },
+        [](const Game&, int) { return Input{.move = -1.0, .drop = true}; });
+  }
+  for (const float overhang : {0.0F, 0.3F, -0.3F}) {
+    SCOPED_TRACE(testing::Message() << "top of a cliff that hangs over by " << overhang);
+    expect_held(
+        {{{0, 0}, {-6, -1}}, {{overhang, -5}, {0, 0}}}, {-2, 0.875},
+        [](const Game& game) { return game.feet() > -half_height; },
+        [](const Game& game, int) { return Input{.move = game.x() < -0.1 ? 0.5 : 0.0}; });
+  }
+  SCOPED_TRACE("hill of several fixtures, that is walked over without a gap");
+  expect_held(
+      {{{0, 1}, {-2, 0}, {-9, 0}}, {{3, 0}, {0, 1}}, {{9, -0.5F}, {3, 0}}}, {-6.5, 1e-6},
+      [](const Game& game) { return game.hero.grounded(); }, [](const Game&, int) { return Input{.move = 1.0}; });
 }
 
 TEST(OneSidedChain, holds_the_hero_if_the_game_makes_it_anew) {
@@ -227,11 +214,9 @@ TEST(OneSidedChain, holds_any_play_over_random_hills) {
     }
     Game game({.position = {0, 8}});
     const bool is_cut_often = seed % 2 == 0;
-    for (std::size_t from = 0, to = 0; to + 1 < hills.size(); from = to) {
-      to = std::min(from + (is_cut_often ? 1 + static_cast<std::size_t>(random.below(4)) : hills.size() / 2),
-                    hills.size() - 1);
-      game.chain(
-          {hills.begin() + static_cast<std::ptrdiff_t>(from), hills.begin() + static_cast<std::ptrdiff_t>(to) + 1});
+    for (auto from = hills.begin(), to = from; hills.end() - from > 1; from = to) {
+      to = from + std::min(is_cut_often ? 1 + random.below(4) : std::ssize(hills) / 2, hills.end() - from - 1);
+      game.chain({from, to + 1});
     }
     Input input;
     for (int i = 0; i < 400; ++i) {

@@ -80,9 +80,7 @@ TEST(Hero, pushes_a_ball_up_to_its_walking_speed) {
 }
 
 TEST(Hero, tilts_a_see_saw_and_rides_it) {
-  CharacterDef character;
-  character.snap = 0.1;
-  Game game({.character = character, .position = {1.5, 1.6}});
+  Game game({.character = {.snap = 0.1}, .position = {1.5, 1.6}});
   b2Fixture& post = game.box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
   b2Fixture& plank = game.box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
   b2RevoluteJointDef joint;
@@ -97,10 +95,8 @@ TEST(Hero, tilts_a_see_saw_and_rides_it) {
 }
 
 TEST(Hero, crosses_a_bridge_of_20_links) {
-  CharacterDef character;
-  character.snap = 0.2;
-  character.step_height = 0.2;  // links are kerbs for each other
-  Game game({.character = character, .position = {-11, 1.7}});
+  // Links are kerbs for each other.
+  Game game({.character = {.snap = 0.2, .step_height = 0.2}, .position = {-11, 1.7}});
   b2Body* last = game.box(b2_staticBody, {-12, 0}, 2, 1).GetBody();
   b2Body* other_end = game.box(b2_staticBody, {12, 0}, 2, 1).GetBody();
   for (int i = 0; i <= 20; ++i) {
@@ -185,10 +181,10 @@ TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
       for (int i = 0; i < 300; ++i) {
         game.world.Step(static_cast<float>(frame), 8, 3);
         if (upper_first) other.step({.move = 0.0}, frame);
-        const StepStatus status = game.hero.step({.move = i > 200 ? 1.0 : 0.0}, frame);
+        game.hero.step({.move = i > 200 ? 1.0 : 0.0}, frame);
         if (!upper_first) other.step({.move = 0.0}, frame);
-        ASSERT_EQ(status, StepStatus::moved) << "aside " << aside << ", frame " << i;
-        ASSERT_EQ(other.report().status, StepStatus::moved) << "aside " << aside << ", frame " << i;
+        for (const Hero* each : {&game.hero, &other})
+          ASSERT_EQ(each->report().status, StepStatus::moved) << "aside " << aside << ", frame " << i;
       }
       EXPECT_GE(other.position().y(), game.feet() + 3 * half_height - 1e-5);
       EXPECT_GT(game.x(), 5) << "the lower one cannot walk";
@@ -350,44 +346,24 @@ TEST(HeroListener, hears_once_of_a_saw_blade_that_comes_and_of_a_coin_that_is_pa
   EXPECT_EQ(game.times_begun(saw), 1);
 }
 
-struct Press {
-  b2BodyType type = b2_kinematicBody;
-  float spin = 0;
-  float half_width = 0;
-  float speed = 0;
-  float from = 0;  ///< Where it begins [m].
-};
-
-std::vector<Press> all_presses() {
-  std::vector<Press> all;
-  for (const b2BodyType type : {b2_kinematicBody, b2_dynamicBody})
-    for (const float spin : {0.0F, 1e-7F, 1e-5F, 1e-3F, 0.05F, 0.5F, 2.0F, -1e-4F})
-      for (const float half_width : {1.0F, 3.0F})
-        for (const float speed : {-0.5F, -3.0F}) all.push_back({type, spin, half_width, speed, 1.5F});
-  for (const float speed : {-0.5F, -1.0F, -2.0F, -3.0F, -6.0F})
-    for (const float from : {1.5F, 1.75F, 2.0F, 2.25F, 2.5F, 3.0F})
-      all.push_back({b2_kinematicBody, 0, 2, speed, from});
-  return all;
-}
-
 /// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
 /// moved by 120 km in a frame. A wide one moved it to its edge. A press whose way was a whole number of steps
 /// overlapped the hero by rounding alone, and in the next step the hero came out from under it to its edge.
 TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
   int crushed = 0;
   int squeezed = 0;
-  for (const Press& one : all_presses()) {
-    SCOPED_TRACE(testing::Message() << "type " << one.type << ", spin " << one.spin << ", half width " << one.half_width
-                                    << ", speed " << one.speed << ", from " << one.from);
+  const auto press_down = [&](b2BodyType type, float spin, float half_of_width, float speed, float from) {
+    SCOPED_TRACE(testing::Message() << "type " << type << ", spin " << spin << ", half width " << half_of_width
+                                    << ", speed " << speed << ", from " << from);
     OnFloor game;
-    b2Body& press = *game.box(one.type, {0.3F, one.from + 1}, one.half_width, 1, 1000).GetBody();
+    b2Body& press = *game.box(type, {0.3F, from + 1}, half_of_width, 1, 1000).GetBody();
     press.SetGravityScale(0);
-    const bool is_door = one.type == b2_kinematicBody && one.spin == 0;
-    const double fastest = -one.speed + 4 * std::abs(one.spin);
+    const bool is_door = type == b2_kinematicBody && spin == 0;
+    const double fastest = -speed + 4 * std::abs(spin);
     bool was_crushed = false;
     for (int i = 0; i < 600 && press.GetPosition().y > 1.2F; ++i) {
-      press.SetAngularVelocity(one.spin);
-      press.SetLinearVelocity({0, one.speed});
+      press.SetAngularVelocity(spin);
+      press.SetLinearVelocity({0, speed});
       const Vec2d before = game.hero.position();
       const StepStatus status = game.go();
       ASSERT_LE((game.hero.position() - before).norm(), fastest * frame + 0.25) << "frame " << i;
@@ -397,12 +373,18 @@ TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
       ASSERT_TRUE(!is_door || !was_crushed || status == StepStatus::crushed || status == StepStatus::stuck);
     }
     (game.hero.report().status == StepStatus::moved ? squeezed : crushed) += 1;
-    if (!is_door) continue;
+    if (!is_door) return;
     EXPECT_TRUE(was_crushed);
     press.SetLinearVelocity({0, 3});
     game.run(60, {.move = 1.0});
     EXPECT_GT(game.x(), 1) << "it cannot walk away";
-  }
+  };
+  for (const b2BodyType type : {b2_kinematicBody, b2_dynamicBody})
+    for (const float spin : {0.0F, 1e-7F, 1e-5F, 1e-3F, 0.05F, 0.5F, 2.0F, -1e-4F})
+      for (const float half_of_width : {1.0F, 3.0F})
+        for (const float speed : {-0.5F, -3.0F}) press_down(type, spin, half_of_width, speed, 1.5F);
+  for (const float speed : {-0.5F, -1.0F, -2.0F, -3.0F, -6.0F})
+    for (const float from : {1.5F, 1.75F, 2.0F, 2.25F, 2.5F, 3.0F}) press_down(b2_kinematicBody, 0, 2, speed, from);
   EXPECT_GT(crushed, 0);
   EXPECT_GT(squeezed, 0);
 }
@@ -546,9 +528,7 @@ TEST(Hero, refuses_what_it_cannot_do) {
   const CharacterDef tiny{.shape = CharacterShape(compare::box(0, 0, 0.001, 0.001).points)};
   EXPECT_THROW(Hero(game.world, {.character = tiny}), InvalidDefinition);
   EXPECT_THROW((void)game.hero.change(tiny), InvalidDefinition);
-  CharacterDef impossible;
-  impossible.walk_speed = -1;
-  EXPECT_THROW(Hero(game.world, {.character = impossible}), InvalidCharacter);
+  EXPECT_THROW(Hero(game.world, {.character = {.walk_speed = -1}}), InvalidCharacter);
   EXPECT_EQ(game.world.GetBodyCount(), 2) << "a hero that was refused left a body";
   const HeroSave saved = game.hero.save();
   game.listener.on_begin = [&] {

@@ -26,7 +26,6 @@ inline CharacterDef low() { return {.shape = CharacterShape(compare::box(-0.3, -
 /// What the game's own contact listener sees of the hero.
 class HeroListener : public b2ContactListener {
  public:
-  explicit HeroListener(const b2Body*& hero) : hero_(hero) {}
   void BeginContact(b2Contact* contact) override {
     b2Fixture* other = other_of(*contact);
     if (other == nullptr) return;
@@ -38,23 +37,23 @@ class HeroListener : public b2ContactListener {
     if (b2Fixture* other = other_of(*contact)) touching.erase(other);
   }
 
+  const b2Body* hero = nullptr;
   std::multiset<b2Fixture*> touching;
   std::vector<b2Fixture*> begun;
   std::function<void()> on_begin;
 
  private:
   [[nodiscard]] b2Fixture* other_of(b2Contact& contact) const {
-    if (contact.GetFixtureA()->GetBody() == hero_) return contact.GetFixtureB();
-    if (contact.GetFixtureB()->GetBody() == hero_) return contact.GetFixtureA();
+    if (contact.GetFixtureA()->GetBody() == hero) return contact.GetFixtureB();
+    if (contact.GetFixtureB()->GetBody() == hero) return contact.GetFixtureA();
     return nullptr;
   }
-  const b2Body*& hero_;
 };
 
 struct Game {
   explicit Game(const HeroDef& def = {}) : hero(world, def) {
     world.SetContactListener(&listener);
-    hero_body = &hero.body();
+    listener.hero = &hero.body();
   }
 
   b2Fixture& add(b2BodyType type, const b2Vec2& at, const b2Shape& shape, float density = 0) {
@@ -116,8 +115,7 @@ struct Game {
   }
 
   b2World world{{0, -10}};
-  const b2Body* hero_body = nullptr;
-  HeroListener listener{hero_body};
+  HeroListener listener;
   Hero hero;
 };
 

@@ -36,18 +36,6 @@ std::vector<std::pair<Moment, Moment>> silence(int steps) {
   return run;
 }
 
-TEST_F(AgreementTest, is_the_share_of_steps_with_the_same_sides) {
-  const auto wall = contact(1, Side::left);
-  const Row row = compare({{moment(0), moment(0)},
-                           {moment(1, {floor}), moment(1, {floor})},
-                           {moment(2, {floor, wall}), moment(2, {wall, contact(1, Side::bottom)})},
-                           {moment(3, {floor}), moment(3, {floor, wall})},
-                           {moment(4), moment(4)}});
-  EXPECT_EQ(row.contact_agreement_box2d, 0.8);
-  EXPECT_EQ(row.contact_recall_box2d, 1) << "the wall of step 3 was reported one step before";
-  EXPECT_EQ(agreement_->disagreements().size(), 1U);
-}
-
 TEST_F(AgreementTest, contacts_in_the_references_skin_are_excused) {
   std::vector<std::pair<Moment, Moment>> run{{moment(0), moment(0, {contact(0, Side::bottom)})},
                                              {moment(9, {contact(1, Side::left)}), moment(9)}};

@@ -44,6 +44,15 @@ TEST(BulletTheory, is_as_worked_out_by_hand) {
   EXPECT_TRUE(bullet_theory({"octagon_sweep"}, 0.01).known);
 }
 
+Row run(const std::string& scene, const std::vector<Case::Setting>& settings, const Contender& contender) {
+  Case one;
+  one.scene = scene;
+  one.parameters = settings;
+  one.contender = contender.name;
+  one.knobs = contender.knobs;
+  return run_case(one);
+}
+
 TEST(LowestSpeed, of_box2d_with_its_holes_open_is_that_of_theory) {
   for (const Contender& contender :
        {Contender{"box2d", {{"continuous", "off"}}}, Contender{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}}) {
@@ -52,15 +61,11 @@ TEST(LowestSpeed, of_box2d_with_its_holes_open_is_that_of_theory) {
     const auto through = [&](double speed) {
       int count = 0;
       for (int phase = 0; phase < 40; ++phase) {
-        Case one;
-        one.scene = "paper";
-        one.contender = contender.name;
-        one.knobs = contender.knobs;
-        one.parameters = {{"speed", std::to_string(speed)},
-                          {"thickness", "0.1"},
-                          {"height", "0.1"},
-                          {"phase", std::to_string(phase / 40.0)}};
-        count += run_case(one).tunnels.value_or(0) > 0;
+        const std::vector<Case::Setting> settings{{"speed", std::to_string(speed)},
+                                                  {"thickness", "0.1"},
+                                                  {"height", "0.1"},
+                                                  {"phase", std::to_string(phase / 40.0)}};
+        count += run("paper", settings, contender).tunnels.value_or(0) > 0;
       }
       return count;
     };
@@ -134,31 +139,11 @@ TEST(PreparedStudies, find_the_holes_of_box2d_on_their_quick_grids) {
     }
 }
 
-Row run(const std::string& scene, const std::vector<Case::Setting>& settings, const std::string& contender) {
-  Case one;
-  one.scene = scene;
-  one.parameters = settings;
-  one.contender = contender;
-  return run_case(one);
-}
-
-TEST(TightFamilies, are_answered_by_octagon_sweep_wherever_tip_and_corner_stand) {
-  for (const char* angle : {"0.1", "10", "60"})
-    for (const char* offset : {"-0.15", "0", "1e-9", "0.1"}) {
-      const Row row = run("spike", {{"angle", angle}, {"offset", offset}}, "octagon_sweep");
-      EXPECT_EQ(row.verdict, Verdict::holds) << angle << " " << offset << ": " << row.reason;
-    }
-  for (const char* overlap : {"1e-6", "1e-3", "0.1", "0.3"}) {
-    const Row row = run("corner", {{"overlap", overlap}}, "octagon_sweep");
-    EXPECT_EQ(row.verdict, Verdict::holds) << overlap << ": " << row.reason;
-  }
-}
-
 TEST(TightFamilies, what_closes_in_crushes_where_it_leaves_no_room_and_only_there) {
   for (const char* scene : {"closing_walls", "closing_lift"})
     for (const char* closing : {"0.3", "3", "30", "300"})
       for (const char* clearance : {"-0.1", "1e-6", "0.001", "0.1", "0.5"}) {
-        const Row row = run(scene, {{"closing", closing}, {"clearance", clearance}}, "octagon_sweep");
+        const Row row = run(scene, {{"closing", closing}, {"clearance", clearance}}, {"octagon_sweep"});
         EXPECT_EQ(row.verdict, Verdict::holds) << scene << " " << closing << " " << clearance << ": " << row.reason;
         const int crushes = clearance[0] == '-' ? 1 : 0;
         EXPECT_EQ(row.crushes.value_or(0), crushes) << scene << " " << closing << " " << clearance;

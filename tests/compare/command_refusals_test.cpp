@@ -9,7 +9,6 @@
 #include <iterator>
 #include <set>
 #include <tuple>
-#include <vector>
 
 namespace paperproof::compare {
 namespace {
@@ -114,11 +113,7 @@ TEST_F(CommandRefuses, scenes_with_a_fault) {
            {"behind.json", good_scene + std::string("\0{}", 3), "behind.json:5: expected text; a byte of zero"},
            {"behind.tmx", map + std::string("\0<map/>", 7), "behind.tmx:6: expected text; a byte of zero"},
            {"behind.stl", std::string("(supertux-level)\0", 17), "behind.stl:1: expected text; a byte of zero"},
-           {"deep.json", std::string(100'000, '['), "levels of nesting"},
            {"deep.tmx", tmx(std::string(100'000, '<')), "deep.tmx:"},
-           {"deep.stl", std::string(100'000, '('), "deep.stl:"},
-           {"xml.tmx", "<map><layer></map>", "xml.tmx:1"},
-           {"name.png", "not a scene", "name.png: expected"},
            {"tiled.json", instead("\"tiled\": \"/dev/zero\""), "this is a device"},
            {"picture.json", instead("\"picture\": \"/dev/zero\""), "/scenery/0/picture: /dev/zero: expected a regular"},
            {"tiles.json", instead("\"pixel_tiles\": \"/dev/zero\""), "this is a device"},
@@ -164,13 +159,11 @@ TEST_F(CommandRefuses, rows_that_are_none) {
   refused("diff good.jsonl pipe.jsonl", "pipe.jsonl: expected a regular file; this is a pipe");
   const std::vector<std::pair<std::string, std::string>> faults{
       {rows_with("\"holds\"", "\"fine\""), "2: /verdict: expected failed, not_applicable, violates"},
-      {rows_with("\"tunnels\":0", "\"tunels\":0"), "2: /tunels: unknown key; did you mean tunnels?"},
       {rows_with("\"tunnels\":0", "\"tunnels\":0,\"tunnels\":1"),
        "2: expected each key once; \"tunnels\" stands twice"},
       {rows_with("\"tunnels\":0", "\"tunnels\":1e999"), "2: expected finite numbers"},
       {rows_with("\"tunnels\":0", "\"case\":\"../../etc\""), "2: /case: expected a text like"},
       {rows_with("\"mask\"", "\"mask\xff\""), "2: expected JSON"},
-      {std::string(header_line) + "[1]\n" + good_row, "2: /: expected an object, not [1]"},
       {std::string(header_line) + std::string(100'000, '[') + "\n" + good_row, "2: expected at most 100 levels"},
       {header_line + std::string(good_row).substr(0, 40) + "\n" + good_row, "2: expected JSON"},
       {header_line + with(good_row, "}\n", std::string("}\0\n", 3)) + good_row, "2: expected text; a byte of zero"},
@@ -208,7 +201,6 @@ TEST_F(CommandRefuses, pages_and_json_files_of_rows_that_are_none) {
            {"a.json", file(with(good_row, "holds", "fine")), "a.json: /rows/0/verdict: expected failed"},
            {"c.json", file(good_row) + "x", "c.json:3: expected JSON"},
            {"d.json", file(good_row) + std::string("\0", 1), "d.json:3: expected text; a byte of zero"},
-           {"h.json", std::string(100'000, '['), "levels of nesting"},
            {"rows.csv", "scene,contender\r\npaper,mask\r\n", "rows.csv:1: expected JSON"}}) {
     place.write(name, text);
     refused("report o.html " + name, says);
@@ -281,12 +273,13 @@ TEST_F(CommandRefuses, options_that_cannot_be) {
           {sweep + "--vary ",
            "speed speed= =1,2 speed=x speed=1,x speed=1:2 speed=1:2:lin speed=1:2:lin0 speed=1:2:lin1x speed=1:2:log-3 "
            "speed=0:2:log3 speed=1:2:lin99999999999999999999 speed=nan,1 speed=1:inf:lin3 speed=1e999,2 sped=1,2 '' "
-           "speed=1,,2 speed=-1e300,2 speed=1:2:cubic3 unit=-1,2 continuous=maybe,on",
+           "speed=1,,2 speed=-1e300,2 speed=1:2:cubic3 unit=0.5,1 continuous=maybe,on height=-1 gravity=1e9 phase=fast",
            ""},
-          {sweep + "--vary speed=1,2 --vary ", "speed=3,4", ""},
+          {"sweep paper --quiet --contender wind_back --vary ", "unit=a,1", ""},
+          {sweep + "--vary speed=1,2 ", "--vary=speed=3,4 --set=speed=1 --find-border=speed", ""},
           {sweep + "--vary speed=1,2 --shard ", "'' 0/2 3/2 1 1/ /2 a/b 1/2/3 -1/2 1/0 1.5/2 1/99999999999999999999999",
            "--shard"},
-          {sweep + "--find-border ", "sped speed=1 speed=2:1 speed=x:y '' speed=1:2:lin3", ""},
+          {sweep + "--find-border ", "sped speed=1 speed=2:1 speed=x:y '' speed=1:2:lin3 height=0.001:1", ""},
           {sweep + "--vary speed=1,2 --jobs ", "0 -1 x 99999999999999999999 ''", "--jobs"},
           {sweep + "--vary speed=1,2 --limit ", "0 -1 1e3 ''", "--limit"},
           {compare + "--set ", "dt dt= =1 dt=x dt=-1 dt=0 dt=nan dt=1e999 spede=1 '' dt=1,2 gravity=1e300", ""},
@@ -301,24 +294,12 @@ TEST_F(CommandRefuses, options_that_cannot_be) {
           {compare + "--scalar ", "half", "paperproof: --scalar"},
           {compare + "--mode ", "sideways", "paperproof: --mode: expected free or lockstep, not sideways"},
           {compare + "--mode free --mode ", "lockstep", "paperproof: --mode: expected once, not 2 times"},
-          {compare + "--mode lockstep ", "--no-reference", ""},
-          {compare + "--mode lockstep --contender ", "box2d", ""},
+          {compare + "--mode lockstep ", "--no-reference --contender=box2d", ""},
           {compare + "--plan ", "none", "paperproof: --plan: expected full, not none"},
           {compare, "--no-reference=no", "paperproof: --no-reference: expected nothing behind it"},
           {compare, "--quiet=yes --unknown -x --stepps", ""},
           {compare + "--contender ", "'' nobody", ""},
-          {compare + "--set dt=0.01 ", "--set", ""},
-          {"compare --quiet --files-from ", "''", ""},
-          {"demo ", "nobody octagon_swep", ""},
-          {"demo mask ", "mask", ""},
-          {"stability ", "--grid=huge --contender=nobody", ""},
-          {"study bullet ", "--grid=x --shard=''", ""},
-          {"study disagreement ", "no_such_scene", ""},
-          {"work-precision ", "nothing", ""},
-          {"plan article_bullet --input ", "x", ""},
-          {"diff ", "one", ""},
-          {"diff one two ", "three", ""},
-          {"convert '' ", "''", ""}})
+          {compare + "--set dt=0.01 ", "--set", ""}})
     for (const std::string& word : words_of(words)) refused(before + word, says);
 }
 
@@ -343,18 +324,20 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
            {"frobnicate", commands},
            {"study bullets",
             "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof "
-            "study "
-            "--help\n"},
+            "study --help\n"},
            {"list scene",
             "paperproof: WHAT: expected scenes, contenders, knobs, metrics or parameters, not scene; see paperproof "
-            "list "
-            "--help\n"},
+            "list --help\n"},
            {"check", "paperproof: SCENE is required; see paperproof check --help\n"},
            {"judge nowhere.jsonl", "nowhere.jsonl: expected a file that exists; there is none\n"},
            {"compare article_bullet --files-from -", "--files-from -: expected the names of scenes"}})
     refused(arguments, says);
   for (const std::string& command : words_of("plan convert sweep merge report list")) refused(command);
-  for (const char* arguments : {"check 'a\nb'", "list 'a\rb\n'", "compare article_bullet --contender 'a\nb'"})
+  for (const char* arguments : {"check 'a\nb'", "list 'a\rb\n'", "compare article_bullet --contender 'a\nb'",
+                                "convert '' ''", "compare --quiet --files-from ''", "demo nobody", "demo octagon_swep",
+                                "demo mask mask", "diff one", "stability --grid=huge", "stability --contender=nobody",
+                                "study bullet --grid=x", "study bullet --shard=''", "study disagreement no_such_scene",
+                                "work-precision nothing", "plan article_bullet --input x", "diff one two three"})
     refused(arguments);
 }
 

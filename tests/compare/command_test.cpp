@@ -1,8 +1,6 @@
 /// The command as a user runs it: exit status, what it says, which files it writes.
 #include "compare/command_workplace.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 
 namespace paperproof::compare {
@@ -23,22 +21,15 @@ TEST(Command, counts_runs_in_double_and_in_float_apart) {
   }
 }
 
-std::vector<std::string> in_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a_step_costs) {
   const Workplace place;
   const Finished finished = place.run("compare article_bullet thin_platform flush_tiles");
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_EQ(finished.err, "") << "no progress where nobody watches";
   EXPECT_TRUE(place.files().empty());
-  std::vector<std::string> screen = in_lines(finished.out);
-  ASSERT_GT(screen.size(), 25U);
-  screen.resize(25);
+  std::vector<std::string> screen(25);
+  std::istringstream text(finished.out);
+  for (std::string& line : screen) ASSERT_TRUE(std::getline(text, line)) << finished.out;
   EXPECT_EQ(screen[1], "exact arithmetic: `platform` is met at 0.600");
   constexpr std::string_view cost_heading = "ns per step";
   ASSERT_TRUE(holds(screen[3], std::string(cost_heading)));
@@ -53,8 +44,8 @@ TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a
     const auto line = std::find_if(screen.begin(), screen.end(), [&](const auto& one) { return begins(one, first); });
     ASSERT_NE(line, screen.end()) << contender;
     EXPECT_TRUE(holds(*line, "  " + outcome)) << contender;
-    const std::string up_to_cost = line->substr(0, cost_end);
-    const std::string cost = up_to_cost.substr(up_to_cost.find_last_of(' ') + 1);
+    const std::size_t cost_begin = line->find_last_of(' ', cost_end - 1) + 1;
+    const std::string cost = line->substr(cost_begin, cost_end - cost_begin);
     EXPECT_TRUE(outcome == "cannot run" ? cost == "-" : std::atof(cost.c_str()) > 1) << *line;
   }
 }
@@ -75,8 +66,8 @@ TEST(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
 TEST(Command, gives_rows_alone_when_asked_for_json_of_each_contender_and_scalar) {
   const Workplace place;
   const Finished finished = place.run(
-      "compare article_bullet --no-timing --json --contender speculative_march,mask --scalar double,float --knob "
-      "unit=0.5");
+      "compare article_bullet --no-timing --json --contender speculative_march,mask "
+      "--scalar double,float --knob unit=0.5");
   EXPECT_EQ(finished.err, "");
   const nlohmann::json rows = nlohmann::json::parse(finished.out).at("rows");
   ASSERT_EQ(rows.size(), 5U) << "two of each, and Box2D beside them";
@@ -102,11 +93,10 @@ TEST(Command, check_says_who_will_run_and_why_the_others_do_not) {
   std::size_t running = 0;
   const nlohmann::json rows = nlohmann::json::parse(compared.out);
   for (const nlohmann::json& row : rows.at("rows")) {
-    if (row.at("verdict") != "not_applicable")
-      ++running;
-    else
-      EXPECT_TRUE(holds(checked.out, "  not " + row.at("contender").get<std::string>() + ": " +
-                                         row.at("reason").get<std::string>() + "\n"));
+    const bool runs = row.at("verdict") != "not_applicable";
+    running += runs;
+    const std::string no = "  not " + row.at("contender").get<std::string>() + ": " + row.value("reason", "") + "\n";
+    EXPECT_TRUE(runs || holds(checked.out, no)) << no;
   }
   EXPECT_TRUE(holds(checked.out, "  compare    " + std::to_string(running) + " of 13 contenders run"));
 }
@@ -126,7 +116,6 @@ TEST(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {
     EXPECT_EQ(place.run(std::string("convert ") + scene + " once.json").status, 0) << scene;
     EXPECT_EQ(place.run("convert once.json twice.json").status, 0) << scene;
     EXPECT_EQ(content(place.path("once.json")), content(place.path("twice.json"))) << scene;
-    EXPECT_EQ(place.run("check once.json").status, 0) << scene;
   }
 }
 

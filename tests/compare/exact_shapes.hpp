@@ -53,9 +53,8 @@ inline ColliderDef sensor(ColliderDef def) {
   def.sensor = true;
   return def;
 }
-inline SceneryDef scenery(std::vector<ColliderDef> colliders) { return {.colliders = std::move(colliders)}; }
 inline ExactScenery world(std::vector<ColliderDef> colliders, std::vector<Vec2d> points = octagon()) {
-  return {scenery(std::move(colliders)), std::move(points)};
+  return {SceneryDef{.colliders = std::move(colliders)}, std::move(points)};
 }
 
 /// Counter-clockwise, without points on its edges (A. M. Andrew 1979).
@@ -104,17 +103,6 @@ inline Exact area_within(const std::vector<Vec2d>& ring, const std::vector<Exact
   Exact twice = 0;
   for (std::size_t i = 1; i + 1 < left.size(); ++i) twice += cross(left[0], left[i], left[i + 1]);
   return abs(twice) / 2;
-}
-
-/// Another formulation of overlap, for convex things: the position within the hull of all pairwise differences.
-inline bool in_minkowski_difference(const std::vector<Vec2d>& convex, const Vec2d& position) {
-  std::vector<ExactPoint> all;
-  for (const Vec2d& v : convex)
-    for (const Vec2d& o : octagon()) all.push_back(exact(v) - exact(o));
-  const std::vector<ExactPoint> hull = hull_of(std::move(all));
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    if (cross(hull[i], hull[(i + 1) % hull.size()], exact(position)) <= 0) return false;
-  return true;
 }
 
 /// A star-shaped ring, concave as a rule.

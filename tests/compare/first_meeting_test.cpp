@@ -1,8 +1,7 @@
-/// The first overlap with what turns, against answers that are fractions, and against many moments one by one. Two
-/// methods give the same answers, also where a touch is no overlap.
+/// The first overlap with what turns, against answers that are fractions. Two methods, which share the signs of numbers
+/// alone, give the same answers, also where a touch is no overlap.
 #include "oracle/first_meeting.hpp"
 #include "oracle/second_meeting.hpp"
-#include "oracle/turning_room.hpp"
 
 #include "compare/turning_planks.hpp"
 
@@ -120,46 +119,6 @@ TEST(FirstMeeting, is_after_a_fraction_that_is_known) {
   }
 }
 
-/// Vertices and positions of a moment are rounded here: enough where the moment is not a touch.
-bool overlaps_at(const VertexWay& way, const Path& path, double t) {
-  const std::vector<Vec2d> ring = vertices_at(way, t);
-  const Vec2d at = path[0].position + t * (path[1].position - path[0].position);
-  return world({ring.size() == 2 ? chain(ring) : polygon(ring)}).overlaps(at, 0);
-}
-
-TEST(FirstMeeting, free_before_and_overlapping_after_by_another_formulation) {
-  constexpr std::uint64_t seed = 62;
-  Random random(seed);
-  constexpr int rounds = 600;
-  constexpr int moments = 40;
-  int touched = 0;
-  for (int i = 0; i < rounds; ++i) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + " round " + std::to_string(i));
-    std::vector<Vec2d> piece{{-0.7, 0}, {0.7, 0}};
-    if (i % 3 > 0) piece = box(-0.7, 0, 0.7, i % 3 == 1 ? 1e-4 : 0.1).points;
-    const Vec2d begin = random.point(1.2);
-    const Vec2d moved = random.point(1.2) - begin;
-    const double angle = random.between(-7, 7);
-    const double turn = random.between(-2, 2);
-    const Vec2d start = random.point(1.6);
-    const Path path{{start, 0}, {start + random.point(1), 1}};
-    const VertexWay way = on_chords(piece, begin, moved, angle, turn, 1 + random.below(9));
-    const Question asked{.path = path, .way = way};
-    const Meeting found = asked.first(Asked::when);
-    EXPECT_EQ(asked.first(Asked::whether).kind, found.kind);
-    EXPECT_NE(found.kind, Kind::undecided) << "nothing at random touches without an overlap";
-    const double free_until = found.kind == Kind::apart ? 1 : found.low;
-    for (int k = 0; k < moments && free_until > 0; ++k) ASSERT_FALSE(overlaps_at(way, path, free_until * k / moments));
-    if (found.kind != Kind::meets || found.high < 1e-9) continue;
-    ++touched;
-    EXPECT_LE(found.high - found.low, 1e-9);
-    EXPECT_FALSE(overlaps_at(way, path, std::max(0.0, found.low - 1e-10)));
-    EXPECT_TRUE(overlaps_at(way, path, std::min(1.0, found.high + 1e-10)));
-  }
-  EXPECT_GT(touched, rounds * 2 / 10);
-  EXPECT_LT(touched, rounds * 8 / 10);
-}
-
 /// On straight ways that follow a turn, in each part first the turn at once about a place and then straight on.
 VertexWay at_once(Random& random, const std::vector<Vec2d>& points) {
   double angle = random.between(-7, 7);
@@ -270,6 +229,7 @@ TEST(SecondMeeting, agrees_with_the_first) {
       ASSERT_NE(other.kind, Kind::undecided);
       if (one.kind == Kind::undecided) continue;
       ASSERT_EQ(one.kind, other.kind);
+      EXPECT_EQ(question.first(Asked::whether).kind, one.kind);
       if (one.kind == Kind::apart) continue;
       // Of a disc the first tells the stretch; an overlap that lasts 1e-8 of a step it finds by halving.
       const double near = question.radius > 0 || question.path.size() == 1 ? 1 : 1e-9;
@@ -281,23 +241,6 @@ TEST(SecondMeeting, agrees_with_the_first) {
     EXPECT_LE(met, rounds * 7 / 10) << name;
     EXPECT_LE(undecided, name == std::string("at random") ? 0 : rounds / 100) << name;
   }
-}
-
-TEST(SecondMeeting, decides_a_touch_at_a_moment_that_no_halving_comes_to) {
-  // In units of 0.15625 m the octagon stands at (2, 0), with a corner at (1, -4) between a level side and one of slope
-  // -2. The end of a segment goes from (7, -7) to (-7, 0): it is at that corner at 3/7, on a line of slope -1/2 that
-  // the octagon lies above; the other end stays below.
-  const double unit = 0.15625;
-  Question touch{
-      .path = staying(Vec2d(2, 0) * unit),
-      .way = going({{Vec2d(7, -7) * unit, Vec2d(-1, -7) * unit}, {Vec2d(-7, 0) * unit, Vec2d(-7, -8) * unit}})};
-  EXPECT_EQ(touch.first(Asked::whether).kind, Kind::undecided);
-  EXPECT_EQ(touch.second().kind, Kind::apart);
-  for (PathPoint<double>& corner : touch.path) corner.position.y() = -0x1p-40;
-  const Meeting met = touch.second();
-  ASSERT_EQ(met.kind, Kind::meets);
-  EXPECT_LT(met.low, 3.0 / 7);
-  EXPECT_NEAR(met.high, 3.0 / 7, 1e-10);
 }
 
 }  // namespace

@@ -124,15 +124,6 @@ TEST(JudgeOfContacts, a_wall_that_is_held_is_met_or_not_by_the_rounding_of_a_sla
   }
 }
 
-TEST(JudgeOfContacts, the_rounding_of_a_fall_along_a_slanted_up_is_no_speed) {
-  TraceHeader header = promising({box(-4, -9, 4, -8)});
-  header.up = Vec2d(-5, 6).normalized();
-  TraceStep fall = step({{0, 0}, -header.up / 64});
-  fall.up = header.up;
-  fall.velocity += Vec2d(header.up.y(), -header.up.x()) * 1e-16;
-  EXPECT_EQ(judged(header, fall).ghost_speed_loss, 0);
-}
-
 /// The end of a ledge that rises to the right: the octagon is above its line, a larger one is not.
 TEST(JudgeOfContacts, who_is_above_a_ledge_does_not_fall_freely_past_it) {
   const double slope = 1.0 / 16;

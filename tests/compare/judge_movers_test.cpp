@@ -58,16 +58,6 @@ TEST(JudgeMovers, are_passed_in_their_own_frame) {
   EXPECT_THROW((void)judged(header({box(0, 0, 1, 1, 1)}), staying(here, here)), std::invalid_argument) << "too few";
 }
 
-TEST(JudgeMovers, a_paper_that_sweeps_over_a_resting_character_is_tunnelled_at_the_papers_speed) {
-  constexpr double thickness = 1.0 / 128;
-  const StepJudgement swept = judged(header({box(0, -4, thickness, 4, 0)}), staying({-3, 0}, {5, 0}));
-  EXPECT_EQ(told(swept), "tunnelled 0");
-  ASSERT_EQ(swept.passings.size(), 1U);
-  EXPECT_DOUBLE_EQ(swept.passings[0].speed, 8 / dt);
-  EXPECT_NEAR(swept.passings[0].thickness, thickness, 1e-15);
-  EXPECT_DOUBLE_EQ(swept.passings[0].angle, 90);
-}
-
 TEST(JudgeMovers, a_paper_that_stops_closer_than_a_contact_is_need_not_be_reported_and_may_be) {
   constexpr double near = 6e-7;  // less than the reach of a contact, 1e-6 m, more than what has to be seen, 1e-7 m
   const TraceHeader paper = header({box(-1, -1, -half_width - near, 1, 0)});
@@ -80,25 +70,6 @@ TEST(JudgeMovers, a_paper_that_stops_closer_than_a_contact_is_need_not_be_report
   // It goes on for as long again, and would be met after half of the step, or in its last micrometre.
   for (const double end : {0.0625, 2 * near})
     EXPECT_EQ(judged(paper, staying({-0.0625, 0}, {end, 0})).contacts.size(), 1U) << end;
-}
-
-TEST(JudgeMovers, a_rider_touches_what_carries_it_and_nothing_else) {
-  // The lift rises by 0.5; the request is that and gravity's 0.01.
-  TraceStep ride = leg({0, 0.625 + gap}, {0, 1.125 + gap}, {{here, {0, 0.5}}});
-  ride.requested = {0, 0.49};
-  const StepJudgement rides = judged(header({box(-1, -1, 1, 0, 0), box(1.5, -1, 2, 3)}), ride);
-  EXPECT_EQ(demanded(rides), (Touches{{0, Side::bottom}}));
-  EXPECT_EQ(told(rides), "");
-}
-
-TEST(JudgeMovers, the_first_impact_is_that_of_the_relative_motion) {
-  TraceStep push = among(step({here, {0.5625, 0}, {-0.3125, 0}}, Vec2d(1, 0)), {{here, {-2, 0}}});
-  push.path[1].fraction = 0.5625;
-  const StepJudgement pushed = judged(header({box(2, -1, 3, 1, 0)}), push);
-  ASSERT_TRUE(pushed.first_impact);
-  EXPECT_DOUBLE_EQ(*pushed.first_impact, (2 - half_width) / 3);
-  EXPECT_TRUE(pushed.first_impact_comparable);
-  EXPECT_EQ(demanded(pushed), (Touches{{0, Side::right}}));
 }
 
 TEST(JudgeMovers, what_a_mover_pushes_into_is_neither_right_nor_wrong) {
@@ -137,21 +108,6 @@ TEST(JudgeSensors, a_thin_sensor_is_entered_and_left_at_exact_fractions) {
   }
 }
 
-TEST(JudgeSensors, a_stay_over_several_steps_has_one_enter_and_one_exit_wherever_the_steps_end) {
-  // Down through a concave sensor whose cut into parts must not show, in steps that end in it, at its rim, on corners.
-  Judge judge(header({sensor(polygon({{-2, 0}, {2, 0}, {2, 3}, {1, 3}, {1, 1}, {-1, 1}, {-1, 3}, {-2, 3}}))}));
-  const double down[] = {4, 3.625, 1.625, 1.5, 1.5, -0.625, -0.75, -1};
-  for (std::size_t i = 0; i + 1 < std::size(down); ++i) {
-    const auto events = judge.judge(leg({1.5, down[i]}, {1.5, down[i + 1]}, {})).sensor_events;
-    ASSERT_EQ(events.size(), i == 1 || i == 4 ? 1U : 0U) << i;
-    // Touching as the step begins it is inside at once; it leaves where it touches as a step ends.
-    for (const ExactSensorEvent& one : events) {
-      EXPECT_EQ(one.change, i == 1 ? enter : leave);
-      EXPECT_EQ(one.fraction, i == 1 ? 0 : 1);
-    }
-  }
-}
-
 TEST(JudgeSensors, a_corner_of_the_way_is_an_event_only_where_it_is_outside) {
   const TraceHeader there = header({sensor(box(-1, -1, 1, 1))});
   EXPECT_TRUE(judged(there, step({here, {1.3, 0}, here})).sensor_events.empty());
@@ -160,39 +116,6 @@ TEST(JudgeSensors, a_corner_of_the_way_is_an_event_only_where_it_is_outside) {
   EXPECT_EQ(touched[0].change, leave);
   EXPECT_EQ(touched[1].change, enter);
   for (const ExactSensorEvent& one : touched) EXPECT_EQ(one.fraction, Exact(1, 2));
-}
-
-/// Rounds of a random way, bent at some moment, by a concave sensor that moves.
-TEST(JudgeSensors, agree_with_overlap_tested_at_many_instants) {
-  constexpr std::uint64_t seed = 51;
-  Random random(seed);
-  int events = 0;
-  for (int i = 0; i < 300; ++i) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + " round " + std::to_string(i));
-    const Vec2d centre = random.point(1);
-    const ColliderDef shape = polygon(star(random, centre, 1, 3 + random.below(6)), 0);
-    const ExactScenery solids = world({shape});
-    const Motions movers{{random.point(1), random.point(1)}};
-    const double turn = random.between(0.1, 0.9);
-    const std::vector<Place> path{
-        {random.point(3), movers, 0}, {random.point(2), movers, turn}, {random.point(3), movers, 1}};
-    const std::vector<ExactSensorEvent> found = world({sensor(shape)}).sensor_events(path);
-    events += static_cast<int>(found.size());
-    // Half-way between two events the overlap is what the events say.
-    bool inside = solids.overlaps(path[0], 0);
-    for (std::size_t k = 0; k <= found.size(); ++k, inside = !inside) {
-      const double begin = k == 0 ? 0 : static_cast<double>(found[k - 1].fraction);
-      const double end = k == found.size() ? 1 : static_cast<double>(found[k].fraction);
-      const double t = (begin + end) / 2;
-      const std::size_t at = t < turn ? 0 : 1;
-      const double share = (t - path[at].fraction) / (path[at + 1].fraction - path[at].fraction);
-      const Vec2d place = path[at].position + share * (path[at + 1].position - path[at].position);
-      EXPECT_TRUE(end - begin <= 1e-9 || solids.overlaps(Place(place, movers, t), 0) == inside);
-      ASSERT_TRUE(k == found.size() || found[k].change == (inside ? leave : enter));
-      EXPECT_TRUE(k < found.size() || solids.overlaps(path[2], 0) == inside);
-    }
-  }
-  EXPECT_GT(events, 200);
 }
 
 Contact<double> touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point = {0, 0}, double fraction = 0) {

@@ -25,10 +25,8 @@ Scene low_wall_on_a_floor() {
 /// Where everybody is in each step of the first second, and what the technique keeps in memory.
 std::pair<std::vector<Vec2d>, std::optional<std::size_t>> run(const std::string& contender, const Scene& scene,
                                                               const std::vector<KnobSetting>& knobs) {
-  RunOptions options = quick();
-  options.contenders = {contender};
-  options.reference = false;
-  options.steps = options.max_replay_steps = std::min(scene.steps, 60);
+  RunOptions options = alone(contender, std::min(scene.steps, 60));
+  options.steps = options.max_replay_steps;
   options.knobs = knobs;
   const ReportScene result = run_scene(scene, options);
   std::vector<Vec2d> ends;

@@ -1,5 +1,6 @@
 /// The ledger of disagreement on made-up traces: each cause, and a neighbour that is just outside of it.
 #include "metrics/ledger.hpp"
+#include "campaign/shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,19 +13,6 @@ namespace {
 constexpr double dt = 1.0 / 64;
 constexpr double feet = 0.625;
 
-SceneryDef scenery() {
-  const auto polygon = [](std::vector<Vec2d> points) {
-    return ColliderDef{.shape = ColliderDef::Shape::polygon, .points = std::move(points)};
-  };
-  SceneryDef def;
-  def.colliders = {polygon({{-4, -1}, {0, -1}, {0, 0}, {-4, 0}}),             // tile
-                   polygon({{0, -1}, {4, -1}, {4, 0}, {0, 0}}),               // next to it
-                   polygon({{3, 0}, {4, 0}, {4, 8}, {3, 8}}),                 // wall
-                   polygon({{10, 0}, {18, 0}, {18, 8}}),                      // slope of 45 degrees
-                   polygon({{-200, -1}, {-100, -1}, {-100, 0}, {-200, 0}})};  // a floor far down the line
-  return def;
-}
-
 TraceHeader header(bool box2d) {
   TraceHeader made;
   made.contender = box2d ? "box2d" : "octagon_sweep";
@@ -34,7 +22,9 @@ TraceHeader header(bool box2d) {
   made.character.max_climb_degrees = 50;
   made.points = {{-0.15625, -0.625}, {0.15625, -0.625}, {0.3125, -0.3125}, {0.3125, 0.3125},
                  {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
-  made.scenery = scenery();
+  // Two tiles beside each other, a wall, a slope of 45 degrees, and a floor far down the line.
+  made.scenery.colliders = {box(-4, -1, 0, 0), box(0, -1, 4, 0), box(3, 0, 4, 8), polygon({{10, 0}, {18, 0}, {18, 8}}),
+                            box(-200, -1, -100, 0)};
   made.ids = {"tile", "next", "wall", "slope", "far"};
   made.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
   return made;
@@ -51,11 +41,8 @@ TraceStep step(const Vec2d& from, const Vec2d& way, const Vec2d& made, std::vect
 }
 
 Contact<double> touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point, double fraction = 0) {
-  return {.collider = collider,
-          .point = point,
-          .normal = normal,
-          .fraction = fraction,
-          .side = side_of_normal(normal.x(), normal.y())};
+  const Side side = side_of_normal(normal.x(), normal.y());
+  return {.collider = collider, .point = point, .normal = normal, .fraction = fraction, .side = side};
 }
 Contact<double> floor_below(double x, double fraction = 0) { return touch(x < 0 ? 0 : 1, {0, 1}, {x, 0}, fraction); }
 
@@ -196,7 +183,6 @@ const std::vector<Story> stories{
     {"what_begins_inside",
      {{step(above(-0.25), still, {0, 0.2500005}), step(above(-0.25), still, {0, 0.05})}},
      "start_inside.stop"},
-    // Ours comes to the floor; Box2D stays 30 mm above it, or 19.9 mm.
     // Ours comes to the floor; Box2D stays 30 mm above it.
     {"both_right_beyond_the_skin", {{lands(0.005, {landing}), lands(0.035)}}, "remaining_lockstep.contact"},
     {"who_passes_a_wall",

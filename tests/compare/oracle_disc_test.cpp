@@ -94,23 +94,6 @@ TEST(ExactDisc, is_left_by_the_shortest_way_that_is_open_and_leaves_a_free_place
   EXPECT_FALSE(disc(5).find_free(anywhere, 0.25, 1e-7, accept));
 }
 
-TEST(ExactDisc, as_a_sensor_is_entered_and_left_where_it_is_overlapped) {
-  const ExactScenery solids = world({sensor(circle({0, 0}, 5))}, square(1));
-  EXPECT_EQ(solids.overlapped({0, 0}), Colliders{}) << "sensors are no solids";
-  const auto events = [&](const Vec2d& from, const Vec2d& to) {
-    return solids.sensor_events(std::array{Place(from, {}, 0), Place(to, {}, 1)});
-  };
-  // An edge comes to the disc at x = -6, and leaves it at 6.
-  const std::vector<ExactSensorEvent> through = events({-10, 0}, {10, 0});
-  ASSERT_EQ(through.size(), 2U);
-  EXPECT_EQ(through[0].change, ExactSensorEvent::Change::enter);
-  EXPECT_NEAR(static_cast<double>(through[0].fraction), 0.2, closely);
-  EXPECT_EQ(through[1].change, ExactSensorEvent::Change::exit);
-  EXPECT_NEAR(static_cast<double>(through[1].fraction), 0.8, closely);
-  EXPECT_TRUE(events({0, 0}, {1, 0}).empty()) << "inside";
-  EXPECT_TRUE(events({-10, 6}, {10, 6}).empty()) << "grazing";
-}
-
 Exact dot(const ExactPoint& a, const ExactPoint& b) { return a.x * b.x + a.y * b.y; }
 
 /// Another formulation: of a centre from the hull of the octagon's corners at both ends of its way; zero inside.

@@ -9,17 +9,6 @@ using namespace test;  // NOLINT(google-build-using-namespace): the shapes of th
 
 using Impact = std::optional<ExactImpact>;
 
-TEST(ExactImpact, the_articles_bullet_meets_the_paper_at_three_fifths_exactly) {
-  const double pixel = 1.0 / 32;
-  const ExactScenery there = world({box(-1, -5 * pixel, 1, 0)}, square(pixel / 2));
-  const Impact impact = there.first_impact({0, 30.5 * pixel}, {0, -50 * pixel});
-  ASSERT_TRUE(impact);
-  EXPECT_EQ(impact->fraction, Exact(3, 5));
-  EXPECT_EQ(impact->normal, Vec2d(0, 1));
-  EXPECT_EQ(impact->point, Vec2d(0, 0));
-  EXPECT_TRUE(impact->exposed);
-}
-
 TEST(ExactImpact, separates_before_and_meets_after) {
   constexpr std::uint64_t seed = 24;
   Random random(seed);

@@ -136,36 +136,12 @@ TEST(ExactMovers, a_seam_is_looked_for_where_the_neighbours_are_at_the_moment_of
   }
 }
 
-TEST(ExactMovers, separation_and_penetration_are_those_at_the_moment) {
-  const ExactScenery there = world({box(-1, -1, 1, 0, 0)});
-  const Motions movers{{{0, 0}, {0, -2}}};
-  EXPECT_EQ(there.separation(Place({0, 0.625}, movers, 0), 0), 0);
-  EXPECT_EQ(there.separation(Place({0, 0.625}, movers, 0.5), 0), 1);
-  EXPECT_EQ(there.penetration(Place({0, 0.125}, movers, 0), 0), 0.5);
-  EXPECT_EQ(there.penetration(Place({0, 0.125}, movers, 1), 0), 0);
-}
-
 TEST(ExactMovers, without_motions_every_mover_is_at_offset_zero_and_too_few_are_refused) {
   const ExactScenery there = world({box(-1, -1, 1, 0, 1), box(5, 0, 6, 1)});
   EXPECT_EQ(there.overlapped({0, 0.5}), Colliders{0});
   const Motions one(1);
   EXPECT_THROW((void)there.overlapped(Place({0, 0}, one, 0)), std::invalid_argument);
   EXPECT_THROW((void)there.met(Place({0, 0}, one, 0), Place({0, 0}, one, 1)), std::invalid_argument);
-}
-
-TEST(ExactMovers, near_follows_the_movers) {
-  const ExactScenery there = world({box(-1, -1, 1, 0, 0), box(-1, -9, 1, -8)});
-  const Motions movers{{{50, 0}, {20, 0}}};
-  EXPECT_EQ(there.near(Place({20, 0}, movers, 0), Place({20, 0}, movers, 1), 0.1), Colliders{0});
-  EXPECT_EQ(there.near(Place({0, 0}, movers, 0), Place({0, -7}, movers, 1), 0.5), Colliders{1});
-}
-
-TEST(ExactMovers, a_sensor_is_no_solid) {
-  const ExactScenery there = world({sensor(box(-1, -1, 1, 1)), sensor(box(-1, -1, 1, 1, 0)), box(-1, -1, 1, 0)});
-  EXPECT_EQ(there.overlapped({0, 0}), Colliders{2});
-  EXPECT_EQ(there.met({0, 5}, {0, -5}), Colliders{2});
-  EXPECT_EQ(there.impacts({0, 5}, {0, -9}).size(), 1U);
-  EXPECT_EQ(there.near({0, 0}, {0, 0}, 1), Colliders{2});
 }
 
 }  // namespace

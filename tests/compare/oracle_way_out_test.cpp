@@ -106,20 +106,5 @@ TEST(ExactWayOut, is_found_wherever_trial_finds_one_and_never_longer) {
   EXPECT_GT(none, cases / 25);
 }
 
-TEST(ExactWayOut, of_a_large_gear_is_over_its_teeth) {
-  // So many teeth that the octagon does not fit between them, and a paper ring in it that leaves one opening.
-  std::vector<Vec2d> gear;
-  for (int i = 0; i < 1000; ++i) gear.push_back((i % 2 == 0 ? 7 : 8) * towards(std::numbers::pi * i / 500));
-  std::vector<Vec2d> ring;
-  for (double angle = 0.2; angle < 2 * std::numbers::pi - 0.2; angle += 0.1) ring.push_back(5 * towards(angle));
-  const ExactScenery there = world({polygon(gear), chain(ring)});
-  const std::optional<Vec2d> out = there.way_out({0, 0}, 100);
-  ASSERT_TRUE(out);
-  EXPECT_EQ(there.overlapped(*out), Colliders{});
-  // The opening is to the right, and the octagon is half as wide as high.
-  EXPECT_NEAR(out->x(), 8 + half_width, 0.05);
-  EXPECT_FALSE(there.way_out({0, 0}, 8.2));
-}
-
 }  // namespace
 }  // namespace paperproof::compare

@@ -6,8 +6,6 @@
 #include "support/random_runs.hpp"
 #include "support/refusal.hpp"
 
-#include <gtest/gtest.h>
-
 namespace paperproof::compare {
 namespace {
 
@@ -30,8 +28,6 @@ std::uint8_t as_byte(unsigned sample, int depth) {
   const unsigned most = (1U << depth) - 1;
   return static_cast<std::uint8_t>((2 * 255 * sample + most) / (2 * most));
 }
-
-std::string two_bytes(unsigned number) { return {static_cast<char>(number >> 8U), static_cast<char>(number & 0xffU)}; }
 
 /// A file with what its pixels have to be read as.
 struct Known {
@@ -83,7 +79,7 @@ Known random_file(const Kind& kind, bool interlaced, Random& random) {
     std::string named;
     for (int channel = 0; channel < file.channels(); ++channel) {
       known.transparent.push_back(file.sample(0, 0, channel));
-      named += two_bytes(known.transparent.back());
+      named += big_endian(known.transparent.back()).substr(2);
     }
     file.chunks += png_chunk("tRNS", named);
   }

@@ -1,13 +1,10 @@
-/// What tests of the report share: a folder of their own, the data of a page, and a run to show.
+/// What tests of the report share: a folder of their own, and a run to show.
 #pragma once
 
 #include "report/report.hpp"
 
 #include "campaign/shapes.hpp"
-#include "compare/scene_files.hpp"
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include "compare/command_workplace.hpp"
 
 namespace paperproof::compare {
 
@@ -20,13 +17,7 @@ class ReportTest : public ::testing::Test {
 
   [[nodiscard]] std::string page(const Report& report, const ReportOptions& options = {}) const {
     write_report(path(), report, options);
-    return read(path());
-  }
-
-  static std::string read(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
+    return content(path());
   }
 
   [[nodiscard]] std::size_t files_left() const {
@@ -42,15 +33,6 @@ inline std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
-}
-
-/// What stands in the script element with this id, as a browser would find it.
-inline json data(const std::string& page, const std::string& id) {
-  const std::string opening = "id=\"" + id + "\">";
-  const std::size_t begin = page.find(opening);
-  if (begin == std::string::npos) throw std::runtime_error("no element " + id);
-  const std::size_t from = begin + opening.size();
-  return json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
 inline Report report_of(const ReportScene& scene) {

@@ -55,12 +55,10 @@ TEST(RowPictures, questions_are_kept_apart_and_a_map_has_the_first_two_axes_of_t
   compared.erase("swept");
   pictures.add(compared);
   EXPECT_EQ(pictures.scenes().size(), 1U) << "rows of a comparison are no sweep";
-  ordered_json refused = shot("grid", 10, 0.1, 0);
-  refused["verdict"] = "not_applicable";
-  pictures.add(refused);
-  refused = shot("mask", 20, 0.1, 0);
-  refused["verdict"] = "not_applicable";
-  pictures.add(refused);
+  for (ordered_json refused : {shot("grid", 10, 0.1, 0), shot("mask", 20, 0.1, 0)}) {
+    refused["verdict"] = "not_applicable";
+    pictures.add(refused);
+  }
   const std::vector<ChartPage> pages = pictures.pages();
   ASSERT_EQ(pages.size(), 3U);
   EXPECT_EQ(pages[0].title, bullets_title);
@@ -82,19 +80,13 @@ TEST(RowPictures, questions_are_kept_apart_and_a_map_has_the_first_two_axes_of_t
   EXPECT_EQ(pages[1].grids[0].xs.size(), 2U);
 }
 
-/// A row of cells: how many of one case are bad; -1: nothing ran.
-ChartGrid line_of(const std::vector<int>& bad) {
+TEST(CellReplays, are_of_the_border_first_then_of_bad_cells_then_of_the_rest) {
   ChartGrid grid;
   grid.cells.resize(1);
-  for (const int each : bad) {
+  for (const int bad : {0, 0, 1, 1, -1, 0, 1}) {  // of one case in each cell of a row; -1: nothing ran
     grid.xs.push_back(std::to_string(grid.xs.size()));
-    grid.cells[0].push_back({std::max(each, 0), each < 0 ? 0 : 1});
+    grid.cells[0].push_back({std::max(bad, 0), bad < 0 ? 0 : 1});
   }
-  return grid;
-}
-
-TEST(CellReplays, are_of_the_border_first_then_of_bad_cells_then_of_the_rest) {
-  ChartGrid grid = line_of({0, 0, 1, 1, -1, 0, 1});
   const auto places = [&grid](std::size_t most) {
     std::vector<std::ptrdiff_t> all;
     for (const ChartGrid::Cell* cell : cells_to_replay(grid, most)) all.push_back(cell - grid.cells[0].data());
@@ -117,7 +109,7 @@ TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
   ReportWriter writer(path());
   writer.add_study(study);
   writer.finish({}, {}, {});
-  const json cells = data(read(path()), "cells-0");
+  const json cells = element(content(path()), "cells-0");
   ASSERT_EQ(cells.size(), 1U);
   EXPECT_EQ(cells[0]["parameters"], json::parse(R"([["speed [m/s]", "120"], ["phase", "0.25"]])"));
   EXPECT_EQ(cells[0]["replay"]["runs"].size(), excerpt.runs.size());
@@ -167,16 +159,12 @@ TEST(Svg, points_of_a_chart_are_where_their_logarithms_are) {
   EXPECT_EQ(svg.find("hidden"), std::string::npos);
   // Axes go from the power of ten below 0.9 times the least to the one above 1.1 times the largest: x from 0.1 to 100
   // on 70 to 560, y from 0.1 to 1000 on 430 to 70.
-  const double x0 = 70 + 490 / 3.0;
-  const double x1 = 70 + 490 * 2 / 3.0;
-  const double y0 = 430 - 360 / 4.0;
-  const double y1 = 430 - 360 * 3 / 4.0;
   const std::string mark = "<polyline points=\"";
   const std::size_t begin = svg.find(mark);
   ASSERT_NE(begin, std::string::npos);
   std::array<double, 4> at{};
   ASSERT_EQ(std::sscanf(svg.c_str() + begin + mark.size(), "%lf,%lf %lf,%lf", &at[0], &at[1], &at[2], &at[3]), 4);
-  const std::array<double, 4> expected{x0, y0, x1, y1};
+  const std::array<double, 4> expected{70 + 490 / 3.0, 430 - 360 / 4.0, 70 + 490 * 2 / 3.0, 430 - 360 * 3 / 4.0};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(at[i], expected[i], 0.005);
 }
 
@@ -191,7 +179,7 @@ TEST_F(ReportTest, pictures_of_equal_titles_have_files_of_their_own_and_maps_of_
   EXPECT_EQ(write_pictures(study, folder),
             (std::vector<std::string>{"rest-mask.svg", "rest-discrete.svg", "walk-mask.svg", "mask.svg", "mask-2.svg",
                                       "rest.svg", "Where-And-why.svg"}));
-  const std::string rest = read(path() + "/deep/rest.svg");
+  const std::string rest = content(path() + "/deep/rest.svg");
   EXPECT_EQ(count_of(rest, "class=\"holds\""), 6U);
   EXPECT_EQ(count_of(rest, "class=\"name\""), 2U);
   EXPECT_EQ(count_of(rest, "Upwards: thickness [m]. Across: speed [m/s]."), 1U);
@@ -203,7 +191,7 @@ TEST(ChartPageHtml, carries_its_data_its_library_and_no_way_out_of_the_script) {
   page.charts = {{"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}}};
   const std::string html = html_of(page);
   EXPECT_EQ(html.find("</script><b>"), std::string::npos);
-  const json study = data(html, "index")["studies"][0];
+  const json study = element(html, "index")["studies"][0];
   EXPECT_EQ(study["title"], page.title);
   EXPECT_EQ(study["charts"][0]["series"][0]["points"][1]["y"], 3.5);
   EXPECT_NE(html.find("Chart.js v"), std::string::npos);

@@ -126,10 +126,10 @@ TEST(Quantum, is_a_ten_thousandth_of_the_character_or_finer_unless_the_scene_is_
 TEST_F(ReportTest, a_replay_has_the_scenery_once_lengths_of_steps_and_disagreements_up_to_the_limit) {
   ReportScene scene = walk_of(5);
   scene.runs.push_back(scene.runs[0]);
-  EXPECT_EQ(data(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
+  EXPECT_EQ(element(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
   double& corner = scene.runs[1].header.scenery.colliders[0].points[0].x();
   corner += 1e-6;  // less than is shown, as rounding to float would do
-  EXPECT_EQ(data(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
+  EXPECT_EQ(element(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
   corner -= 0.5;
   scene.dt_list = {1.0 / 64, 31.0 / 1024};
   const std::vector<Contact<double>> contacts{{0, {0.25, 0}, {0, 1}, 0.5, 1e-6, Side::bottom}};
@@ -139,7 +139,7 @@ TEST_F(ReportTest, a_replay_has_the_scenery_once_lengths_of_steps_and_disagreeme
   disagreement.exact = contacts;
   disagreement.who_is_right = "Nobody.";
   scene.disagreements.assign(9, disagreement);
-  const json replay = data(page(report_of(scene), {.max_disagreements = 4}), "replay-0");
+  const json replay = element(page(report_of(scene), {.max_disagreements = 4}), "replay-0");
   EXPECT_EQ(replay["sceneries"].size(), 2U);
   EXPECT_EQ(replay["runs"][0]["scenery"], 0);
   EXPECT_EQ(replay["runs"][1]["scenery"], 1);
@@ -164,17 +164,11 @@ TEST_F(ReportTest, a_step_takes_about_thirty_bytes_and_a_tile_a_few) {
   EXPECT_LT(scenery_json(level, {}, {}, Quantum(1, 250)).size(), 5U * 5000) << "\"1,0,\" and a little for each new row";
 }
 
-std::set<int> steps_of(const ReportRun& run) {
-  std::set<int> all;
-  for (const TraceStep& step : run.steps) all.insert(step.step);
-  return all;
-}
-
 TEST_F(ReportTest, the_step_of_a_disagreement_survives_thinning) {
   ReportScene scene = walk_of(1000);
   scene.disagreements.resize(1);
   scene.disagreements[0].step = 777;
-  const json run = data(page(report_of(scene), {.max_replay_steps = 50}), "replay-0")["runs"][0];
+  const json run = element(page(report_of(scene), {.max_replay_steps = 50}), "replay-0")["runs"][0];
   std::set<int> kept;
   int number = 0;
   for (const json& difference : run["step"]) kept.insert(number += difference.get<int>());
@@ -190,7 +184,8 @@ TEST(ThinForReplay, keeps_ends_events_and_first_contact_within_the_limit) {
         if (step.step < steps / 2) step.contacts.clear();
       run.events = {{steps / 3, ReportEvent::Kind::tunnel, ""}};
       thin_for_replay(run, limit);
-      const std::set<int> kept = steps_of(run);
+      std::set<int> kept;
+      for (const TraceStep& step : run.steps) kept.insert(step.step);
       const auto room = static_cast<std::size_t>(std::min(steps, limit));
       EXPECT_LE(kept.size(), room);
       EXPECT_GE(kept.size(), room / 3) << steps << " to " << limit;

@@ -1,6 +1,7 @@
 /// The page: its texts, its tables, its file; and how it is read back.
 #include "compare/report_pages.hpp"
 #include "report/page_reader.hpp"
+#include "support/refusal.hpp"
 
 #include <cmath>
 
@@ -39,11 +40,11 @@ TEST_F(ReportTest, the_page_refers_to_nothing_outside_of_itself_and_no_text_leav
   // One element per scene, the index, the catcher of errors and the page's own script.
   EXPECT_EQ(count_of(text, "</script"), report.scenes.size() + 3);
   EXPECT_EQ(count_of(text, "<script"), report.scenes.size() + 3);
-  const json scene = data(text, "index")["scenes"][0];
+  const json scene = element(text, "index")["scenes"][0];
   EXPECT_EQ(scene["name"], hostile_text);
   EXPECT_EQ(scene["description"],
             "\"quotes\", <b>tags</b> & a \xE2\x82\xAC, and bytes that are not UTF-8: \xEF\xBF\xBD\xEF\xBF\xBD.");
-  EXPECT_EQ(data(text, "replay-0")["sceneries"][0]["ids"]["2"], hostile_text);
+  EXPECT_EQ(element(text, "replay-0")["sceneries"][0]["ids"]["2"], hostile_text);
 }
 
 TEST_F(ReportTest, a_metric_that_does_not_apply_is_absent_and_one_that_is_not_finite_says_so) {
@@ -54,14 +55,14 @@ TEST_F(ReportTest, a_metric_that_does_not_apply_is_absent_and_one_that_is_not_fi
   scene.rows[1].verdict = Verdict::not_applicable;
   scene.runs.clear();
   const std::string text = page(report_of(scene));
-  const json rows = data(text, "index")["scenes"][0]["rows"];
+  const json rows = element(text, "index")["scenes"][0]["rows"];
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_FALSE(rows[0].contains("contact_precision"));
   EXPECT_EQ(rows[0]["max_contact_gap_m"], 5e-7);
   EXPECT_EQ(rows[0]["max_penetration_m"], "not finite");
   EXPECT_EQ(rows[1]["verdict"], "not applicable");
-  EXPECT_TRUE(data(text, "replay-0")["runs"].empty()) << "a scene without runs keeps its rows";
-  EXPECT_TRUE(data(page(Report{}), "index")["scenes"].empty());
+  EXPECT_TRUE(element(text, "replay-0")["runs"].empty()) << "a scene without runs keeps its rows";
+  EXPECT_TRUE(element(page(Report{}), "index")["scenes"].empty());
 }
 
 TEST_F(ReportTest, a_finished_page_replaces_the_old_one_and_a_writer_that_is_dropped_leaves_it) {
@@ -70,27 +71,22 @@ TEST_F(ReportTest, a_finished_page_replaces_the_old_one_and_a_writer_that_is_dro
     ReportWriter writer(path());
     writer.add(walk_of(3));
   }
-  EXPECT_EQ(read(path()), "old");
+  EXPECT_EQ(content(path()), "old");
   EXPECT_EQ(files_left(), 1U);
   const std::string text = page(hostile_report());
   EXPECT_EQ(text.rfind("<!DOCTYPE html>", 0), 0U);
   EXPECT_EQ(files_left(), 1U);
   EXPECT_EQ(text, page(hostile_report())) << "the same report gives the same bytes";
   const std::string missing = path() + ".no_such_folder/report.html";
-  try {
-    write_report(missing, hostile_report());
-    FAIL() << "it was written";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()).find(missing), 0U) << error.what();
-  }
+  EXPECT_TRUE(begins(test::refusal_by<std::runtime_error>([&] { write_report(missing, hostile_report()); }), missing));
 }
 
 TEST_F(ReportTest, a_page_is_read_back_as_it_was_written) {
   const std::string text = page(hostile_report());
   const PageReader reader(path());
-  EXPECT_EQ(json(reader.index()), data(text, "index"));
+  EXPECT_EQ(json(reader.index()), element(text, "index"));
   for (std::size_t scene = 0; scene < 2; ++scene)
-    EXPECT_EQ(json::parse(reader.replay(scene)), data(text, "replay-" + std::to_string(scene)));
+    EXPECT_EQ(json::parse(reader.replay(scene)), element(text, "replay-" + std::to_string(scene)));
   std::ofstream(path()) << "<html></html>";
   EXPECT_THROW(PageReader{path()}, std::runtime_error);
 }

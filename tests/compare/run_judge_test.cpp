@@ -11,49 +11,31 @@ using namespace test;  // NOLINT(google-build-using-namespace): the shapes of th
 
 constexpr double feet = 0.625;  // of the octagon
 
-/// Falls freely from rest, a step at a time, and says that it touched something.
-class Fall {
- public:
-  Fall() : header_(promising({box(-4, -9, 4, -8), box(7, -9, 8, 9)})) {
-    header_.gravity = {0, -10};
-    header_.starts = {{.position = {0, 0}, .velocity = {0, 0}}};
-    header_.guarantees = every_clause();
-  }
-  [[nodiscard]] const TraceHeader& header() const { return header_; }
-  [[nodiscard]] int steps() const { return step_; }
-  TraceStep next(std::vector<Contact<double>> contacts) {
-    velocity_.y() -= 10 * dt;
-    TraceStep fall = step({at_, at_ + velocity_ * dt});
-    fall.step = step_++;
-    fall.contacts = std::move(contacts);
-    at_ = fall.path.back().position;
-    return fall;
-  }
-
- private:
-  TraceHeader header_;
-  Vec2d at_{Vec2d::Zero()};
-  Vec2d velocity_{Vec2d::Zero()};
-  int step_ = 0;
-};
-
-Contact<double> touch_of_wall() {
-  return {.collider = 1, .point = {7, 0}, .normal = {-1, 0}, .fraction = 0.5, .separation = 5e-7, .side = Side::right};
-}
-
 /// The metrics match what is reported with what is exact, the judge holds each contact against its own point, and a
 /// character that is met has to be another one.
 TEST(RunJudge, counts_a_step_once_whichever_way_a_contact_is_found_to_be_invented) {
-  Fall fall;
-  RunJudge judge(fall.header(), {});
-  Contact<double> of_air = touch_of_wall();
+  TraceHeader header = promising({box(-4, -9, 4, -8), box(7, -9, 8, 9)});
+  header.gravity = {0, -10};
+  header.starts = {{.position = {0, 0}, .velocity = {0, 0}}};
+  header.guarantees = every_clause();
+  RunJudge judge(header, {});
+  const Contact<double> of_wall{
+      .collider = 1, .point = {7, 0}, .normal = {-1, 0}, .fraction = 0.5, .separation = 5e-7, .side = Side::right};
+  Contact<double> of_air = of_wall;
   of_air.point = {3, feet};
-  for (const std::vector<Contact<double>>& contacts :
-       {std::vector<Contact<double>>{}, {}, {touch_of_wall()}, {}, {of_air}}) {
-    EXPECT_EQ(judge.breaches().contains(Clause::contact_invented), fall.steps() > 1);
-    std::vector<TraceStep> records{fall.next(contacts)};
-    if (records[0].step == 1 || records[0].step == 2)
+  // Falls freely from rest.
+  Vec2d at(0, 0);
+  Vec2d velocity(0, 0);
+  for (int number = 0; number < 5; ++number) {
+    EXPECT_EQ(judge.breaches().contains(Clause::contact_invented), number > 1);
+    velocity.y() -= 10 * dt;
+    std::vector<TraceStep> records{step({at, at + velocity * dt})};
+    records[0].step = number;
+    if (number == 2) records[0].contacts = {of_wall};
+    if (number == 4) records[0].contacts = {of_air};
+    if (number == 1 || number == 2)
       records[0].met = {{.other = 0, .normal = {0, 1}, .fraction = 0.5, .side = Side::bottom}};
+    at = records[0].path.back().position;
     judge.add(records);
   }
   for (int again = 0; again < 2; ++again) {

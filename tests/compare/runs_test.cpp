@@ -19,11 +19,8 @@ TEST(Sentence, says_who_is_wrong_and_how_far_the_others_agree) {
 }
 
 TEST(Replay, has_each_drop_and_crush_as_an_event) {
-  RunOptions options = quick();
-  options.contenders = {"octagon_sweep"};
-  options.reference = false;
   Scene scene = built_in("one_way_drop");
-  options.max_replay_steps = scene.steps;
+  const RunOptions options = alone("octagon_sweep", scene.steps);
   const ReportRun drop = run_of(run_scene(scene, options), "octagon_sweep");
   const auto asked = std::find_if(scene.input.begin(), scene.input.end(),
                                   [](const InputEvent& event) { return event.drop.value_or(false); });
@@ -150,10 +147,7 @@ constexpr double unit = 1.0 / 32;
 
 std::vector<TraceStep> steps_of(const Scene& scene, const std::string& contender,
                                 const std::vector<KnobSetting>& knobs) {
-  RunOptions options = quick();
-  options.contenders = {contender};
-  options.reference = false;
-  options.max_replay_steps = scene.steps;
+  RunOptions options = alone(contender, scene.steps);
   options.knobs = knobs;
   return run_scene(scene, options).runs.front().steps;
 }

@@ -1,10 +1,10 @@
 /// The exact answers of the registered scenes: that all have some, that octagon_sweep meets them, that a run which does
-/// something else does not; and what is between several scenes.
+/// something else does not.
 #include "compare/scene_runs.hpp"
 
 #include "metrics/answers.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace paperproof::compare {
 namespace {
@@ -25,22 +25,8 @@ struct Ran {
 };
 
 Ran ran(const Scene& scene) {
-  RunOptions options = quick();
-  options.contenders = {"octagon_sweep"};
-  options.reference = false;
-  options.max_replay_steps = most_steps;
-  ReportScene result = run_scene(scene, options);
+  ReportScene result = run_scene(scene, alone("octagon_sweep", most_steps));
   return {result.rows.front(), result.runs.empty() ? ReportRun() : std::move(result.runs.front())};
-}
-
-Ran ran(const std::string& name) {
-  Ran all = ran(built_in(name));
-  EXPECT_EQ(all.row.verdict, Verdict::holds) << name << ": " << all.row.reason;
-  return all;
-}
-
-TEST(Answers, are_of_every_registered_scene) {
-  for (const BuiltInScene& entry : built_in_scenes()) EXPECT_FALSE(built_in(entry.name).answers.empty()) << entry.name;
 }
 
 /// All scenes but crush70, whose only step takes half a minute. known_and_open_test.py judges that one.
@@ -56,6 +42,8 @@ TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
     const Row row = ran(shortened(name)).row;
     ASSERT_TRUE(row.answer_ok && row.answer_error) << name;
     EXPECT_TRUE(*row.answer_ok) << name << ": " << row.answer;
+    if (!name.starts_with("tiles_") && !name.starts_with("replica_1e")) continue;
+    EXPECT_EQ(row.verdict, Verdict::holds) << name << ": " << row.reason;
   }
 }
 
@@ -147,30 +135,6 @@ TEST(Answers, that_are_wrong_flag_the_run_and_say_what_is_wrong) {
   EXPECT_GT(row.answer_error.value_or(0), 30) << "it stands still at the first seam of 37 m";
   EXPECT_EQ(row.answer_ok, false);
   EXPECT_EQ(row_of(result, "box2d").answer_ok, true);
-}
-
-TEST(Tiles, far_away_change_nothing) {
-  const Ran few = ran("tiles_1e2");
-  for (const char* name : {"tiles_1e3", "tiles_1e4"}) {
-    const Ran more = ran(name);
-    for (std::size_t i = 0; i < few.run.steps.size(); ++i)
-      ASSERT_EQ(more.run.steps[i].path.back().position, few.run.steps[i].path.back().position)
-          << name << ", step " << i;
-  }
-}
-
-TEST(Replicas, share_the_sequence_of_events) {
-  const auto events = [](const std::string& name) {
-    std::vector<std::tuple<int, ColliderIndex, Side>> all;
-    const Ran run = ran(name);
-    for (const TraceStep& step : run.run.steps)
-      for (const auto& contact : step.contacts) all.emplace_back(step.step, contact.collider, contact.side);
-    return all;
-  };
-  const auto expected = events("replica");
-  EXPECT_GT(expected.size(), 50U);
-  for (const char* name : {"replica_1e-12", "replica_1e-9", "replica_1e-6", "replica_1e-3"})
-    EXPECT_EQ(events(name), expected) << name;
 }
 
 }  // namespace

@@ -16,6 +16,15 @@ inline RunOptions quick() {
   return options;
 }
 
+/// One contender without its reference, and so many steps of its replay.
+inline RunOptions alone(const std::string& contender, int replay_steps) {
+  RunOptions options = quick();
+  options.contenders = {contender};
+  options.reference = false;
+  options.max_replay_steps = replay_steps;
+  return options;
+}
+
 inline const Row* find_row(const ReportScene& result, std::string_view contender, std::string_view scalar = "") {
   for (const Row& row : result.rows)
     if (row.contender == contender && (scalar.empty() || row.scalar == scalar)) return &row;

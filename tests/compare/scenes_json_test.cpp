@@ -4,7 +4,6 @@
 #include "compare/scene_files.hpp"
 #include "scenes/describe.hpp"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace paperproof::compare {
@@ -271,7 +270,6 @@ TEST(JsonScene, is_refused_for_its_further_characters_bodies_and_joints) {
 TEST(JsonFile, that_is_no_scene_is_refused_in_one_line) {
   const SceneFiles files;
   EXPECT_TRUE(begins(files.complaint("a.json", ""), ":1:1: expected JSON; "));
-  EXPECT_TRUE(begins(files.complaint("a.json", "]"), ":1:1: "));
   EXPECT_TRUE(begins(files.complaint("a.json", "{\n\n  x"), ":3:3: "));
   EXPECT_TRUE(holds(files.complaint("a.json", std::string(200000, '[')), "expected at most 100 levels of nesting"));
   EXPECT_EQ(files.complaint("a.json", "{\"a\": 1}"), ": /paperproof_scene: expected this key, which is missing");
@@ -306,7 +304,6 @@ TEST(WrittenScenes, read_back_as_they_were) {
     const nlohmann::ordered_json written = scene_json(scene);
     const Scene read = files.load("scene.json", written.dump());
     EXPECT_EQ(scene_json(read).dump(), written.dump()) << entry.name;
-    EXPECT_EQ(read.scenery.colliders.size(), scene.scenery.colliders.size());
     EXPECT_TRUE(std::equal(read.character.shape.points().begin(), read.character.shape.points().end(),
                            scene.character.shape.points().begin()))
         << entry.name;

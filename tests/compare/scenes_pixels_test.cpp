@@ -8,30 +8,26 @@
 #include "compare/tile_levels.hpp"
 #include "scenes/describe.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace paperproof::compare {
 namespace {
 
-constexpr Rgba white{255, 255, 255, 255};
-constexpr Rgba black{0, 0, 0, 255};
-constexpr Rgba grass{0x20, 0xc0, 0x40, 255};
-constexpr Rgba glass{255, 255, 255, 127};
-constexpr Rgba frosted{255, 255, 255, 128};
+/// White, black, grass, glass, and glass that is frosted.
+const std::map<char, Rgba> colours{{'#', {255, 255, 255, 255}},
+                                   {'.', {0, 0, 0, 255}},
+                                   {'g', {0x20, 0xc0, 0x40, 255}},
+                                   {'/', {255, 255, 255, 127}},
+                                   {':', {255, 255, 255, 128}}};
 
 /// Of a drawing in letters, one for each pixel.
 std::string png_of(const std::vector<std::string>& rows) {
   PngFile file{.colour = PngColour::rgb_alpha, .width = int(rows[0].size()), .height = int(rows.size())};
   for (const std::string& row : rows) {
     for (const char letter : row) {
-      const Rgba& colour = letter == '#'   ? white
-                           : letter == 'g' ? grass
-                           : letter == ':' ? frosted
-                           : letter == '/' ? glass
-                                           : black;
+      const Rgba& colour = colours.at(letter);
       file.samples.insert(file.samples.end(), colour.begin(), colour.end());
     }
   }
@@ -112,27 +108,23 @@ TEST(Picture, is_solid_where_the_scene_says) {
   const SceneFiles files;
   files.write("level.png", png_of({"#g./:"}));
   files.write("entries.png", four_entries());
-  struct Case {
-    const char* entry;
-    std::set<int> columns;
-  };
-  for (const Case& each : {
-           Case{"'level.png'", {0, 4}},  // white, as in a mask; what is more than half transparent is air
-           Case{"'level.png', 'solid': '#20C040'", {1}},
-           Case{"'level.png', 'solid': '#000000'", {2}},
-           Case{"'level.png', 'background': '#000000'", {0, 1, 4}},
-           Case{"'level.png', 'background': '#ffffff'", {1, 2}},
-           Case{"'entries.png', 'solid': '#676767'", {1, 2}},  // the two look alike
-           Case{"'entries.png', 'solid': 0", {0}},
-           Case{"'entries.png', 'solid': 1", {1}},
-           Case{"'entries.png', 'solid': 2.0", {2}},
-           Case{"'entries.png', 'background': 0", {1, 2}},  // glass never is
-           Case{"'entries.png', 'background': 2", {0, 1}},
+  for (const auto& [entry, expected] : std::initializer_list<std::pair<std::string, std::set<int>>>{
+           {"'level.png'", {0, 4}},  // white, as in a mask; what is more than half transparent is air
+           {"'level.png', 'solid': '#20C040'", {1}},
+           {"'level.png', 'solid': '#000000'", {2}},
+           {"'level.png', 'background': '#000000'", {0, 1, 4}},
+           {"'level.png', 'background': '#ffffff'", {1, 2}},
+           {"'entries.png', 'solid': '#676767'", {1, 2}},  // the two look alike
+           {"'entries.png', 'solid': 0", {0}},
+           {"'entries.png', 'solid': 1", {1}},
+           {"'entries.png', 'solid': 2.0", {2}},
+           {"'entries.png', 'background': 0", {1, 2}},  // glass never is
+           {"'entries.png', 'background': 2", {0, 1}},
        }) {
     std::set<int> columns;
-    const Scene scene = files.load("drawn.json", scene_with(std::string("{ 'picture': ") + each.entry + " }"));
+    const Scene scene = files.load("drawn.json", scene_with("{ 'picture': " + entry + " }"));
     for (const auto& [column, row] : pixels_of(scene, 32)) columns.insert(column);
-    EXPECT_EQ(columns, each.columns) << each.entry;
+    EXPECT_EQ(columns, expected) << entry;
   }
 }
 
@@ -255,9 +247,9 @@ TEST(PixelTileFile, lies_with_its_upper_left_corner_at_the_origin_unless_it_says
 }
 
 std::string repeated(int times, const std::string& text) {
-  std::string all = text;
+  std::string all = "[" + text;
   for (int i = 1; i < times; ++i) all += ", " + text;
-  return "[" + all + "]";
+  return all + "]";
 }
 
 TEST(PixelTileFile, that_cannot_be_used_is_refused_in_one_line_with_the_place) {

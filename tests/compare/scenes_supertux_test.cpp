@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,18 +30,11 @@ std::string write_level(const SceneFiles& files, const std::string& text) {
   return files.write("data/levels/world/a.stl", text);
 }
 
-Scene load_level(const SceneFiles& files, const std::string& text) {
-  return load_scenes(write_level(files, text)).front();
-}
-
-std::string complaint(const SceneFiles& files, const std::string& text) {
-  return SceneFiles::complaint_about(write_level(files, text));
-}
+Scene load_level(const std::string& text) { return load_scenes(write_level(SceneFiles(), text)).front(); }
 
 const std::string floor_solids = "t0,2: box 0 -3 1 -2; t1,2: box 1 -3 2 -2; t2,2: box 2 -3 3 -2; t3,2: box 3 -3 4 -2";
 
 TEST(SuperTux, tiles_are_boxes_slopes_and_chains_at_the_side_that_blocks) {
-  const SceneFiles files;
   struct Case {
     const char* what;
     std::string upper;  ///< The first two rows.
@@ -59,7 +50,7 @@ TEST(SuperTux, tiles_are_boxes_slopes_and_chains_at_the_side_that_blocks) {
            Case{"data 2: the corner at the lower right is solid", "0 0 0 0 0 0 0 3", "t3,1: polygon 3 -2 4 -1 4 -2; "},
            Case{"unknown", "0 0 0 99 0 0 0 99", "", "2 placed tiles are unknown to tiles.strf and left out"},
        }) {
-    const Scene scene = load_level(files, with(level, "0 0 0 0 0 0 0 0", each.upper));
+    const Scene scene = load_level(with(level, "0 0 0 0 0 0 0 0", each.upper));
     EXPECT_EQ(solids_of(scene), each.solids + floor_solids) << each.what;
     EXPECT_EQ(scene.notes, each.note.empty() ? std::vector<std::string>{} : std::vector{each.note}) << each.what;
     EXPECT_EQ(scene.name, "a");
@@ -103,11 +94,10 @@ TEST(SuperTux, slopes_are_the_tile_cut_by_the_line_that_their_data_names) {
 }
 
 TEST(SuperTux, a_tilemap_with_a_path_is_made_of_movers_and_one_of_one_node_lies_elsewhere) {
-  const SceneFiles files;
   const std::string moving =
       R"((path (name "p") (path (mode "pingpong") (node (x 32) (y 0) (time 2)) (node (x 32) (y 64))))
     (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 1 1)) (tilemap)";
-  const Scene scene = load_level(files, with(level, "(tilemap", moving));
+  const Scene scene = load_level(with(level, "(tilemap", moving));
   EXPECT_EQ(solids_of(scene), "l0/t0,0: box 0 -1 1 0 of mover 0; l0/t1,0: box 1 -1 2 0 of mover 0; " + floor_solids);
   ASSERT_EQ(scene.movers.size(), 1U);
   EXPECT_EQ(scene.movers[0].id, "l0");
@@ -116,20 +106,18 @@ TEST(SuperTux, a_tilemap_with_a_path_is_made_of_movers_and_one_of_one_node_lies_
   EXPECT_EQ(scene.movers[0].path[0].at, Vec2d(1, 0));
   EXPECT_EQ(scene.movers[0].path[1].at, Vec2d(1, -2));
   EXPECT_EQ(scene.movers[0].path[1].time, 2);
-  const Scene parked = load_level(files, with(level, "(tilemap", R"((path (name "p") (path (node (x 32) (y 32))))
+  const Scene parked = load_level(with(level, "(tilemap", R"((path (name "p") (path (node (x 32) (y 32))))
     (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 0 1)) (tilemap)"));
   EXPECT_TRUE(parked.movers.empty());
   EXPECT_TRUE(begins(solids_of(parked), "t1,0: box 2 -2 3 -1; l1/t0,2: box 0 -3 1 -2; ")) << solids_of(parked);
 }
 
 TEST(SuperTux, begins_at_the_spawn_named_main_else_the_first_and_above_a_solid_that_is_there) {
-  const SceneFiles files;
   // The upper left corner of the 20 x 40 px sprite is the spawn point.
-  EXPECT_EQ(load_level(files, level).start.position, Vec2d((32 + 10) / 32.0, -(16 + 20) / 32.0));
-  EXPECT_EQ(load_level(files, with(level, "(name \"main\") (x", "(name \"late\") (x")).start.position.x(),
-            (64 + 10) / 32.0);
+  EXPECT_EQ(load_level(level).start.position, Vec2d((32 + 10) / 32.0, -(16 + 20) / 32.0));
+  EXPECT_EQ(load_level(with(level, "(name \"main\") (x", "(name \"late\") (x")).start.position.x(), (64 + 10) / 32.0);
   // At y = 32 px the sprite's 40 px reach 8 px into the floor, which begins at 64 px.
-  const Scene moved = load_level(files, with(level, "(x 32) (y 16)", "(x 32) (y 32)"));
+  const Scene moved = load_level(with(level, "(x 32) (y 16)", "(x 32) (y 32)"));
   EXPECT_EQ(moved.start.position, Vec2d((32 + 10) / 32.0, -(24 + 20) / 32.0));
   ASSERT_EQ(moved.notes.size(), 1U);
   EXPECT_TRUE(holds(moved.notes[0], "8 px up"));
@@ -164,25 +152,21 @@ TEST(SuperTux, bad_levels_are_refused_with_their_line) {
            {with(level, "(x 64)", "(x nan)"), ":6: expected a finite number in (x)"},
            {with(level, "(solid #t)", "(solid #f)"), ": expected a sector with solid tiles and a spawn point"},
            {std::string(100000, '('), ":1: expected at most 100 levels of nesting"}})
-    EXPECT_TRUE(begins(complaint(files, text), message));
+    EXPECT_TRUE(begins(SceneFiles::complaint_about(write_level(files, text)), message));
   const std::string path = write_level(files, level);
   files.write("data/images/tiles.strf", "(supertux-tiles\n (tiles (ids 1 2) (attributes 1)))");
   EXPECT_EQ(SceneFiles::complaint_about(path), ": tiles.strf:2: expected one attribute per id");
 }
 
-// --- the real levels
-// ----------------------------------------------------------------------------------------------------
+// --- the real levels ---
 
 const std::filesystem::path installed = "/usr/share/games/supertux2/levels";
 
 TEST(SuperTuxData, is_counted_as_by_an_independent_reader) {
   if (!std::filesystem::exists(installed)) GTEST_SKIP() << "Debian's package supertux-data is not installed";
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(installed))
-    if (entry.path().extension() == ".stl") paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
   SuperTuxCounts counts;
-  for (const std::string& path : paths) counts += count_supertux(path, path);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(installed))
+    if (entry.path().extension() == ".stl") counts += count_supertux(entry.path().string(), entry.path().string());
   EXPECT_EQ(counts.levels, 221);
   EXPECT_EQ(counts.sectors, 274);
   EXPECT_EQ(counts.solid, 1226542);

@@ -174,10 +174,7 @@ TEST(NearWhatTurns, opposes_what_is_run_into_against_the_motion_and_nothing_that
   EXPECT_GT(unsure, 0);
 }
 
-TEST(NearWhatTurns, opposes_and_runs_into_what_it_comes_to_alone) {
-  const Beside wall = beside(plank(0.1, 2), {0.1 + half_width, 0}, 0, 0, {0, 0}, {0, 0});
-  EXPECT_EQ(TurningJudge(wall.header).opposes(wall.step, wall.start(), {0.1, 0}), Opposition::none);
-  EXPECT_EQ(TurningJudge(wall.header).opposes(wall.step, wall.start(), {-0.1, 0}), Opposition::met);
+TEST(NearWhatTurns, is_run_into_where_it_comes_to_the_character_and_not_where_it_is_outrun) {
   const Beside made = beside(plank(1, 0.5), {0, half_height + 0.01}, 0, 0.01, {0, -0.5}, {0, 0.1});
   const TurningJudge judge(made.header);
   EXPECT_TRUE(judge.runs_into(made.step, made.start(), Vec2d(0, 0), 1e-6)) << "it rises by 0.1 m";

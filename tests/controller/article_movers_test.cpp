@@ -1,5 +1,5 @@
 /// The article's techniques among movers: what pushes, what carries, what crushes.
-#include "controller/passenger.hpp"
+#include "controller/article_support.hpp"
 #include "support/allocations.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -10,6 +10,58 @@
 
 namespace paperproof::article_tests {
 namespace {
+
+using Motions = std::vector<MoverMotion<double>>;
+
+ColliderDef conveyor(ColliderDef def, double speed) {
+  def.surface_speed = speed;
+  return def;
+}
+
+/// A character among movers, stepped as a controller does it.
+struct Passenger {
+  Rig<double> rig;
+  double dt = 1.0 / 64;
+  double gravity = 32;
+  Vec2d position{Vec2d::Zero()};
+  Vec2d velocity{Vec2d::Zero()};
+  Ride<double> ride{};
+
+  Passenger(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {})
+      : rig(kind, std::move(colliders), knobs) {}
+
+  const MoveResult<double>& step(const Motions& movers) {
+    MoveRequest<double> request;
+    request.position = position;
+    request.velocity = velocity - ride.velocity;
+    request.velocity.y() -= gravity * dt;
+    request.displacement = request.velocity * dt;
+    request.movers = movers;
+    request.dt = dt;
+    request.ride = ride;
+    rig.technique->move(request, rig.scratch, rig.result);
+    position = rig.result.position;
+    velocity = rig.result.velocity;
+    ride = rig.result.ride;
+    return rig.result;
+  }
+  /// A step of a second without gravity.
+  const MoveResult<double>& fly(const Vec2d& from, const Vec2d& by, const Motions& movers) {
+    dt = 1;
+    gravity = 0;
+    position = from;
+    velocity = by;
+    return step(movers);
+  }
+};
+
+const Contact<double>& only_contact(const MoveResult<double>& result) {
+  EXPECT_EQ(result.contacts.size(), 1U);
+  return result.contacts[0];
+}
+
+/// There and back, `reach` far, in 128 steps.
+Vec2d swing(const Vec2d& reach, int step) { return reach * (0.5 - 0.5 * std::cos(step * 2 * 3.14159265358979 / 128)); }
 
 constexpr double rounding = 1e-12;
 constexpr double gap = Tolerances<double>{}.stop;
@@ -24,11 +76,11 @@ double slack_of(std::string_view kind) { return kind == "speculative_march" ? px
 TEST(MovingPaper, that_sweeps_over_a_resting_character_pushes_it_from_the_time_of_impact_on) {
   // From 2 m on the left by 5 m to the right; the arm is at -10 px. The march sees no paper that is thinner than a
   // unit.
-  const ColliderDef line = of_mover(chain({{-2, -2}, {-2, 2}}));
+  const ColliderDef line = compare::chain({{-2, -2}, {-2, 2}}, 0);
   for (const std::string_view kind : {"speculative_march", "speculative"}) {
     SCOPED_TRACE(kind);
     const double thickness = kind == "speculative" ? 0.0001 : 1.5 * px;
-    for (const ColliderDef& mover : {of_mover(rectangle(-2 - thickness, -2, -2, 2)), line}) {
+    for (const ColliderDef& mover : {compare::box(-2 - thickness, -2, -2, 2, 0), line}) {
       Passenger passenger(kind, {mover});
       const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {5, 0}}});
       const double slack = slack_of(kind);
@@ -55,7 +107,7 @@ TEST(MovingBlock, that_arrives_over_a_resting_character_pushes_it_by_units_or_by
   for (const std::string_view kind : {"discrete", "penetration_resolution"}) {
     SCOPED_TRACE(kind);
     const bool by_units = kind == "penetration_resolution";
-    Passenger passenger(kind, {of_mover(rectangle(-6, -2, -2, 2))});
+    Passenger passenger(kind, {compare::box(-6, -2, -2, 2, 0)});
     const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {by, 0}}});
     EXPECT_NEAR(result.position.x(), by_units ? 5 * px : 4.5 * px + gap, by_units ? 0 : rounding);
     EXPECT_EQ(result.position.y(), 0);
@@ -71,7 +123,7 @@ TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on
   for (const Vec2d& reach : {Vec2d{0, 3}, Vec2d{5, 0}, Vec2d{-4, 2.5}}) {
     for (const std::string_view kind : carrying_kinds) {
       SCOPED_TRACE(kind);
-      Passenger passenger(kind, {rectangle(-90, -9, 90, -5), of_mover(rectangle(-2, -1, 2, 0))});
+      Passenger passenger(kind, {rectangle(-90, -9, 90, -5), compare::box(-2, -1, 2, 0, 0)});
       passenger.position = {0.3, half_height + gap_of(kind)};
       Vec2d place{Vec2d::Zero()};
       Motions motions(1);
@@ -99,7 +151,7 @@ TEST(ClosingWalls, crush_at_the_step_that_the_gap_gives) {
   const double room = 10.4 / 64;
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
-    Passenger passenger(kind, {rectangle(-9, -3, 9, 0), of_mover(rectangle(-9, 2 * half_height + room, 9, 9))});
+    Passenger passenger(kind, {rectangle(-9, -3, 9, 0), compare::box(-9, 2 * half_height + room, 9, 9, 0)});
     passenger.position = {0, half_height + gap_of(kind)};
     int crushed_at = 0;
     Motions motions(1);
@@ -135,7 +187,7 @@ TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
   const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
     return refusal_by<NotExpressible>([&] { Rig<double>(kind, {collider}); });
   };
-  const ColliderDef mover = of_mover(rectangle(0, 0, 1, 1));
+  const ColliderDef mover = compare::box(0, 0, 1, 1, 0);
   const ColliderDef belt = conveyor(rectangle(0, 0, 1, 1), 1);
   for (const std::string_view kind : {"grid", "pixel_colour", "pixel_tile", "mask", "wind_back"})
     for (const ColliderDef& each : {mover, belt})

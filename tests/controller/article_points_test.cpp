@@ -41,22 +41,6 @@ TEST(StartInside, is_stuck_where_the_search_goes_back_and_free_once_an_end_is) {
   }
 }
 
-TEST(PenetrationResolution, is_pushed_out_by_whole_units) {
-  // The end is 6.25 pixels in the floor: seven units, which is 0.75 above it.
-  Rig<double> rig("penetration_resolution", {rectangle(-2, -2, 2, 0)});
-  const MoveResult<double>& result = rig.move({0, half_height + 4 * px}, {10 * px, -10.25 * px});
-  EXPECT_EQ(result.position, Vec2d(10 * px, half_height + 0.75 * px));
-  EXPECT_EQ(result.velocity, Vec2d(10 * px, 0));
-}
-
-TEST(SpeculativeMarch, does_not_look_beyond_the_end) {
-  // 3.5 px down to 0.25 px above the hill, where the right foot is: the last step is half a unit.
-  Rig<double> rig("speculative_march", {{.points = {{-2, -2}, {2, -2}, {2, 2}}}});
-  const MoveResult<double>& result = rig.move({0, 28.75 * px}, {0, -3.5 * px});
-  EXPECT_EQ(result.position.y(), 25.25 * px);
-  EXPECT_TRUE(result.contacts.empty());
-}
-
 TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
   for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative_march", "speculative"}) {
     SCOPED_TRACE(kind);

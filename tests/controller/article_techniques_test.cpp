@@ -1,5 +1,5 @@
 /// What several techniques do with the same situations.
-#include "controller/passenger.hpp"
+#include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
 

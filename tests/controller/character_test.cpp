@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <variant>
 
 #include "campaign/random.hpp"
@@ -153,6 +154,14 @@ TEST(CharacterDef, every_value_out_of_range_is_named) {
     for (const double value : field.bad) EXPECT_EQ(said(value), wrong) << value;
   }
   EXPECT_EQ(refusal([] { CharacterDef{}.validate(); }), "accepted");
+}
+
+TEST(CharacterShape, of_points_that_are_gone_is_found_where_sanitizers_look_on) {
+  if (!test::sanitized) GTEST_SKIP() << "the core is not sanitized here";
+  Points points(8);
+  const std::span<const Vec2d> gone = points;
+  Points().swap(points);
+  EXPECT_DEATH(CharacterShape{gone}, "heap-use-after-free");
 }
 
 }  // namespace

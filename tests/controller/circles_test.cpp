@@ -6,6 +6,7 @@
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 #include "support/random_runs.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -139,16 +140,6 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
   EXPECT_GT(contacts, 2000);
 }
 
-TEST(StartInsideACircle, goes_out_to_the_side_of_the_last_free_position) {
-  for (const double side : {-1.0, 1.0}) {
-    Stepper<double> stepper({circle({0, 0}, 2)});
-    stepper.state.last_free = {4 * side, 0};
-    stepper.state.has_last_free = true;
-    EXPECT_EQ(stepper.at(0.3, 0).fly(0, 0).status, MoveStatus::moved);
-    EXPECT_GT(stepper.state.position.x() * side, 1.5);
-  }
-}
-
 TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
   Stepper<double> stepper({circle({0, 0}, 5)});
   const auto overlaps = [&](double x, double y) -> bool {
@@ -208,34 +199,18 @@ TEST(CircleDefinition, is_refused_in_words) {
       {round_box, "only a circle has a radius"},
   };
   for (const auto& [def, words] : refusals) {
-    try {
-      const Scenery<double> scenery(SceneryDef{{def}});
-      ADD_FAILURE() << "accepted, and not: " << words;
-    } catch (const InvalidScenery& refused) {
-      EXPECT_NE(std::string(refused.what()).find(words), std::string::npos) << refused.what();
-    }
+    const auto make = [&made_of = def] { Scenery<double>{SceneryDef{{made_of}}}; };
+    const std::string said = test::refusal_by<InvalidScenery>(make, "accepted");
+    EXPECT_NE(said.find(words), std::string::npos) << said << ", and not: " << words;
   }
   EXPECT_THROW(Scenery<float>(SceneryDef{{circle({0, 0}, 1e-60)}}), InvalidScenery) << "zero in float";
 }
 
-TEST(CircleDefinition, is_given_back_as_it_runs) {
-  const ColliderDef def = circle({1, 2}, 0.1);
-  const Scenery<double> scenery(SceneryDef{{def}});
-  EXPECT_EQ(scenery.as_run(0).points, def.points);
-  EXPECT_EQ(scenery.as_run(0).radius, def.radius);
-  EXPECT_EQ(scenery.as_run(0).shape, def.shape);
-  EXPECT_EQ(Scenery<float>(SceneryDef{{def}}).as_run(0).radius, static_cast<double>(0.1F));
-}
-
 TEST(CirclesForOtherTechniques, are_refused_in_words) {
-  const Scenery<double> scenery(SceneryDef{{circle({0, 0}, 1)}});
   for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative", "discrete"}) {
-    try {
-      const auto controller = make_controller(scenery, CharacterDef{}, {.name = kind});
-      ADD_FAILURE() << kind;
-    } catch (const NotExpressible& refusal) {
-      EXPECT_NE(std::string(refusal.what()).find("knows no circles"), std::string::npos) << refusal.what();
-    }
+    const auto make = [kind] { (void)Stepper<double>({circle({0, 0}, 1)}, {}, kind); };
+    const std::string said = test::refusal_by<NotExpressible>(make, "accepted");
+    EXPECT_NE(said.find("knows no circles"), std::string::npos) << kind << ": " << said;
   }
 }
 
@@ -250,14 +225,6 @@ TEST(StepsAmongCircles, allocate_nothing) {
   for (int i = 0; i < 300; ++i)
     stepper.step_with_mover_by(0, i % 20 < 10 ? 0.05 : -0.05, {.move = i % 100 < 50 ? 1.0 : -1.0});
   EXPECT_EQ(tests::allocations(), before);
-}
-
-TEST(CirclesInAPlan, are_slopes) {
-  const Scenery<double> scenery(SceneryDef{{circle({0, 0}, 1)}});
-  EXPECT_TRUE(make_plan(scenery).stages.slopes);
-  SweepDef without;
-  without.stages.slopes = false;
-  EXPECT_THROW(Controller<double>(scenery, CharacterDef{}, without), std::invalid_argument);
 }
 
 }  // namespace

@@ -48,8 +48,6 @@ class Bodies {
   std::deque<std::vector<Vec2d>> outlines_;  // their addresses stay
 };
 
-discrete::Solver<double> make_solver() { return {gap, touch}; }
-
 TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
   Random random(52);
   int hits = 0;
@@ -83,7 +81,7 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   for (const double y : {-2.5, -2.0, -1.5}) bodies.add_box({0, y}).inverse_mass = 0;
   bodies.add_box({0, 1}, {0, -3});
   for (BodyIndex i = 0; i < 3; ++i) ASSERT_TRUE(find_impact(bodies.all[3], bodies.all[i], touch));
-  auto solver = make_solver();
+  discrete::Solver<double> solver{gap, touch};
   ASSERT_TRUE(solver.solve_once(bodies.all));
   ASSERT_EQ(solver.solved().size(), 1U) << "after the first impact there is no other";
   EXPECT_EQ(solver.solved()[0].bodies.second, 2U);

@@ -1,8 +1,6 @@
 /// A level that changes between steps, against scenery that is built at once; and movers that turn. Who stands on them
 /// or is pushed by them is in tests/situations/turning.json.
-#include <paperproof/level.hpp>
-
-#include "campaign/shapes.hpp"
+#include "controller/played.hpp"
 #include "level/poses.hpp"
 #include "level/turn.hpp"
 #include "support/allocations.hpp"
@@ -20,39 +18,13 @@
 namespace paperproof::test {
 namespace {
 
-constexpr double frame = 1.0 / 60;
 constexpr double pi = std::numbers::pi;
 
 using compare::box;
-using compare::half_height;
 
 Input random_input(Random& random) {
   return {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};
 }
-
-/// A character in a level, and how the movers go in the next step.
-struct Played {
-  explicit Played(const SceneryDef& def, const Vec2d& position = {0, half_height + 0.005}) : level(def) {
-    state.position = position;
-  }
-
-  StepStatus step(const Input& input = {}) { return controller.step(state, input, {gravity, frame, movers}, report); }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) step();
-  }
-  /// Every mover goes on from where it is.
-  StepStatus step_by(const Vec2d& way, double turn = 0) {
-    for (PoseMotion& mover : movers) mover = {mover.to, {mover.to.position + way, mover.to.angle + turn}};
-    return step();
-  }
-
-  Level level;
-  LevelController controller{level, {}};
-  CharacterState<double> state;
-  StepReport<double> report;
-  Vec2d gravity{0, -30};
-  std::vector<PoseMotion> movers{level.mover_count()};
-};
 
 TEST(LevelIds, count_from_zero_and_never_name_another_collider) {
   Level level;
@@ -78,9 +50,12 @@ TEST(LevelEdits, what_is_refused_changes_nothing) {
   Level level(SceneryDef{{box(0, 0, 1, 1)}});
   const std::uint64_t edit = level.last_edit();
   const ColliderDef line{.points = {{0, 0}, {1, 0}}};
-  for (const ColliderDef& bad : {line, ColliderDef{.points = {{0, 0}, {1, 0}, {2, 0}}},
-                                 ColliderDef{.points = {{0, 0}, {std::nan(""), 0}, {2, 1}}},
-                                 ColliderDef{.points = {{0, 0}, {3e6, 0}, {2, 1}}}, box(0, 0, 1, 1, 65'536)})
+  ColliderDef box_with_a_radius = box(0, 0, 1, 1);
+  box_with_a_radius.radius = 1;
+  for (const ColliderDef& bad :
+       {line, ColliderDef{.points = {{0, 0}, {1, 0}, {2, 0}}},
+        ColliderDef{.points = {{0, 0}, {std::nan(""), 0}, {2, 1}}}, ColliderDef{.points = {{0, 0}, {3e6, 0}, {2, 1}}},
+        box(0, 0, 1, 1, 65'536), compare::circle({0, 0}, 0), box_with_a_radius})
     EXPECT_THROW(level.add(bad), InvalidScenery);
   EXPECT_THROW(level.replace(0, line), InvalidScenery);
   EXPECT_EQ(level.last_edit(), edit);

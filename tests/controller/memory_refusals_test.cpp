@@ -1,6 +1,7 @@
 /// Scratch memory that is not the controller's, and movers that no step can begin with: refused, and nothing changes.
 #include "campaign/shapes.hpp"
 #include "controller/stepping.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,12 +15,8 @@ using compare::box;
 
 /// Some techniques are for scenery that stands still.
 bool knows_movers(std::string_view kind) {
-  try {
-    (void)Stepper<double>({box(0, 0, 1, 1, 0)}, {}, kind);
-  } catch (const NotExpressible&) {
-    return false;
-  }
-  return true;
+  const auto make = [kind] { (void)Stepper<double>({box(0, 0, 1, 1, 0)}, {}, kind); };
+  return test::refusal_by<NotExpressible>(make).empty();
 }
 
 /// A level of so many tiles with everything that takes scratch memory.

@@ -1,4 +1,5 @@
-/// The law of motion in random scenes: steering never holds or slows a fall, and mirror images behave alike.
+/// The law of motion in random scenes: steering never holds or slows a fall. That mirror images behave alike is in
+/// tests/agreement/equalities_test.cpp.
 #include "controller/stepping.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
@@ -9,27 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace paperproof::stepping {
 namespace {
 
-using test::PlayLevel;
 using test::Random;
 
 constexpr double gravity = -30;
-
-ColliderDef mirrored(ColliderDef collider) {
-  for (Vec2d& point : collider.points) point.x() = -point.x();
-  return collider;
-}
-
-SceneryDef mirrored(const SceneryDef& scenery) {
-  SceneryDef image;
-  for (const ColliderDef& collider : scenery.colliders) image.colliders.push_back(mirrored(collider));
-  return image;
-}
 
 /// One character among scenery that stands still.
 class Player {
@@ -104,36 +92,7 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
                                          << ": without a key " << fall << " m, with one " << highest << " m";
     }
   }
-  std::printf("%d touching states, %d of them falling\n", states, falling);
   EXPECT_GE(falling, states / 4);
-}
-
-TEST(MirrorImages, of_scenery_and_key_behave_alike) {
-  int in_contact = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    Random random(seed);
-    const SceneryDef scenery = test::play_level(test::all_play_levels[seed % test::all_play_levels.size()], random);
-    const CharacterDef character = character_for(random);
-    Player one(scenery, character);
-    Player other(mirrored(scenery), character);
-    one.state.position = {random.between(-25, 25), 12};
-    double key = 0;
-    for (int i = 0; i < 400; ++i) {
-      if (random.chance(0.05)) key = random.integer(-1, 1);
-      const bool jump = random.chance(0.1);
-      other.state = one.state;
-      other.state.position.x() = -one.state.position.x();
-      other.state.velocity.x() = -one.state.velocity.x();
-      other.state.last_free.x() = -one.state.last_free.x();
-      one.step(key, 1.0 / 60, jump);
-      other.step(-key, 1.0 / 60, jump);
-      in_contact += !one.report.move.contacts.empty();
-      ASSERT_NEAR(one.state.position.x(), -other.state.position.x(), 1e-6) << "seed " << seed << ", step " << i;
-      ASSERT_NEAR(one.state.position.y(), other.state.position.y(), 1e-6) << "seed " << seed << ", step " << i;
-      ASSERT_EQ(one.state.grounded, other.state.grounded) << "seed " << seed << ", step " << i;
-    }
-  }
-  EXPECT_GE(in_contact, 1000);
 }
 
 /// Holds a key for five seconds, and tells after which step nothing changed any more.

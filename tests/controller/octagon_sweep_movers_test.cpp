@@ -12,19 +12,14 @@ namespace {
 
 constexpr Tolerances<double> tolerances{};
 
-ColliderDef moving(ColliderDef collider, MoverIndex mover = 0) {
-  collider.mover = mover;
-  return collider;
-}
-
 TEST(Wedge, of_two_movers_ends_a_fall_and_is_not_climbed) {
   CharacterDef steep_at_once;
   steep_at_once.max_climb_degrees = 20;
   for (const double side : {1.0, -1.0}) {
     // It falls onto the steeper one, and what it slides with points up the other.
-    const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}});
-    const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}});
-    Stepper<double> fallen({moving(flatter, 0), moving(steeper, 1)}, steep_at_once);
+    const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}}, 0);
+    const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}}, 1);
+    Stepper<double> fallen({flatter, steeper}, steep_at_once);
     fallen.movers = {{{0, 0}, {-8e-4 * side, 0}}, {{0, 0}, {0, -9e-4}}};
     fallen.at(0.3 * side, 2).with_velocity(0, -300);
     fallen.step();
@@ -40,7 +35,7 @@ TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the
   // of the lower one with the normal n = (2, 1) / sqrt(5): that is (2 x + y - 3 m - 30 px) / sqrt(5) away from the
   // lower tile's corner at (1, 1). Its top is 0.1 m below the feet.
   const double slack = 0.4;  // of 2 x + y
-  Stepper<double> character({moving(rectangle(0, 0, 1, 1)), moving(rectangle(1, 1, 2, 2))});
+  Stepper<double> character({compare::box(0, 0, 1, 1, 0), compare::box(1, 1, 2, 2, 0)});
   const double y = 1 + half_height + 0.1;
   character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
   character.state.crushers.push_back({.collider = 1, .has_side = false});
@@ -63,12 +58,8 @@ struct Corner {
   Vec2d velocity{0, 0};
 
   [[nodiscard]] std::vector<ColliderDef> colliders() const {
-    const auto on_circle = [](double degrees, double radius) {
-      return Vec2d(radius *
-                   Vec2d(std::cos(degrees * std::numbers::pi / 180), std::sin(degrees * std::numbers::pi / 180)));
-    };
-    const Vec2d left = -on_circle(ground, 40);
-    const Vec2d right = on_circle(steep, 8);
+    const Vec2d left = -40 * compare::towards(ground * std::numbers::pi / 180);
+    const Vec2d right = 8 * compare::towards(steep * std::numbers::pi / 180);
     std::vector<ColliderDef> result{polygon({left, {left.x(), -50}, {0, -50}, {0, 0}}),
                                     polygon({{0, 0}, {0, -50}, {9, -50}, {9, right.y()}, right})};
     if (velocity != Vec2d::Zero())

@@ -53,6 +53,9 @@ TEST(Rest, in_float_changes_no_bit_either) {
   expect_rest(one_way.at(0.3, half_height + 0.25), {}, 100'000);
 }
 
+/// Distance to the next double.
+double ulp(double value) { return std::nextafter(std::abs(value), INFINITY) - std::abs(value); }
+
 /// Walks over tiles into a wall and jumps, beside an origin.
 std::vector<Vec2d> journey(double origin) {
   std::vector<ColliderDef> colliders;
@@ -74,18 +77,14 @@ TEST(Origin, moved_by_up_to_a_thousand_kilometres_changes_nothing_but_the_last_b
   ASSERT_NEAR(here.back().x(), 12 - half_width, 1e-6) << "it reaches the wall";
   for (const double origin : {1024.0, 16384.0, 131072.0, 983040.0, -983040.0}) {
     const std::vector<Vec2d> there = journey(origin);
-    const double ulp = std::nextafter(std::abs(origin), 2e6) - std::abs(origin);
     double furthest = 0;
     for (std::size_t n = 0; n < here.size(); ++n)
       furthest = std::max(furthest, (there[n] - here[n]).cwiseAbs().maxCoeff());
     // Every step is a multiple of 2^-11 m and adds without rounding, wherever it is. What is rounded is where a motion
     // stops at a gap, once at the landing, once at the wall and once at the landing after the jump.
-    EXPECT_LE(furthest, 3 * ulp) << origin;
+    EXPECT_LE(furthest, 3 * ulp(origin)) << origin;
   }
 }
-
-/// Distance to the next double.
-double ulp(double value) { return std::nextafter(std::abs(value), INFINITY) - std::abs(value); }
 
 /// Where a lift is that goes to and fro, 97 steps each way.
 Vec2d ping_pong(const Vec2d& by, int step) {

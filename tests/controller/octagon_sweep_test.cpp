@@ -1,9 +1,11 @@
 /// octagon_sweep: what no situation of tests/situations can say. In `float`, with few iterations, what its report calls
-/// the ground, what bits a scale keeps, and which stages a scenery needs.
+/// the ground, what bits a scale keeps, and starts inside a solid.
 #include "controller/stepping.hpp"
+#include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::stepping {
@@ -123,22 +125,27 @@ TEST(Scale, by_a_power_of_two_gives_the_same_bits_of_the_time_of_impact) {
   for (int k = -13; k <= 13; ++k) EXPECT_TRUE(same_bits(fraction_at(std::ldexp(1.0, k)), expected)) << "2^" << k;
 }
 
-TEST(Stages, that_the_scenery_needs_cannot_be_left_out) {
-  const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages) {
-    const Scenery<double> scenery(SceneryDef{std::move(colliders)});
-    const Controller<double> controller(scenery, {}, {.stages = stages});
-  };
-  const ColliderDef floor = rectangle(-4, -1, 4, 0);
-  ColliderDef belt = floor;
-  belt.surface_speed = 1;
-  const ColliderDef slope = polygon({{0, 0}, {4, 0}, {4, 3}});
-  EXPECT_NO_THROW(make({floor}, {.movers = false, .one_way = false, .slopes = false}));
-  ColliderDef lift = floor;
-  lift.mover = 0;
-  EXPECT_THROW(make({lift}, {.movers = false}), std::invalid_argument);
-  EXPECT_THROW(make({belt}, {.movers = false}), std::invalid_argument);
-  EXPECT_THROW(make({chain({{0, 0}, {1, 0}}, Vec2d{0, 1})}, {.one_way = false}), std::invalid_argument);
-  EXPECT_THROW(make({slope}, {.slopes = false}), std::invalid_argument);
+TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
+  std::vector<ColliderDef> colliders;
+  for (int k = 0; k < 300; ++k)
+    colliders.push_back(rectangle(-1 - k * 0.01, -1 - k * 0.01, 1 + k * 0.01, 1 + k * 0.01));
+  Stepper<double> stepper(colliders);
+  stepper.gravity = {0, 0};
+  stepper.at(0.1, 0.3);
+  const std::size_t before = tests::allocations();
+  EXPECT_EQ(stepper.step(), StepStatus::moved);
+  EXPECT_EQ(tests::allocations(), before);
+  EXPECT_NEAR(stepper.state.position.x(), 3.99 + half_width, 1e-6);
+}
+
+TEST(StartInside, without_a_way_out_counts_the_steps_as_far_as_a_byte_goes) {
+  Stepper<double> stepper({rectangle(-2, -2, 2, 2), rectangle(-3, -3, -2.5, 3), rectangle(2.5, -3, 3, 3),
+                           rectangle(-2.5, -3, 2.5, -2.5), rectangle(-2.5, 2.5, 2.5, 3)});
+  stepper.at(0.5, 1);
+  for (int n = 1; n <= 300; ++n) {
+    ASSERT_EQ(stepper.step({.move = 1}), StepStatus::stuck);
+    ASSERT_EQ(stepper.state.stuck_steps, std::min(n, 255));
+  }
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ TEST(Plan, keeps_just_the_stage_that_something_needs_and_no_controller_is_built_
                                 {"a sensor", Stage::sensors, sensor},
                                 {"a slope", Stage::slopes, slope},
                                 {"a chain an ulp high", Stage::slopes, compare::chain({{0, 2}, {1, 2 + 0x1p-51}})},
+                                {"a circle", Stage::slopes, compare::circle({0, 5}, 1)},
                                 {"jumps", Stage::jump, ground, {.gravity = false, .jump = true}},
                                 {"gravity", Stage::gravity, ground, {.gravity = true, .jump = false}}};
   for (const Need& need : needs) {

@@ -179,15 +179,6 @@ TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
   EXPECT_LE(overlapping, scenes * 70);
 }
 
-TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
-  // Past the corner of a block, by as much down as to the right: down first, and then its fourth row of pixels, which
-  // is 7 px wide on the right of the middle, meets the block 3 px later. The other way round it would end at (4, -3).
-  Rig<double> rig("mask", {rectangle(half_width, -9, 9, -half_height)});
-  EXPECT_EQ(rig.move({0, 0}, {4 * px, -4 * px}).position, Vec2d(3 * px, -4 * px));
-  ASSERT_EQ(rig.result.contacts.size(), 1U);
-  EXPECT_EQ(rig.result.contacts[0].side, Side::right);
-}
-
 TEST(Mask, refuses_a_picture_that_is_not_as_large_as_the_character) {
   TechniqueDef too_low{.name = "mask"};
   too_low.sprite.assign(39, std::string(20, '#'));

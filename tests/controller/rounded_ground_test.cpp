@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace paperproof::test {
 namespace {
@@ -118,7 +117,6 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
       }
     }
   }
-  std::printf("%d steps: %d presses, %d on straight ground (%d hardly)\n", steps, presses, straight, nearly);
   if (sanitized) return;
   EXPECT_GT(presses, steps / 100);
   EXPECT_GT(straight, steps / 2);

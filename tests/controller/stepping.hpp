@@ -63,11 +63,6 @@ struct Stepper {
   void steps(int count, const Input& input = {}) {
     for (int i = 0; i < count; ++i) step(input);
   }
-  [[nodiscard]] bool touched(Side side) const {
-    for (const Contact<Scalar>& contact : report.move.contacts)
-      if (contact.side == side) return true;
-    return false;
-  }
 };
 
 /// Every field, NaN and the sign of zero included.

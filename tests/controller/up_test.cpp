@@ -27,11 +27,6 @@ CharacterDef box_shaped(double half_width, double bottom, double top) {
   return character;
 }
 
-ColliderDef on_a_mover(ColliderDef def) {
-  def.mover = 0;
-  return def;
-}
-
 TEST(Up, that_is_no_unit_vector_is_refused) {
   Stepper<double> stepper({rectangle(-9, -1, 9, 0)});
   stepper.at(0, 3);
@@ -107,7 +102,7 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
 }
 
 TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
-  const ColliderDef lift = on_a_mover(rectangle(-3, -1, 3, 0));
+  const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
   CharacterDef character;
   character.coyote_time = 0.1;
   Stepper<double> rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, character);
@@ -126,7 +121,7 @@ TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
 }
 
 TEST(KnockBack, leaves_the_ground_and_what_carries) {
-  const ColliderDef lift = on_a_mover(rectangle(-3, -1, 3, 0));
+  const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
   CharacterDef character;
   character.coyote_time = 0.1;
   character.snap = 0.5;
@@ -148,7 +143,7 @@ TEST(KnockBack, leaves_the_ground_and_what_carries) {
 
 TEST(Shape, may_change_between_steps) {
   // A lift carries the character below a bar, and out again.
-  const Scenery<double> scenery(SceneryDef{{on_a_mover(rectangle(-3, -1, 9, 0)), rectangle(2, 1, 4, 2)}});
+  const Scenery<double> scenery(SceneryDef{{compare::box(-3, -1, 9, 0, 0), rectangle(2, 1, 4, 2)}});
   const Controller<double> standing(scenery, box_shaped(0.3, -0.4, 1.2));
   const Controller<double> crouching(scenery, box_shaped(0.3, -0.4, 0.4));
   Scratch<double> high = standing.make_scratch();

@@ -18,18 +18,14 @@ namespace {
 
 constexpr Tolerances<double> tolerances{};
 
-ColliderDef moving(ColliderDef collider, MoverIndex mover) {
-  collider.mover = mover;
-  return collider;
-}
+using compare::box;
 
 /// A floor that rises into a gap of 0.1 m above the character closes it at 10/11 of the step; a wall comes later, and
 /// from so far that it pushes the character out from between the two.
 TEST(Regression, what_is_pushed_out_to_where_it_is_free_is_not_crushed) {
   const double gap = 0.1;
   const double out = 1.5;  // how far the wall gets; floor and ceiling reach to 1
-  Stepper<double> pressed({rectangle(-1, 2 * half_height + gap, 1, 3), moving(rectangle(-1, -1, 1, 0), 0),
-                           moving(rectangle(-31, -5, -30, 5), 1)});
+  Stepper<double> pressed({rectangle(-1, 2 * half_height + gap, 1, 3), box(-1, -1, 1, 0, 0), box(-31, -5, -30, 5, 1)});
   pressed.at(0, half_height + tolerances.stop);
   pressed.gravity = {0, 0};
   pressed.movers = {{{0, 0}, {0, 0.11}}, {{0, 0}, {30 + out, 0}}};
@@ -46,7 +42,7 @@ TEST(Regression, what_is_crushed_does_not_follow_the_ground_down) {
   character.snap = 0.5;
   const double stop_at = 0.6;  // of the character's centre, where the standing wall is met
   Stepper<double> walker({rectangle(-5, -1, 0, 0), rectangle(0, -1, 5, -ledge),
-                          rectangle(stop_at + half_width, 0, 5, 9), moving(rectangle(-5, 0.1, -4, 9), 0)},
+                          rectangle(stop_at + half_width, 0, 5, 9), box(-5, 0.1, -4, 9, 0)},
                          character);
   walker.at(-1, half_height + tolerances.stop);
   walker.step();
@@ -63,8 +59,8 @@ TEST(Regression, what_is_crushed_does_not_follow_the_ground_down) {
 /// Inside a block, below a shaft that a press comes down: up is the shortest way out of the block, and a trap.
 TEST(Regression, room_may_lie_on_another_side_of_what_the_step_began_inside) {
   const double shaft = 0.4;
-  Stepper<double> trapped({rectangle(-2, 0, -shaft, 3), rectangle(shaft, 0, 2, 3), moving(rectangle(-1, -1, 1, 0), 0),
-                           moving(rectangle(-0.39, 1.5, 0.39, 9), 1)});
+  Stepper<double> trapped(
+      {rectangle(-2, 0, -shaft, 3), rectangle(shaft, 0, 2, 3), box(-1, -1, 1, 0, 0), box(-0.39, 1.5, 0.39, 9, 1)});
   trapped.at(0, half_height - 0.2);
   trapped.gravity = {0, 0};
   trapped.movers[1].to = {0, -2.9};
@@ -82,7 +78,7 @@ TEST(Regression, more_movers_at_once_than_are_remembered_neither_crush_nor_pass)
   std::vector<ColliderDef> colliders;
   for (int k = 0; k < pistons; ++k) {
     const double left = -5 * px + k * width;
-    colliders.push_back(moving(rectangle(left, -1, left + width, 0), static_cast<MoverIndex>(k)));
+    colliders.push_back(box(left, -1, left + width, 0, static_cast<MoverIndex>(k)));
   }
   for (const double sign : {1.0, -1.0}) {
     Stepper<double> lifted(colliders);

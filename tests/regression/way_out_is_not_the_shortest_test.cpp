@@ -3,9 +3,7 @@
 // out only feet of perpendiculars and crossings of facets were looked at, never the edge of what a crate hides; and
 // only the 96 facets nearest to the start, which in a gear are flanks that other teeth cover. Remedy: every facet is
 // cut by all obstacles and by the shadows of those that may not be passed.
-#include "campaign/shapes.hpp"
-
-#include <paperproof/controller.hpp>
+#include "controller/stepping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,14 +21,10 @@ struct Out {
 };
 
 Out out_of(std::vector<ColliderDef> colliders, const Vec2d& from) {
-  const Scenery<double> scenery(SceneryDef{std::move(colliders)});
-  const Controller<double> controller(scenery, {});
-  Scratch<double> scratch = controller.make_scratch();
-  CharacterState<double> state;
-  state.position = from;
-  StepReport<double> report;
-  const StepStatus status = controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report);
-  return {status, state.position - from};
+  stepping::Stepper<double> stepper(std::move(colliders));
+  stepper.gravity = {0, 0};
+  const StepStatus status = stepper.at(from.x(), from.y()).step();
+  return {status, stepper.state.position - from};
 }
 
 TEST(Regression, a_way_out_passes_beside_a_crate) {

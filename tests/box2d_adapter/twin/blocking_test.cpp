@@ -90,25 +90,13 @@ INSTANTIATE_TEST_SUITE_P(Ledges, OneWay,
                                          Ledge{"piece", box(-4, -0.5, 4, 0), SceneryMode::pieces}),
                          [](const auto& ledge) { return std::string(ledge.param.name); });
 
-TEST_P(OneWay, rising_from_below_and_passing_its_side_lose_no_speed) {
-  ReferenceWorld below = GetParam().world({0.3, -2});
-  while (below.position().y() < 1) {
-    const TwinStep& step = below.step({1, 9}, frame);
-    ASSERT_EQ(step.velocity, Vec2d(1, 9));
-    ASSERT_TRUE(step.contacts.empty());
-    ASSERT_FALSE(step.grounded);
-  }
-  ReferenceWorld beside = GetParam().world({-6, 0});
-  for (int k = 0; k < 120; ++k) ASSERT_EQ(beside.step({6, 0}, frame).velocity, Vec2d(6, 0));
-}
-
 TEST_P(OneWay, falling_from_above_is_held_at_any_speed) {
   Random random(6);
   for (int i = 0; i < 100; ++i) {
     const double speed = random.between(0.1, 110);
     const double x = random.between(-3, 3);
     ReferenceWorld world = GetParam().world({x, random.between(1, 3)});
-    run(world, {0, -speed}, 120);
+    run(world, {0, -speed}, 120, [](const TwinStep&) {});
     EXPECT_NEAR(world.position().y(), half_height + rest_gap, 0.006) << "seed 6, " << i;
   }
 }
@@ -123,6 +111,7 @@ TEST_P(OneWay, who_jumps_up_through_it_lands_on_it_and_drops_through_it_and_says
     // Semi-implicit Euler falls short of v²/2g by v·dt/2.
     run(world, {0, std::sqrt(2 * 10 * rise) + 10 * frame / 2}, 180,
         [&](const TwinStep&) { highest = std::max(highest, world.position().y()); });
+    EXPECT_GE(highest, rise - half_height - 0.7 - 1e-3) << "the ledge slowed its rise";
     if (highest < half_height) continue;  // Sampled below the top of the parabola: it must fall back.
     ASSERT_NEAR(world.position().y(), half_height + rest_gap, 0.007) << "seed 8, " << i << ", rise " << rise;
     if (i > 5) continue;

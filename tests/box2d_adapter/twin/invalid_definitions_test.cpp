@@ -15,12 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Scenery<double> ground() { return level({box(-5, -1, 5, 0)}); }
 
-CharacterDef character_of(std::span<const Vec2d> corners) {
-  CharacterDef character;
-  character.shape = CharacterShape(corners);
-  return character;
-}
-
 TEST(InvalidDefinitions, a_bad_position_step_or_place_is_refused_and_changes_nothing) {
   ReferenceWorld world(ground(), {}, {0, 2});
   world.step({1, 1}, frame);
@@ -43,13 +37,13 @@ TEST(InvalidDefinitions, a_bad_position_step_or_place_is_refused_and_changes_not
 }
 
 TEST(InvalidDefinitions, shapes_that_box2d_would_weld_or_that_are_flat_in_float_are_refused) {
-  const auto square = [](double side) { return character_of(box(0, 0, side, side).points); };
+  const auto square = [](double side) { return CharacterDef{.shape = CharacterShape(box(0, 0, side, side).points)}; };
   // Box2D welds below half its slop of 5 mm.
   EXPECT_THROW(ReferenceWorld(ground(), square(0.0024), {0, 2}), InvalidDefinition);
   EXPECT_NO_THROW(ReferenceWorld(ground(), square(0.0026), {0, 2}));
   // A corner 1e-9 above the line between its neighbours: a hull in double, a line in float.
   const std::vector<Vec2d> flat{{0, 0}, {1, 0}, {1, 1}, {0.5, 1 + 1e-9}, {0, 1}};
-  EXPECT_THROW(ReferenceWorld(ground(), character_of(flat), {0, 2}), InvalidDefinition);
+  EXPECT_THROW(ReferenceWorld(ground(), {.shape = CharacterShape(flat)}, {0, 2}), InvalidDefinition);
   for (const std::vector<Vec2d>& bad : {std::vector<Vec2d>{{0, 0}, {1, 0}, {2, 0}},
                                         {{0, 0}, {1, 0}, {nan, 1}},
                                         {{0, 0}, {1, 0}},
@@ -126,7 +120,7 @@ void try_world(Random& random, Outcomes& outcomes) {
     const Vec2d start = random.below(10) == 0 ? any_point(random) : random.point(4);
     CharacterDef character;
     const int corners = random.integer(-6, 9);
-    if (corners > 1) character = character_of(any_ring(random, corners, random.log_between(1e-4, 10), 60));
+    if (corners > 1) character.shape = CharacterShape(any_ring(random, corners, random.log_between(1e-4, 10), 60));
     ReferenceWorld world(level(std::move(colliders)), character, start, {.mode = modes.at(random.chance(0.5))});
     for (int k = 0; k < 20; ++k) try_step(world, random, outcomes);
   } catch (const std::invalid_argument& refused) {

@@ -36,8 +36,5 @@ void run(ReferenceWorld& world, Vec2d velocity, int steps, const EachStep& each_
     each_step(step);
   }
 }
-inline void run(ReferenceWorld& world, const Vec2d& velocity, int steps) {
-  run(world, velocity, steps, [](const TwinStep&) {});
-}
 
 }  // namespace paperproof::box2d::test

@@ -1,0 +1,37 @@
+/// A character in a level that changes between steps, among movers that turn.
+#pragma once
+
+#include "campaign/shapes.hpp"
+
+#include <paperproof/level.hpp>
+
+#include <vector>
+
+namespace paperproof::test {
+
+inline constexpr double frame = 1.0 / 60;
+
+struct Played {
+  explicit Played(const SceneryDef& def, const Vec2d& position = {0, compare::half_height + 0.005}) : level(def) {
+    state.position = position;
+  }
+
+  StepStatus step(const Input& input = {}) { return controller.step(state, input, {gravity, frame, movers}, report); }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  /// Every mover goes on from where it is.
+  StepStatus step_by(const Vec2d& way, double turn = 0, const Input& input = {}) {
+    for (PoseMotion& mover : movers) mover = {mover.to, {mover.to.position + way, mover.to.angle + turn}};
+    return step(input);
+  }
+
+  Level level;
+  LevelController controller{level, {}};
+  CharacterState<double> state;
+  StepReport<double> report;
+  Vec2d gravity{0, -30};
+  std::vector<PoseMotion> movers{level.mover_count()};  ///< How they go in the next step.
+};
+
+}  // namespace paperproof::test
