@@ -113,6 +113,7 @@ TEST(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two) {
   EXPECT_EQ(left.upper, Vec2d(2 * 35 / 70.5, -(2 * 35 / 70.5)));
   EXPECT_EQ(right.lower.x(), left.upper.x());
   EXPECT_EQ(right.upper.y(), left.upper.y());
+  EXPECT_TRUE(scene.respawn_box.has_value());
 }
 
 TEST(TiledMarks, say_what_is_solid_the_nearest_first) {
