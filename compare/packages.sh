@@ -13,7 +13,7 @@ build_packages=(
 )
 # To run every test.
 test_packages=(
-  clang lld      # the same bits from a second compiler; a linker that takes a quarter of the time for sanitized programs
+  clang          # the same bits from a second compiler, and the sanitizers
   supertux-data  # real levels
   python3 python3-gmpy2        # the checker of traces that shares no code with the project
   python3-jsonschema parallel  # schemas of what is written; shards over several processes

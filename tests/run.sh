@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds and runs every test, those of the core, the adapter and the oracle also with sanitizers.
+# Installs what is missing, then builds and runs every test. Tests of core, adapter and oracle also run with sanitizers.
 # The last lines are CTest's summary. The exit status is 0 only if everything was built and passed.
 #   tests/run.sh            all of it
 #   tests/run.sh --quick    with a few random steps, without the sanitizers and the tests that take long (CTest's label `slow`)

@@ -16,8 +16,9 @@ function(paperproof_sanitized_copy part)
   get_target_property(sources ${part} SOURCES)
   list(TRANSFORM sources PREPEND "${folder}/" REGEX "^[^/]")
   add_library(${part}_sanitized OBJECT EXCLUDE_FROM_ALL ${sources})
-  target_include_directories(${part}_sanitized SYSTEM PRIVATE $<TARGET_PROPERTY:${part},INCLUDE_DIRECTORIES>)
+  target_include_directories(${part}_sanitized PRIVATE $<TARGET_PROPERTY:${part},INCLUDE_DIRECTORIES>)
   target_compile_definitions(${part}_sanitized PRIVATE $<TARGET_PROPERTY:${part},COMPILE_DEFINITIONS>)
+  # -w: some of the options are for another compiler, which has warned already.
   target_compile_options(${part}_sanitized PRIVATE $<TARGET_PROPERTY:${part},COMPILE_OPTIONS> -w -O1 -fno-omit-frame-pointer ${paperproof_sanitizers}
     "SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")  # calls of the checks, not their code at every access
   set_target_properties(${part}_sanitized PROPERTIES UNITY_BUILD ${paperproof_unite_tests} CXX_COMPILER_LAUNCHER "${paperproof_clang}")

@@ -102,7 +102,7 @@ inline constexpr int deepest_group = 32;
 
 /// Refuses what no map may be: other projections, no size, tilesets that do not ascend.
 void check_map(const TiledMap& map, const std::string& orientation, const std::string& where);
-/// What is left of `most_tiles_of_a_map` for a map: packed layers of a few kilobytes could take all the memory.
+/// Counts the tiles of a map against `most_tiles_of_a_map`. A packed layer of a few kilobytes could fill the memory.
 class TileBudget {
  public:
   /// @throws InputError for a chunk without a size, or one too many.

@@ -63,7 +63,7 @@ TEST(OneSidedChain, that_reaches_into_a_hero_from_behind_between_its_feet_does_n
   EXPECT_EQ(game.x(), 0);
 }
 
-/// Nobody gets behind these, whatever the player does. @param feet where they are at first.
+/// The lines hold the hero in every frame of a play. @param feet where it begins.
 void expect_held(const std::vector<Line>& lines, const Vec2d& feet, const auto& holds, const auto& play) {
   Game game({.character = {.snap = 0.2}, .position = feet + Vec2d(0, half_height)});
   for (const Line& line : lines) game.chain(line);

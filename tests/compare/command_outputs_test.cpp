@@ -71,7 +71,7 @@ wait $p)");
   EXPECT_EQ(parts(), 0U);
 }
 
-/// What is said and the status where standard output goes elsewhere. @param after,before around the whole call.
+/// Runs the command with its standard output redirected. @param before,after shell code around the whole call.
 Finished run_into(const Workplace& place, const std::string& arguments, const std::string& output,
                   const std::string& after = "", const std::string& before = "") {
   const std::string said = place.write("said", "");

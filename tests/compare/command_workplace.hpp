@@ -47,7 +47,7 @@ inline nlohmann::json element(const std::string& page, const std::string& id) {
 /// A folder in which the command runs.
 class Workplace : public SceneFiles {
  public:
-  Workplace() {}  // constants of it begin without braces
+  Workplace() {}  // without it clang refuses `const Workplace place;`
   /// @param arguments as typed in a shell. @param before what stands before the command there.
   [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
     const std::string out = path("") + "../" + unique() + ".out";

@@ -29,7 +29,7 @@ Ran ran(const Scene& scene) {
   return {result.rows.front(), result.runs.empty() ? ReportRun() : std::move(result.runs.front())};
 }
 
-/// All scenes but crush70, whose only step takes half a minute. known_and_open_test.py judges that one.
+/// All scenes but crush70: its only step takes half a minute. known_and_open_test.py judges it.
 std::vector<std::string> scenes_to_ask() {
   std::vector<std::string> names;
   for (const BuiltInScene& entry : built_in_scenes())

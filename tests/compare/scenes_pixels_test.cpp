@@ -109,7 +109,7 @@ TEST(Picture, is_solid_where_the_scene_says) {
   files.write("level.png", png_of({"#g./:"}));
   files.write("entries.png", four_entries());
   for (const auto& [entry, expected] : std::initializer_list<std::pair<std::string, std::set<int>>>{
-           {"'level.png'", {0, 4}},  // white, as in a mask; what is more than half transparent is air
+           {"'level.png'", {0, 4}},  // white is solid, as in a mask; a pixel that is more than half transparent is air
            {"'level.png', 'solid': '#20C040'", {1}},
            {"'level.png', 'solid': '#000000'", {2}},
            {"'level.png', 'background': '#000000'", {0, 1, 4}},

@@ -169,7 +169,7 @@ TEST(StudyScale, tells_times_that_another_clock_has_seen_pass_for_every_broad_ph
     most += repeats * point.steps * point.ns_per_step_max;
   }
   EXPECT_LE(least, elapsed);
-  // Beside the repeats there is one run untimed, and what it takes to build 400 tiles.
+  // The total also holds one untimed run and the building of 400 tiles.
   EXPECT_GE(most, elapsed / 4);
 }
 

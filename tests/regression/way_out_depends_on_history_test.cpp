@@ -14,7 +14,7 @@ namespace paperproof::stepping {
 namespace {
 
 TEST(Regression, a_way_out_does_not_depend_on_earlier_steps) {
-  // A cross whose arms widen outwards: its middle is a convex piece of its own, with an arm on each side.
+  // The arms of this cross widen outwards. Its middle is a convex piece of its own, with an arm on each side.
   ColliderDef cross;
   std::array corners{Vec2d(20, 20), Vec2d(22, 60), Vec2d(-22, 60)};
   for (int quarter = 0; quarter < 4; ++quarter) {

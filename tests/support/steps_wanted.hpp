@@ -6,8 +6,8 @@
 
 namespace paperproof::test {
 
-/// Whether what is tested was compiled with the address sanitizer; a test itself is not. The symbol is there where its
-/// library is linked.
+/// Whether the libraries under test are compiled with the address sanitizer. Then its runtime is linked, which has this
+/// symbol.
 extern "C" void __asan_init() __attribute__((weak));
 inline const bool sanitized = &__asan_init != nullptr;
 
