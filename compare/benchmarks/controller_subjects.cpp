@@ -1,6 +1,6 @@
 #include "subject.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <paperproof/controller.hpp>
 
@@ -45,21 +45,21 @@ class ContenderSubject final : public Subject {
  public:
   ContenderSubject(const Workload& workload, std::string_view kind)
       : workload_(workload),
-        contestant_(compare::make_contestant(kind, compare::ScalarKind::binary64, workload.scene, workload.scenery)) {}
+        contender_(compare::make_contender(kind, compare::ScalarKind::binary64, workload.scene, workload.scenery)) {}
 
   void restart() override {
     const compare::Start& start = workload_.scene.start;
-    contestant_->place({.position = start.position, .velocity = start.velocity});
+    contender_->place({.position = start.position, .velocity = start.velocity});
   }
   void run() override {
     for (const Input& input : workload_.inputs)
-      contestant_->step_unrecorded({.dt = workload_.scene.dt, .players = {&input, 1}, .movers = {}, .turns = {}});
+      contender_->step_unrecorded({.dt = workload_.scene.dt, .players = {&input, 1}, .movers = {}, .turns = {}});
   }
-  [[nodiscard]] Vec2d position() const override { return contestant_->pose().position; }
+  [[nodiscard]] Vec2d position() const override { return contender_->pose().position; }
 
  private:
   const Workload& workload_;
-  std::unique_ptr<compare::Contestant> contestant_;
+  std::unique_ptr<compare::Contender> contender_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "subject.hpp"
 #include "timed_pass.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -53,7 +53,7 @@ class JudgedRun {
 
   [[nodiscard]] bool is_within_reach() {
     for (std::size_t k = 0; k < lane_.characters(); ++k)
-      if ((lane_.contestant().pose(k).position - run_.centre).cwiseAbs().maxCoeff() > run_.reach) return false;
+      if ((lane_.contender().pose(k).position - run_.centre).cwiseAbs().maxCoeff() > run_.reach) return false;
     return true;
   }
 

@@ -4,7 +4,7 @@
 #include "campaign/families.hpp"
 #include "campaign/happening.hpp"
 #include "records/clause.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <cstdint>
 #include <functional>

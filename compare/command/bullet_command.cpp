@@ -78,7 +78,7 @@ class BulletNumbers {
 
   /// Of a contender as its rows call it; nothing for a number type of its own.
   static BulletTheory theory_of(const std::string& who, double thickness) {
-    for (const Contender& contender : bullet_contenders())
+    for (const NamedContender& contender : bullet_contenders())
       if (contender.called() == who) return bullet_theory(contender, thickness);
     return {};
   }

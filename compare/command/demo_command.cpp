@@ -2,7 +2,7 @@
 
 #include "command/compare_command.hpp"
 #include "records/output_file.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/headline.hpp"
 #include "runs/run.hpp"
 #include "scenes/load.hpp"

@@ -3,7 +3,7 @@
 #include "command/forecast.hpp"
 #include "records/metric.hpp"
 #include "records/output_file.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/knobs.hpp"
 #include "runs/preparation.hpp"
@@ -27,7 +27,7 @@ std::string parameter_line(const ParameterDef& def) {
 std::string why_not(std::string_view contender, const Scene& scene, const Scenery<double>& scenery,
                     const Planning& planning) {
   try {
-    static_cast<void>(make_contestant(contender, ScalarKind::binary64, scene, scenery, planning));
+    static_cast<void>(make_contender(contender, ScalarKind::binary64, scene, scenery, planning));
   } catch (const std::exception& reason) {
     return reason.what();
   }

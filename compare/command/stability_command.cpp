@@ -3,7 +3,7 @@
 #include "command/study_command.hpp"
 #include "command/study_outputs.hpp"
 #include "report/row_pictures.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/run_case.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/parameters.hpp"

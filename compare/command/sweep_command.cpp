@@ -1,7 +1,7 @@
 #include "command/sweep_command.hpp"
 
 #include "command/compare_command.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/environment.hpp"
 #include "runs/knobs.hpp"
 #include "scenes/load.hpp"
@@ -121,7 +121,7 @@ void apply(const CaseArguments& arguments, std::vector<StudyPart>& parts) {
   for (StudyPart& part : parts) {
     if (!arguments.scalars.empty()) part.sweep.scalars = arguments.scalars;
     for (const KnobSetting& knob : parse_knobs(arguments.knobs, arguments.contenders))
-      for (Contender& contender : part.sweep.contenders) contender.knobs.push_back({knob.name, knob.value});
+      for (NamedContender& contender : part.sweep.contenders) contender.knobs.push_back({knob.name, knob.value});
   }
 }
 

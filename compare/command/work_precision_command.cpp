@@ -4,7 +4,7 @@
 #include "command/progress.hpp"
 #include "command/study_outputs.hpp"
 #include "report/row_pictures.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/load.hpp"
 #include "studies/front.hpp"

@@ -1,6 +1,6 @@
 #include "runs/continuous_error.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -50,13 +50,13 @@ class TimedSteps {
 /// @return nanoseconds per step; what is put somewhere is put there between two clock readings that do not count.
 template <class StepAt>
 double timed_pass(const TimedRun& run, const Scene& scene, std::size_t steps, const StepAt& step_at) {
-  place_at_start(*run.contestant, scene);
+  place_at_start(*run.contender, scene);
   Clock::duration took{0};
   auto next = run.respawns.begin();
   for (std::size_t step = 0; step < steps;) {
     for (; next != run.respawns.end() && static_cast<std::size_t>(next->step) <= step; ++next) {
       const Start& start = start_of(scene, next->character);
-      run.contestant->place({.position = start.position, .velocity = start.velocity}, next->character);
+      run.contender->place({.position = start.position, .velocity = start.velocity}, next->character);
     }
     const std::size_t end = next == run.respawns.end() ? steps : std::min(steps, static_cast<std::size_t>(next->step));
     const Clock::time_point begin = Clock::now();
@@ -66,7 +66,7 @@ double timed_pass(const TimedRun& run, const Scene& scene, std::size_t steps, co
   return std::chrono::duration<double, std::nano>(took).count() / static_cast<double>(steps);
 }
 
-/// One contestant with what its passes took.
+/// One contender with what its passes took.
 class Timing {
  public:
   Timing(const TimedRun& run, const Scene& scene, std::span<const StepInput> inputs)
@@ -74,10 +74,10 @@ class Timing {
 
   /// The first pass records the wanted velocities; bare passes replay them.
   void warm_up() {
-    has_bare_ = run_.contestant->keep_wishes(true);
+    has_bare_ = run_.contender->keep_wishes(true);
     (void)full_pass();
     if (!has_bare_) return;
-    run_.contestant->keep_wishes(false);
+    run_.contender->keep_wishes(false);
     (void)bare_pass();
   }
   void repeat() {
@@ -93,11 +93,11 @@ class Timing {
  private:
   [[nodiscard]] double full_pass() const {
     return timed_pass(run_, scene_, inputs_.size(),
-                      [this](std::size_t step) { run_.contestant->step_unrecorded(inputs_[step]); });
+                      [this](std::size_t step) { run_.contender->step_unrecorded(inputs_[step]); });
   }
   [[nodiscard]] double bare_pass() const {
     return timed_pass(run_, scene_, inputs_.size(),
-                      [this](std::size_t step) { run_.contestant->step_bare(inputs_[step], step); });
+                      [this](std::size_t step) { run_.contender->step_bare(inputs_[step], step); });
   }
   static Cost cost_of(std::vector<double>& passes) {
     std::sort(passes.begin(), passes.end());

@@ -1,7 +1,7 @@
 /// What a step costs, measured apart from everything that is judged.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <optional>
 #include <span>
@@ -22,13 +22,13 @@ struct Respawn {
 };
 
 struct TimedRun {
-  Contestant* contestant = nullptr;
+  Contender* contender = nullptr;
   std::span<const Respawn> respawns;  ///< Of the run that was judged, ascending: they are repeated, and not timed.
 };
 
 struct Costs {
   Cost full;
-  std::optional<Cost> bare;  ///< Of an engine alone: see `Contestant::step_bare`.
+  std::optional<Cost> bare;  ///< Of an engine alone: see `Contender::step_bare`.
 };
 
 /// Of all characters together. Each runs the same steps from the start, at most 1,000 of them: once untimed, as a

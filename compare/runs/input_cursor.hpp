@@ -2,7 +2,7 @@
 /// time, and how the movers go.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/mover_motions.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/step_times.hpp"
@@ -15,7 +15,12 @@ class InputCursor {
   /// @param script instead of the scene's own; one list for each character.
   /// @throws NotApplicable where Box2D cannot have the scene's bodies.
   InputCursor(const Scene& scene, const Script& script)
-      : script_(script), times_(scene), next_(script.size()), now_(script.size()), movers_(scene), gravity_(scene.gravity) {}
+      : script_(script),
+        times_(scene),
+        next_(script.size()),
+        now_(script.size()),
+        movers_(scene),
+        gravity_(scene.gravity) {}
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {

@@ -1,6 +1,6 @@
 #include "runs/knobs.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <fmt/format.h>
 

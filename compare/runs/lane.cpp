@@ -34,7 +34,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     if (mode == "lockstep" && !scene.others.empty())
       throw NotApplicable(
           fmt::format("lockstep is between one character and its twin, and here are {}", character_count(scene)));
-    contestant_ = make_contestant(row_.contender, scalar, scene, scenery, planning);
+    contender_ = make_contender(row_.contender, scalar, scene, scenery, planning);
     row_.knob = header().knob;
     records_.resize(header().characters);
     placed_.resize(records_.size(), true);
@@ -58,7 +58,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
         std::make_unique<TraceWriter>(trace_path(trace_stem, row_.scene, row_.contender, row_.scalar), header_as_run());
 }
 
-/// A contestant does not know in which mode it runs, nor how long.
+/// A contender does not know in which mode it runs, nor how long.
 TraceHeader Lane::header_as_run() const {
   TraceHeader as_run = header();
   as_run.mode = row_.mode;
@@ -70,7 +70,7 @@ TraceHeader Lane::header_as_run() const {
 void Lane::fail(Verdict verdict, const std::string& reason) {
   row_.verdict = verdict;
   row_.reason = reason;
-  contestant_.reset();
+  contender_.reset();
 }
 
 /// What ran is scored; the row says that it ended before its time.
@@ -78,7 +78,7 @@ void Lane::end_early(const std::string& reason) {
   write_metrics();
   add_fault(row_, Axis::validity, Verdict::flagged, reason);
   conclude();
-  contestant_.reset();
+  contender_.reset();
 }
 
 void Lane::expect(const std::vector<Answer>& answers) {
@@ -86,14 +86,14 @@ void Lane::expect(const std::vector<Answer>& answers) {
 }
 
 void Lane::place(const Pose& pose, std::size_t character) {
-  contestant_->place(pose, character);
+  contender_->place(pose, character);
   // A character of ours forgets its ride when it is placed.
   begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride<double>{});
 }
 
 void Lane::launch(const Vec2d& velocity, std::size_t character) {
-  contestant_->launch(velocity, character);
-  const Pose launched = contestant_->pose(character);
+  contender_->launch(velocity, character);
+  const Pose launched = contender_->pose(character);
   begin_anew(launched, character, launched.ride);
 }
 
@@ -115,7 +115,7 @@ void Lane::respawn(const Start& start, const Respawn& when) {
 bool Lane::is_free(const Vec2d& position, std::size_t character) const {
   std::vector<Vec2d> positions;
   for (std::size_t k = 0; k < records_.size(); ++k)
-    positions.push_back(k == character ? position : contestant_->pose(k).position);
+    positions.push_back(k == character ? position : contender_->pose(k).position);
   return judge_->is_free(positions, character);
 }
 
@@ -161,7 +161,7 @@ void Lane::note_refusal(const std::string& reason) {
 void Lane::step(int step, const StepInput& input) {
   try {
     begin_records(step, input);
-    contestant_->step(input, records_);
+    contender_->step(input, records_);
     row_.finite = is_finite();
     if (!*row_.finite)
       return fail(Verdict::failed, fmt::format("step {}: a position or velocity that is no number", step));
@@ -229,7 +229,7 @@ void Lane::write_metrics() {
 void Lane::finish() {
   if (running()) {
     write_metrics();
-    if (const std::size_t bytes = contestant_->memory_bytes(); bytes > 0) row_.memory_bytes = bytes;
+    if (const std::size_t bytes = contender_->memory_bytes(); bytes > 0) row_.memory_bytes = bytes;
     conclude();
   }
   if (trace_) trace_->commit();

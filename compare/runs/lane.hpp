@@ -5,7 +5,7 @@
 #include "records/scene_result.hpp"
 #include "records/trace_writer.hpp"
 #include "runs/body_judge.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/cost.hpp"
 #include "runs/run_judge.hpp"
 
@@ -20,17 +20,17 @@ struct ReplayLimit {
   int most = 0;   ///< To keep; 0: none.
 };
 
-/// Steps a contestant, has every step judged, and collects what a row, a trace and a replay need. Whatever goes wrong
+/// Steps a contender, has every step judged, and collects what a row, a trace and a replay need. Whatever goes wrong
 /// ends the lane with a row that says why. Not thread-safe.
 class Lane {
  public:
   Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
        const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
 
-  [[nodiscard]] bool running() const noexcept { return contestant_ != nullptr; }
-  [[nodiscard]] const std::string& contender() const noexcept { return row_.contender; }
-  [[nodiscard]] Contestant& contestant() noexcept { return *contestant_; }
-  [[nodiscard]] const TraceHeader& header() const noexcept { return contestant_->header(); }
+  [[nodiscard]] bool running() const noexcept { return contender_ != nullptr; }
+  [[nodiscard]] const std::string& contender_name() const noexcept { return row_.contender; }
+  [[nodiscard]] Contender& contender() noexcept { return *contender_; }
+  [[nodiscard]] const TraceHeader& header() const noexcept { return contender_->header(); }
   [[nodiscard]] const ExactScenery& solids() const noexcept { return judge_->solids(); }
   [[nodiscard]] std::size_t characters() const noexcept { return records_.size(); }
   [[nodiscard]] const TraceStep& record(std::size_t character = 0) const noexcept { return records_[character]; }
@@ -81,7 +81,7 @@ class Lane {
   ReportRun replay_;
   ReplayLimit limit_;
   bool steps_vary_;  ///< Each step has a length of its own.
-  std::unique_ptr<Contestant> contestant_;
+  std::unique_ptr<Contender> contender_;
   std::unique_ptr<RunJudge> judge_;
   std::optional<AnswerCheck> answers_;  ///< None where nothing is asked.
   std::unique_ptr<BodyJudge> bodies_;   ///< Null where none are Box2D's own.

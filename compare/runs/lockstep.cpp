@@ -43,7 +43,7 @@ Vec2d out_of(const std::vector<Vec2d>& normals, double gap) {
 
 TwinStart twin_start(Lane& lane, const StepInput& input) {
   TwinStart start;
-  start.pose = lane.contestant().pose();
+  start.pose = lane.contender().pose();
   // Movers are where the last step left them, in the numbers that ran.
   const std::vector<MoverMotion<double>>& ran = lane.record().movers;
   const auto place = [&] {

@@ -1,6 +1,6 @@
 #include "runs/mover_motions.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-/// How movers go, as a contestant of a technique runs them.
+/// How movers go, as a contender of a technique runs them.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <paperproof/character.hpp>
 #include <paperproof/controller.hpp>

@@ -60,8 +60,8 @@ double measured(const Scene& scene, const std::string& contender, ScalarKind sca
   const auto begin = std::chrono::steady_clock::now();
   try {
     const Scenery<double> scenery(scene.scenery);
-    const auto contestant = make_contestant(contender, scalar, scene, scenery);
-    const Judge judge(contestant->header());
+    const auto runner = make_contender(contender, scalar, scene, scenery);
+    const Judge judge(runner->header());
   } catch (const std::exception&) {
     return 0;  // it will not run
   }

@@ -1,7 +1,7 @@
 /// What is done before the first step, and how long that takes.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "scenes/scene.hpp"
 
 #include <optional>

@@ -112,8 +112,8 @@ class SceneRun {
       for (std::size_t i = 0; i < lanes_.size(); ++i) pair_up(*lanes_[i], *twins_[i]);
       return;
     }
-    const auto reference =
-        std::find_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->contender() == twin_name; });
+    const auto reference = std::find_if(lanes_.begin(), lanes_.end(),
+                                        [](const auto& lane) { return lane->contender_name() == twin_name; });
     if (reference == lanes_.end()) return;
     for (const auto& lane : lanes_)
       if (lane != *reference) pair_up(*lane, **reference);
@@ -124,13 +124,14 @@ class SceneRun {
     errors_.resize(lanes_.size());
     if (!options_.continuous || options_.mode == Mode::lockstep || script_.size() != 1) return;
     courses_.emplace(scene_, script_.front(), steps_);
-    for (std::size_t i = 0; i < lanes_.size(); ++i) errors_[i] = ContinuousError(courses_->of(lanes_[i]->contender()));
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+      errors_[i] = ContinuousError(courses_->of(lanes_[i]->contender_name()));
   }
 
   void respawn_if_lost(Lane& lane, int step) const {
     if (!scene_.respawn_box) return;
     for (std::size_t k = 0; k < lane.characters(); ++k) {
-      const Vec2d position = lane.contestant().pose(k).position;
+      const Vec2d position = lane.contender().pose(k).position;
       if (scene_.respawn_box->inflated(lost).contains({position, position})) continue;
       const Start& start = start_of(scene_, k);
       if (lane.is_free(start.position, k)) lane.respawn(start, {step, k});
@@ -243,15 +244,15 @@ class SceneRun {
     using Right = SideDisagreement::Right;
     const auto count = [&pair](Right right) { return pair.agreements.front().count(right); };
     const int differ = count(Right::mine) + count(Right::reference) + count(Right::both) + count(Right::neither);
-    std::string text =
-        fmt::format(" From the same start {} and Box2D report the same sides of contact on {:.2f} % of {}",
-                    pair.mine->contender(), 100 * *share, counted(pair.mine->row().steps - pair.not_compared, "step"));
+    std::string text = fmt::format(
+        " From the same start {} and Box2D report the same sides of contact on {:.2f} % of {}",
+        pair.mine->contender_name(), 100 * *share, counted(pair.mine->row().steps - pair.not_compared, "step"));
     if (differ == 0) return text + ".";
     return text +
            fmt::format(
                "; where they differ ({}) exact arithmetic is with {} on {}, with Box2D on {}, with both on {}, with "
                "neither on {}.",
-               counted(differ, "step"), pair.mine->contender(), count(Right::mine), count(Right::reference),
+               counted(differ, "step"), pair.mine->contender_name(), count(Right::mine), count(Right::reference),
                count(Right::both), count(Right::neither));
   }
 
@@ -262,7 +263,7 @@ class SceneRun {
     for (const auto& lane : lanes_) {
       if (!lane->running()) continue;
       timed.push_back(lane.get());
-      runs.push_back({&lane->contestant(), lane->respawns()});
+      runs.push_back({&lane->contender(), lane->respawns()});
     }
     if (runs.empty()) return;
     const std::vector<Costs> costs = measure_costs(runs, scene_, script_, steps_);
@@ -281,11 +282,12 @@ class SceneRun {
   }
 
   void describe_disagreements(const Pair& pair, ReportScene& result) const {
-    const bool told = pair.mine->contender() == default_lockstep;
+    const bool told = pair.mine->contender_name() == default_lockstep;
     if (!told || options_.max_replay_steps == 0) return;
     const auto run_of = [&](const Lane& lane) {
-      const auto found = std::find_if(result.runs.begin(), result.runs.end(),
-                                      [&](const ReportRun& run) { return run.header.contender == lane.contender(); });
+      const auto found = std::find_if(result.runs.begin(), result.runs.end(), [&](const ReportRun& run) {
+        return run.header.contender == lane.contender_name();
+      });
       return static_cast<std::size_t>(found - result.runs.begin());
     };
     for (std::size_t k = 0; k < pair.agreements.size(); ++k) {

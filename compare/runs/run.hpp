@@ -3,7 +3,7 @@
 
 #include "records/row.hpp"
 #include "records/scene_result.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "scenes/scene.hpp"
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include "runs/run_case.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "scenes/load.hpp"
 
 #include <paperproof/number_in.hpp>

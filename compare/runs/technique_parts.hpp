@@ -1,8 +1,8 @@
-/// What the contestants have in common that run our controller: scenery, header, and how a report becomes a record;
+/// What the contenders have in common that run our controller: scenery, header, and how a report becomes a record;
 /// and, with the twin, how a state becomes a pose.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <paperproof/techniques.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace paperproof::compare {
 
-/// `Scenery<double>` is shared by all contestants of a scene; one in float brings its own, rounded.
+/// `Scenery<double>` is shared by all contenders of a scene; one in float brings its own, rounded.
 template <class Scalar>
 class OwnScenery {
  public:

@@ -1,7 +1,7 @@
 #include "studies/bullet.hpp"
 
 #include "oracle/exemptions.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/built_in.hpp"
 
@@ -42,14 +42,14 @@ std::string axis_of(int count, double first, double last, const char* key, const
 
 }  // namespace
 
-std::vector<Contender> bullet_contenders() {
+std::vector<NamedContender> bullet_contenders() {
   return all_contenders_and(
       {{"box2d", {{"continuous", "off"}}}, {"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}});
 }
 
 namespace {
 
-Sweep bullet_sweep(GridSize size, const Contender& contender) {
+Sweep bullet_sweep(GridSize size, const NamedContender& contender) {
   struct Counts {
     int speeds;
     const char* thickness;
@@ -123,7 +123,7 @@ std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
 
 std::vector<StudyPart> bullet_parts(GridSize size) {
   std::vector<StudyPart> parts;
-  for (const Contender& contender : bullet_contenders())
+  for (const NamedContender& contender : bullet_contenders())
     parts.push_back({"", bullet_sweep(size, contender), {}, Bad::tunnels});
   parts.push_back(moving_paper_part(size));
   parts.push_back(far_part(size));
@@ -155,7 +155,7 @@ Row lowest_speed_through(const Case& paper, double thickness, int phases) {
   return row;
 }
 
-BulletTheory bullet_theory(const Contender& contender, double thickness) {
+BulletTheory bullet_theory(const NamedContender& contender, double thickness) {
   const std::string& name = contender.name;
   if (is_reference(name)) {
     if (contender.knobs.empty()) return {true};

@@ -11,7 +11,7 @@
 namespace paperproof::compare {
 
 /// All contenders, and Box2D with continuous collision off, and with a non-bullet against dynamic paper.
-[[nodiscard]] std::vector<Contender> bullet_contenders();
+[[nodiscard]] std::vector<NamedContender> bullet_contenders();
 
 /// The parts of the study, in this order:
 /// - without a title, one for each contender: speed × thickness × angle × phase × length of a step. A contender that
@@ -53,7 +53,7 @@ struct BulletTheory {
   bool known = false;
   std::optional<double> lowest{};  ///< [m/s]; none: never. 0: at any speed.
 };
-[[nodiscard]] BulletTheory bullet_theory(const Contender& contender, double thickness);
+[[nodiscard]] BulletTheory bullet_theory(const NamedContender& contender, double thickness);
 
 /// Wilson's interval of 95 % for a rate (Wilson 1927, "Probable inference, the law of succession, and statistical
 /// inference").

@@ -1,6 +1,6 @@
 #include "studies/prepared_studies.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@ namespace {
 /// Axes for each size of the grid.
 using Axes = std::array<std::vector<const char*>, 3>;
 
-const Contender put_by_transform{"box2d", {{"movers", "transform"}}};
+const NamedContender put_by_transform{"box2d", {{"movers", "transform"}}};
 
 StudyPart part_of(const char* title, const char* scene, const std::vector<const char*>& axes,
-                  std::vector<Contender> contenders = all_contenders_and({})) {
+                  std::vector<NamedContender> contenders = all_contenders_and({})) {
   StudyPart part{title, {}, {}};
   part.sweep.scene = scene;
   for (const char* axis : axes) part.sweep.axes.push_back(parse_axis(axis));
@@ -75,8 +75,8 @@ GridSize grid_size(std::string_view name) noexcept {
   return name == "standard" ? GridSize::standard : GridSize::quick;
 }
 
-std::vector<Contender> all_contenders_and(const std::vector<Contender>& more) {
-  std::vector<Contender> all;
+std::vector<NamedContender> all_contenders_and(const std::vector<NamedContender>& more) {
+  std::vector<NamedContender> all;
   for (const std::string_view name : contender_names()) all.push_back({std::string(name)});
   all.insert(all.end(), more.begin(), more.end());
   return all;
@@ -85,7 +85,7 @@ std::vector<Contender> all_contenders_and(const std::vector<Contender>& more) {
 void keep_only(const std::vector<std::string>& wanted, std::vector<StudyPart>& parts) {
   if (wanted.empty()) return;
   for (StudyPart& part : parts)
-    std::erase_if(part.sweep.contenders, [&](const Contender& one) {
+    std::erase_if(part.sweep.contenders, [&](const NamedContender& one) {
       return std::find(wanted.begin(), wanted.end(), one.name) == wanted.end();
     });
   std::erase_if(parts, [](const StudyPart& part) { return part.sweep.contenders.empty(); });

@@ -23,7 +23,7 @@ struct PreparedStudy {
 [[nodiscard]] const std::vector<PreparedStudy>& prepared_studies();
 
 /// All contenders, and some more with knobs of their own.
-[[nodiscard]] std::vector<Contender> all_contenders_and(const std::vector<Contender>& more);
+[[nodiscard]] std::vector<NamedContender> all_contenders_and(const std::vector<NamedContender>& more);
 
 /// Drops contenders that nobody asked for, and parts without any. @param wanted names; empty: all.
 void keep_only(const std::vector<std::string>& wanted, std::vector<StudyPart>& parts);

@@ -1,7 +1,7 @@
 #include "studies/stability.hpp"
 
 #include "records/verdict.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/run_case.hpp"
 
 #include <fmt/format.h>

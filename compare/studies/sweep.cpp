@@ -74,7 +74,7 @@ void check_value(const Sweep& sweep, const std::string& key, const std::string& 
   } catch (const std::invalid_argument&) {
     check_setting(sweep.scene, {key, 0});  // says what there is
   }
-  for (const Contender& contender : sweep.contenders) {
+  for (const NamedContender& contender : sweep.contenders) {
     if (!has_knob(contender.name, key))
       refuse(contender.name, fmt::format("expected a contender with the knob {}", key));
     try {
@@ -112,7 +112,7 @@ bool is_safe(const Row& row) {
   return was_judged(row) && row.tunnels.value_or(0) == 0 && row.steps_ending_inside.value_or(0) == 0;
 }
 
-std::string Contender::called() const {
+std::string NamedContender::called() const {
   std::string text = name;
   for (const Case::Setting& knob : knobs) text += fmt::format(" {}={}", knob.key, knob.value);
   return text;
@@ -163,7 +163,7 @@ Case Sweep::at(std::size_t index) const {
     index /= values.size();
     return value;
   };
-  const Contender who = take(contenders);
+  const NamedContender who = take(contenders);
   one.contender = who.name;
   one.knobs = who.knobs;
   one.scalar = take(scalars);
@@ -197,7 +197,7 @@ std::string id_of(const std::vector<StudyPart>& parts) {
     if (sweep.border) text += " border " + *sweep.border;
     if (sweep.border_range) text += fmt::format(" {}:{}", sweep.border_range->first, sweep.border_range->second);
     for (const SweepAxis& axis : sweep.axes) text += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
-    for (const Contender& who : sweep.contenders) text += ' ' + who.called();
+    for (const NamedContender& who : sweep.contenders) text += ' ' + who.called();
     text += fmt::format(" {}\n", fmt::join(sweep.scalars, ","));
   }
   return hash_of(text);

@@ -26,7 +26,7 @@ struct SweepAxis {
 [[nodiscard]] SweepAxis parse_axis(std::string_view text);
 
 /// Who runs: a contender with knobs of its own.
-struct Contender {
+struct NamedContender {
   std::string name;
   std::vector<Case::Setting> knobs{};
   [[nodiscard]] std::string called() const;  ///< `box2d bullet=off solids=dynamic`
@@ -36,7 +36,7 @@ struct Sweep {
   std::string scene;
   std::vector<Case::Setting> set;  ///< The same for all.
   std::vector<SweepAxis> axes;     ///< The contender varies fastest, then the scalar, then the last axis.
-  std::vector<Contender> contenders;
+  std::vector<NamedContender> contenders;
   std::vector<std::string> scalars{"double"};
   std::optional<std::uint64_t> seed;
   std::optional<int> steps;

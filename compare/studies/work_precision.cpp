@@ -1,6 +1,6 @@
 #include "studies/work_precision.hpp"
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 #include "runs/cost.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/scene_plan.hpp"
@@ -50,7 +50,7 @@ struct Point {
   double value = 0;
   double dt = usual_dt;
   std::vector<KnobSetting> knobs;
-  std::unique_ptr<Contestant> contestant;
+  std::unique_ptr<Contender> contender;
 };
 
 Point point_of(const Motion& motion, const std::string& contender, const std::string& scalar, double dt) {
@@ -114,9 +114,9 @@ class MotionStudy {
       std::vector<Point*> timed;
       std::vector<TimedRun> runs;
       for (Point& point : points_) {
-        if (point.dt != dt || !point.contestant || point.row.verdict == Verdict::failed) continue;
+        if (point.dt != dt || !point.contender || point.row.verdict == Verdict::failed) continue;
         timed.push_back(&point);
-        runs.push_back({point.contestant.get(), {}});
+        runs.push_back({point.contender.get(), {}});
       }
       if (runs.empty()) continue;
       const std::vector<Costs> costs = measure_costs(runs, level->scene, level->script, level->scene.steps);
@@ -127,7 +127,7 @@ class MotionStudy {
         row.ns_per_step_max = costs[i].full.ns_per_step_max;
       }
     }
-    for (Point& point : points_) point.contestant.reset();
+    for (Point& point : points_) point.contender.reset();
   }
 
   void report(WorkPrecision& found) {
@@ -163,8 +163,8 @@ class MotionStudy {
     const Level& level = *scenes_.at(point.dt);
     const Planning planning{.foreseen = foreseen_in(level.scene, level.script), .knobs = point.knobs};
     const ScalarKind scalar = point.row.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64;
-    point.contestant = make_contestant(point.row.contender, scalar, level.scene, level.scenery, planning);
-    point.row.knob = point.contestant->header().knob;
+    point.contender = make_contender(point.row.contender, scalar, level.scene, level.scenery, planning);
+    point.row.knob = point.contender->header().knob;
     const std::vector<Vec2d>& places = is_reference(point.row.contender) ? level.places_without_friction : level.places;
     InputCursor cursor(level.scene, level.script);
     std::vector<TraceStep> records(1);
@@ -172,7 +172,7 @@ class MotionStudy {
     double squares = 0;
     for (int step = 0; step < level.scene.steps; ++step) {
       records.front() = {};
-      point.contestant->step(cursor.at(step), records);
+      point.contender->step(cursor.at(step), records);
       const Vec2d made = records.front().path.back().position + records.front().remainder;
       const double error = (made - places[static_cast<std::size_t>(step)]).norm();
       if (!std::isfinite(error)) throw std::runtime_error(fmt::format("step {}: a position that is no number", step));

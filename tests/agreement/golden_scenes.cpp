@@ -1,5 +1,6 @@
 #include "agreement/golden_scenes.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -31,32 +32,26 @@ ColliderDef random_box(Random& random, const Vec2d& at) {
 ColliderDef random_slope(Random& random, const Vec2d& at) {
   const double width = random.uniform(0.5, 5);
   const double height = random.uniform(0.1, 3);
-  switch (random.below(4)) {
-    case 0:
-      return polygon(at, {{0, 0}, {width, 0}, {0, height}});
-    case 1:
-      return polygon(at, {{0, height}, {width, height}, {0.3 * width, 0}});
-    case 2:
-      return polygon(at, {{0, 0}, {width, 0}, {width, height}, {0.5 * width, 0.2 * height}, {0, height}});
-    default:
-      return polygon(at, {{0, 0}, {width, 0}, {0.8 * width, height}, {0.1 * width, 0.7 * height}});
-  }
+  const std::vector<Vec2d> shapes[]{
+      {{0, 0}, {width, 0}, {0, height}},
+      {{0, height}, {width, height}, {0.3 * width, 0}},
+      {{0, 0}, {width, 0}, {width, height}, {0.5 * width, 0.2 * height}, {0, height}},
+      {{0, 0}, {width, 0}, {0.8 * width, height}, {0.1 * width, 0.7 * height}},
+  };
+  return polygon(at, shapes[random.below(4)]);
 }
 
 ColliderDef random_paper(Random& random, const Vec2d& at) {
   const double width = random.uniform(0.5, 6);
   const double rise = random.uniform(-1, 1);
   const double thickness = 0.001;
-  switch (random.below(4)) {
-    case 0:
-      return box(at, width, thickness);
-    case 1:
-      return polygon(at, {{0, 0}, {width, rise}, {width, rise + thickness}, {0, thickness}});
-    case 2:
-      return chain(at, {{0, 0}, {0.5 * width, rise}, {width, 0}}, false);
-    default:
-      return chain(at, {{0, 0}, {width, rise}}, true);
-  }
+  const ColliderDef papers[]{
+      box(at, width, thickness),
+      polygon(at, {{0, 0}, {width, rise}, {width, rise + thickness}, {0, thickness}}),
+      chain(at, {{0, 0}, {0.5 * width, rise}, {width, 0}}, false),
+      chain(at, {{0, 0}, {width, rise}}, true),
+  };
+  return papers[random.below(4)];
 }
 
 using MakePiece = std::function<ColliderDef(Random&, const Vec2d&)>;
@@ -78,14 +73,8 @@ Scene make_scene(const std::string& name, const Vec2d& origin, std::uint64_t see
 }
 
 ColliderDef any(Random& random, const Vec2d& at) {
-  switch (random.below(3)) {
-    case 0:
-      return random_box(random, at);
-    case 1:
-      return random_slope(random, at);
-    default:
-      return random_paper(random, at);
-  }
+  constexpr std::array makers{random_box, random_slope, random_paper};
+  return makers[random.below(3)](random, at);
 }
 
 /// Every third piece moves, every fifth one carries along its surface, and there are sensors that stand and that move.
@@ -95,9 +84,8 @@ Scene with_movers(Scene scene, std::uint64_t seed) {
   const std::size_t pieces = colliders.size();
   const auto set_going = [&](ColliderDef& collider) {
     collider.mover = static_cast<MoverIndex>(scene.shuttles.size());
-    const Vec2d reach = random.point({-6, -4}, {6, 4});
-    const double period = random.uniform(0.5, 5);
-    scene.shuttles.push_back({reach, period, random.uniform(0, 1)});
+    // Braces: they are drawn in this order.
+    scene.shuttles.push_back({random.point({-6, -4}, {6, 4}), random.uniform(0.5, 5), random.uniform(0, 1)});
   };
   for (std::size_t i = 4; i < pieces; ++i) {
     if (i % 3 == 0) set_going(colliders[i]);

@@ -103,11 +103,7 @@ struct RunResult {
   int steps_with_contact = 0;
 };
 
-paperproof::CharacterDef character_def() {
-  paperproof::CharacterDef character;
-  character.snap = 0.25;
-  return character;
-}
+paperproof::CharacterDef character_def() { return {.snap = 0.25}; }
 
 template <class Scalar>
 paperproof::CharacterState<Scalar> shot(Random& random, const Scene& scene) {
@@ -118,23 +114,27 @@ paperproof::CharacterState<Scalar> shot(Random& random, const Scene& scene) {
 }
 
 paperproof::Input any_input(Random& random) {
-  paperproof::Input input;
-  input.move = static_cast<double>(random.below(5)) / 2 - 1;
-  input.jump = random.below(3) == 0;
-  return input;
+  return {.move = static_cast<double>(random.below(5)) / 2 - 1, .jump = random.below(3) == 0};
 }
 
-template <class Scalar>
-paperproof::Vec2<Scalar> gravity() {
-  return {Scalar(0), Scalar(-30)};
-}
-
-template <class Scalar>
-void set_motions(const Scene& scene, int step, std::vector<paperproof::MoverMotion<Scalar>>& motions) {
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    motions[i].from = scene.shuttles[i].offset_at(step * dt).cast<Scalar>();
-    motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt).cast<Scalar>();
+/// @param first steps are hashed apart.
+/// @param make one step of all: it adds to the hash what came of it. @return whether there was a contact.
+template <class Scalar, class Make>
+RunResult make_steps(const Scene& scene, int steps, int first, const Make& make) {
+  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
+  Hash hash;
+  RunResult result;
+  for (int step = 0; step < steps; ++step) {
+    if (step == first) result.first_hash = hash.value();
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      motions[i].from = scene.shuttles[i].offset_at(step * dt).cast<Scalar>();
+      motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt).cast<Scalar>();
+    }
+    const paperproof::StepContext<Scalar> context{{Scalar(0), Scalar(-30)}, Scalar(dt), motions};
+    if (make(step, context, hash)) ++result.steps_with_contact;
   }
+  result.hash = hash.value();
+  return result;
 }
 
 /// Walks and jumps at random; now and then the character is put somewhere else and shot in some direction.
@@ -145,56 +145,43 @@ RunResult run(const Scene& scene, std::string_view kind, int steps) {
   paperproof::Scratch<Scalar> scratch = controller.make_scratch();
   paperproof::StepReport<Scalar> report;
   paperproof::CharacterState<Scalar> state;
-  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
   paperproof::Input input;
   Random random(5);
-  Hash hash;
-  RunResult result;
-  for (int step = 0; step < steps; ++step) {
-    if (step == first_steps) result.first_hash = hash.value();
+  return make_steps<Scalar>(scene, steps, first_steps, [&](int step, const auto& context, Hash& hash) {
     if (step % steps_between_shots == 0) state = shot<Scalar>(random, scene);
     if (step % 20 == 0) input = any_input(random);
-    set_motions(scene, step, motions);
-    controller.step(state, input, {gravity<Scalar>(), Scalar(dt), motions}, scratch, report);
+    controller.step(state, input, context, scratch, report);
     add_step(hash, state, report);
-    if (!report.move.contacts.empty()) ++result.steps_with_contact;
-  }
-  result.hash = hash.value();
-  return result;
+    return !report.move.contacts.empty();
+  });
 }
 
 /// Several at once: the steps are shared between them.
 template <class Scalar>
 RunResult run_crowd(const Scene& scene, int steps) {
-  constexpr std::size_t members = 8;
+  constexpr int members = 8;
   const paperproof::Scenery<Scalar> scenery(scene.scenery);
   const paperproof::Crowd<Scalar> crowd(scenery, character_def());
   paperproof::CrowdScratch scratch = crowd.make_scratch(members);
   paperproof::CrowdReport<Scalar> report(members);
   std::vector<paperproof::CharacterState<Scalar>> states(members);
   std::vector<paperproof::Input> inputs(members);
-  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
   Random random(8);
-  Hash hash;
-  RunResult result;
-  for (int step = 0; step < steps / static_cast<int>(members); ++step) {
-    if (step == first_steps / static_cast<int>(members)) result.first_hash = hash.value();
-    for (std::size_t i = 0; i < members; ++i) {
+  const auto make = [&](int step, const auto& context, Hash& hash) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
       if (step % steps_between_shots == 0) states[i] = shot<Scalar>(random, scene);
       if (step % 20 == 0) inputs[i] = any_input(random);
     }
-    set_motions(scene, step, motions);
-    crowd.step(states, inputs, {gravity<Scalar>(), Scalar(dt), motions}, scratch, report);
+    crowd.step(states, inputs, context, scratch, report);
     hash.add(report.impacts);
     for (const paperproof::CharacterState<Scalar>& state : states) {
       hash.add(state.position);
       hash.add(state.velocity);
       hash.add(state.grounded);
     }
-    if (report.impacts > 0) ++result.steps_with_contact;
-  }
-  result.hash = hash.value();
-  return result;
+    return report.impacts > 0;
+  };
+  return make_steps<Scalar>(scene, steps / members, first_steps / members, make);
 }
 
 using Lines = std::map<std::string, std::string>;
@@ -252,20 +239,17 @@ Lines read_lines(const char* file, bool first) {
 
 int compare(const Lines& golden, const Lines& here) {
   int differences = 0;
-  const auto show = [&](const std::string& key, const std::string& expected, const std::string& found) {
+  Lines all = golden;
+  all.insert(here.begin(), here.end());
+  const auto value_of = [](const Lines& lines, const std::string& key) {
+    return lines.contains(key) ? lines.at(key) : "absent";
+  };
+  for (const auto& [key, ignored] : all) {
+    const std::string expected = value_of(golden, key);
+    const std::string found = value_of(here, key);
+    if (expected == found) continue;
     ++differences;
     std::cout << key << ": golden " << expected << ", here " << found << '\n';
-  };
-  for (const auto& [key, found] : here) {
-    const auto expected = golden.find(key);
-    if (expected == golden.end()) {
-      show(key, "absent", found);
-    } else if (expected->second != found) {
-      show(key, expected->second, found);
-    }
-  }
-  for (const auto& [key, expected] : golden) {
-    if (!here.contains(key)) show(key, expected, "absent");
   }
   std::cout << here.size() << " runs, " << differences << " differences\n";
   return differences == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

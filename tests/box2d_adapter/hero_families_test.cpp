@@ -137,7 +137,12 @@ class Twice {
       fixtures_.world.SetGravity(rounded(input.gravity));
       const Vec2d gravity = widened(fixtures_.world.GetGravity());
       const Vec2d up = -gravity / gravity.norm();
-      launch(step, up);
+      for (const compare::Launch& launch : run_.launches) {
+        if (launch.step != step || launch.velocity.norm() > 1e6) continue;
+        hero_.set_velocity(launch.velocity);
+        if ((launch.velocity - state_.ride.velocity).dot(up) > 0) knock_back(state_, {0, 0});
+        state_.velocity = launch.velocity;
+      }
       const std::span<const MoverMotion<double>> motions = fixtures_.step(input);
       hero_.step(input.players[0], input.dt);
       controller.step(state_, input.players[0], {gravity, input.dt, motions, nullptr, up}, scratch, report_);
@@ -158,15 +163,6 @@ class Twice {
     run.scene.start.position -= by;
     run.centre -= by;
     return run;
-  }
-
-  void launch(int step, const Vec2d& up) {
-    for (const compare::Launch& launch : run_.launches) {
-      if (launch.step != step || launch.velocity.norm() > 1e6) continue;
-      hero_.set_velocity(launch.velocity);
-      if ((launch.velocity - state_.ride.velocity).dot(up) > 0) knock_back(state_, {0, 0});
-      state_.velocity = launch.velocity;
-    }
   }
 
   bool is_same(Tally& tally) {

@@ -12,8 +12,6 @@ namespace {
 
 class AgreementTest : public testing::Test {
  protected:
-  AgreementTest() { reference_header_.contender = "box2d"; }
-
   Row compare(const std::vector<std::pair<Moment, Moment>>& run) {
     agreement_.emplace(header(), reference_header_, 2);
     for (const auto& [mine, reference] : run) agreement_->add(mine.step, mine.judged, reference.step, reference.judged);
@@ -22,7 +20,7 @@ class AgreementTest : public testing::Test {
     return row;
   }
 
-  TraceHeader reference_header_ = header();
+  const TraceHeader reference_header_ = header("box2d");
   std::optional<Agreement> agreement_;
 };
 

@@ -6,7 +6,7 @@
 /// word.
 #include "compare/scene_runs.hpp"
 #include "records/metric.hpp"
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 #include <charconv>
 #include <map>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <tuple>
 
 namespace paperproof::compare {
 namespace {
@@ -19,24 +20,21 @@ TEST(Wilson, is_as_tabulated) {
 }
 
 TEST(BulletTheory, is_as_worked_out_by_hand) {
-  struct Theory {
-    Contender contender;
-    double thickness;
-    std::optional<double> lowest;  ///< None: no speed passes.
-  };
-  // The rows 0, 0.3125, 0.9375, 1.25 leave wind_back a gap of circles from 0.10385 m on.
+  // Without a lowest speed none passes. The rows 0, 0.3125, 0.9375, 1.25 leave wind_back a gap of circles from
+  // 0.10385 m on.
   for (const auto& [contender, thickness, lowest] :
-       std::vector<Theory>{{{"penetration_resolution"}, 0.01, 0.6},
-                           {{"discrete"}, 0.1, 81},
-                           {{"mask"}, 0.1, (1.25 + 2.0 / 32) * 60},  // three rows, less one
-                           {{"mask"}, 0.01, 0},                      // no middle of a pixel is in it
-                           {{"pixel_colour"}, 0.1, {}},
-                           {{"speculative_march"}, 0.01, 0.6},
-                           {{"speculative_march"}, 0.1, {}},  // thicker than its unit
-                           {{"wind_back"}, 0.1, 6.2308},
-                           {{"box2d", {{"continuous", "off"}}}, 0.1, 38.7},
-                           {{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}, 0.1, 41.7},
-                           {{"box2d"}, 0.1, {}}}) {
+       std::vector<std::tuple<NamedContender, double, std::optional<double>>>{
+           {{"penetration_resolution"}, 0.01, 0.6},
+           {{"discrete"}, 0.1, 81},
+           {{"mask"}, 0.1, (1.25 + 2.0 / 32) * 60},  // three rows, less one
+           {{"mask"}, 0.01, 0},                      // no middle of a pixel is in it
+           {{"pixel_colour"}, 0.1, {}},
+           {{"speculative_march"}, 0.01, 0.6},
+           {{"speculative_march"}, 0.1, {}},  // thicker than its unit
+           {{"wind_back"}, 0.1, 6.2308},
+           {{"box2d", {{"continuous", "off"}}}, 0.1, 38.7},
+           {{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}, 0.1, 41.7},
+           {{"box2d"}, 0.1, {}}}) {
     const BulletTheory theory = bullet_theory(contender, thickness);
     ASSERT_EQ(theory.lowest.has_value(), lowest.has_value()) << contender.called() << " " << thickness;
     EXPECT_NEAR(theory.lowest.value_or(0), lowest.value_or(0), contender.name == "wind_back" ? 1e-3 : 1e-9);
@@ -44,7 +42,7 @@ TEST(BulletTheory, is_as_worked_out_by_hand) {
   EXPECT_TRUE(bullet_theory({"octagon_sweep"}, 0.01).known);
 }
 
-Row run(const std::string& scene, const std::vector<Case::Setting>& settings, const Contender& contender) {
+Row run(const std::string& scene, const std::vector<Case::Setting>& settings, const NamedContender& contender) {
   Case one;
   one.scene = scene;
   one.parameters = settings;
@@ -53,9 +51,16 @@ Row run(const std::string& scene, const std::vector<Case::Setting>& settings, co
   return run_case(one);
 }
 
+TEST(RunCase, of_what_there_is_not_is_a_failed_row) {
+  const Row row = run("paper", {{"speed", "-3"}}, {"octagon_sweep"});
+  EXPECT_EQ(row.verdict, Verdict::failed);
+  EXPECT_NE(row.reason.find("expected speed from 0.1"), std::string::npos) << row.reason;
+  EXPECT_EQ(run("papr", {}, {"octagon_sweep"}).verdict, Verdict::failed);
+}
+
 TEST(LowestSpeed, of_box2d_with_its_holes_open_is_that_of_theory) {
-  for (const Contender& contender :
-       {Contender{"box2d", {{"continuous", "off"}}}, Contender{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}}) {
+  for (const NamedContender& contender : {NamedContender{"box2d", {{"continuous", "off"}}},
+                                          NamedContender{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}}) {
     const double theory = bullet_theory(contender, 0.1).lowest.value();
     // Of forty phases at which it falls onto paper.
     const auto through = [&](double speed) {
@@ -107,7 +112,7 @@ Count through_in(const std::vector<StudyPart>& parts, const std::string& title, 
   for (const StudyPart& part : parts) {
     if (part.title != title) continue;
     Sweep sweep = part.sweep;
-    std::erase_if(sweep.contenders, [&](const Contender& one) { return one.called() != called; });
+    std::erase_if(sweep.contenders, [&](const NamedContender& one) { return one.called() != called; });
     for (std::size_t index = 0; index < sweep.size(); ++index) {
       const Row row = run_at(sweep, index);
       count.cases += was_judged(row);

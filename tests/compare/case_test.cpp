@@ -9,50 +9,45 @@
 namespace paperproof::compare {
 namespace {
 
-/// Words with all that a shell takes for something else.
-class Words {
- public:
-  std::string word(std::string_view without = "") {
-    constexpr std::string_view letters = "abz09_.-/=:,+ '\"\\$`*?~#&|;<>(){}[]!%^@\t\n\xc3\xa4";
-    std::string text;
-    while (text.size() < 1 + random_() % 12) {
-      const char letter = letters[random_() % letters.size()];
-      if (without.find(letter) == std::string_view::npos) text += letter;
-    }
-    return text;
+/// Of all that a shell takes for something else.
+std::string random_word(std::mt19937_64& random, std::string_view without = "") {
+  constexpr std::string_view letters = "abz09_.-/=:,+ '\"\\$`*?~#&|;<>(){}[]!%^@\t\n\xc3\xa4";
+  std::string text;
+  while (text.size() < 1 + random() % 12) {
+    const char letter = letters[random() % letters.size()];
+    if (without.find(letter) == std::string_view::npos) text += letter;
   }
-  std::vector<Case::Setting> settings() {
-    std::vector<Case::Setting> all;
-    for (std::size_t count = random_() % 4; count > 0; --count) all.push_back({word("="), word()});
-    return all;
-  }
-  std::uint64_t number() { return random_(); }
-  bool coin() { return random_() % 2 == 0; }
+  return text;
+}
 
- private:
-  std::mt19937_64 random_{7};
-};
+std::vector<Case::Setting> random_settings(std::mt19937_64& random) {
+  std::vector<Case::Setting> all;
+  for (std::size_t count = random() % 4; count > 0; --count)
+    all.push_back({random_word(random, "="), random_word(random)});
+  return all;
+}
 
-Case random_case(Words& words) {
+Case random_case(std::mt19937_64& random) {
+  const auto coin = [&random] { return random() % 2 == 0; };
   Case one;
-  one.scene = words.word();
-  one.parameters = words.settings();
-  one.contender = words.word();
-  if (words.coin()) one.scalar = "float";
-  one.knobs = words.settings();
-  if (words.coin()) one.seed = words.number();
-  if (words.coin()) one.steps = static_cast<int>(words.number() % 100'000);
-  if (words.coin()) one.mode = "lockstep";
-  one.full_plan = words.coin();
-  one.reference = words.coin();
+  one.scene = random_word(random);
+  one.parameters = random_settings(random);
+  one.contender = random_word(random);
+  if (coin()) one.scalar = "float";
+  one.knobs = random_settings(random);
+  if (coin()) one.seed = random();
+  if (coin()) one.steps = static_cast<int>(random() % 100'000);
+  if (coin()) one.mode = "lockstep";
+  one.full_plan = coin();
+  one.reference = coin();
   return one;
 }
 
 /// A command says all that a Case has, so two with one command are the same.
 TEST(Case, is_read_back_from_its_command) {
-  Words words;
+  std::mt19937_64 random(7);
   for (int n = 0; n < 10'000; ++n) {
-    const std::string command = command_of(random_case(words));
+    const std::string command = command_of(random_case(random));
     const std::optional<Case> read = case_of_command(command);
     ASSERT_TRUE(read) << command;
     ASSERT_EQ(command_of(*read), command);

@@ -8,6 +8,7 @@ python3-jsonschema is missing.
 """
 import json
 import sys
+from pathlib import Path
 
 try:
     from jsonschema import Draft202012Validator
@@ -21,8 +22,7 @@ def validator(schema, part):
 
 
 def faults(path, rows, trace):
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    text = Path(path).read_text(encoding="utf-8")
     if path.endswith(".json"):
         objects = [(1, json.loads(text), validator(rows, None))]
     else:
@@ -37,10 +37,8 @@ def faults(path, rows, trace):
 
 
 def main():
-    with open(sys.argv[1] + "/paperproof_rows.schema.json", encoding="utf-8") as file:
-        rows = json.load(file)
-    with open(sys.argv[1] + "/paperproof_trace.schema.json", encoding="utf-8") as file:
-        trace = json.load(file)
+    rows, trace = (json.loads(Path(sys.argv[1], f"paperproof_{kind}.schema.json").read_text(encoding="utf-8"))
+                   for kind in ("rows", "trace"))
     for schema in rows, trace:
         Draft202012Validator.check_schema(schema)
     bad = 0

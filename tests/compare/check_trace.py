@@ -44,8 +44,8 @@ import sys
 
 from trace_company import Company, places_at
 from trace_geometry import (
-    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, Fraction, add, circle_crossings, crossings, distance, dot, exact, less,
-    scaled, shifted, sides, size, vector)
+    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, Fraction, add, between, circle_crossings, crossings, distance, dot, exact,
+    less, scaled, shifted, sides, size, vector)
 from trace_ground import Ground
 from trace_legs import Legs
 from trace_motion import Frame, Intent, differs
@@ -226,13 +226,12 @@ class Checker:
             rounding = 2.0 ** -23 * (1 + size(at)) if self.header["scalar"] == "float" else 0
             if not size(less(start, at)) <= rounding and not step.get("respawn"):
                 yield "continuity", f"begins at {show(start)}, not where the scene puts it: {show(at)}"
-        elif step.get("respawn"):
+            return
+        if step.get("respawn"):
             if not self.may_respawn(start, step):
                 yield "continuity", "says that it was put back, and had not left the map"
         elif last.path[-1][:2] != start[:2]:
             yield "continuity", f"begins at {show(start)}, not where the last one ended"
-        if last is None:
-            return
         now, before = step.motion.first_and_last(), last.motion.first_and_last()
         if now.keys() != before.keys() or step.motion.ways.keys() != last.motion.ways.keys():
             yield "continuity", "has not the same movers as the step before"
@@ -508,10 +507,10 @@ class Checker:
         clause = "time_of_impact" if reported else "contact_missed"
         if first > slack and self.world.meets(name, start, scaled(wanted, first - slack), self.body):
             yield clause, f"meets {name} earlier than at {float(first)} of the step"
-        if is_first and not follows and not self.world.meets(name, start, scaled(wanted, first + slack), self.body):
-            # Not by then, unless it passes so closely that it may be called a contact.
-            if not self.world.meets(name, start, scaled(wanted, first + slack), self.bodies[NEAR_PASS]):
-                yield "time_of_impact", f"does not meet {name} by {float(first)} of the step"
+        # What passes so closely may be called a contact, too.
+        by_then = scaled(wanted, first + slack)
+        if is_first and not follows and not self.world.meets(name, start, by_then, self.bodies[NEAR_PASS]):
+            yield "time_of_impact", f"does not meet {name} by {float(first)} of the step"
 
     def is_turned(self, step, fraction):
         """Whether something may have turned a character aside before it met another at that fraction."""
@@ -564,9 +563,8 @@ class Checker:
                 self.skip("sensor", "turns")
                 continue
             corners = [step.motion.seen(name, corner) for corner in path]
-            expected = []
-            for change, leg, share in self.sensor_events(name, corners):
-                expected.append((change, path[leg][2] + share * (path[leg + 1][2] - path[leg][2])))
+            expected = [(change, between(path[leg], path[leg + 1], share)[2])
+                        for change, leg, share in self.sensor_events(name, corners)]
             found = [(e["change"], Fraction(e["fraction"])) for e in step.get("sensors", []) if e["id"] == name]
             if [change for change, _ in found] != [change for change, _ in expected]:
                 words = [f"{change} at {float(t)}" for change, t in expected] or ["nothing"]
@@ -703,8 +701,7 @@ class Checker:
         if self.world.too_close:
             told.append(f"too close to tell on {self.world.too_close} ways past what turns")
         unjudged = [f"{clause} in {n} steps ({why})" for (clause, why), n in sorted(self.skipped.items())]
-        unknown = sorted(self.clauses - set(CLAUSES))
-        unjudged += [f"{clause} (unknown)" for clause in unknown]
+        unjudged += [f"{clause} (unknown)" for clause in sorted(self.clauses - set(CLAUSES))]
         return told, unjudged
 
 

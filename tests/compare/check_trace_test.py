@@ -143,16 +143,11 @@ def touched_out_of_nothing(step, *_):
 
 
 def script_left(name, by):
-    def change(step, steps, k):
-        step["movers"][name][1][1] += by
-        steps[k + 1]["movers"][name][0][1] += by
-    return change
-
-
-def vertex_moved(name, by):
+    """By what moves, or by a vertex of what turns; the next step begins there."""
     def change(step, steps, k):
         for moved, instant in ((step, -1), (steps[k + 1], 0)):
-            moved["movers"][name]["vertices"][instant][1][1] += by
+            way = moved["movers"][name]
+            (way["vertices"][instant][1] if "vertices" in way else way[instant])[1] += by
     return change
 
 
@@ -206,7 +201,7 @@ SPOILT = [
     ("stuck beside a way out", "stuck", lambda header, _: header["colliders"].pop(), "start_inside"),
     ("a one-way ledge that is passed unasked", "one_way_drop", at("drops", lambda step, *_: step.pop("drop")), "one_way"),
     ("a drop through what is not there", "one_way_drop", at("rests", put("drop", to=["ledge"])), "one_way"),
-    ("an arm that leaves its script by 1 mm", "turning_arm", at("touches", vertex_moved("arm", 1e-3)), "mover_way"),
+    ("an arm that leaves its script by 1 mm", "turning_arm", at("touches", script_left("arm", 1e-3)), "mover_way"),
     ("an arm in which it ends", "turning_arm", at("touches", end_moved(0, -0.1)), "overlap"),
     ("a way through the arm", "turning_arm", at("touches", detour(0.6, -2)), "passage"),
     ("a position in a circle", "land_on_circle", at("touches", end_moved(0, -0.01)), "overlap"),
@@ -238,14 +233,11 @@ class Checking(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         files = [Path(cls.folder.name) / (scene["name"] + ".json") for scene in (YARD, STUCK, SEE_SAW)]
         for file, scene in zip(files, (YARD, STUCK, SEE_SAW)):
             write(file, [scene])
         cls.good = traces_of(COMMAND, cls.folder.name, *files, *BUILT_IN)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def expect_found(self, path, clause):
         """By the command."""

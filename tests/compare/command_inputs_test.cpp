@@ -9,12 +9,14 @@
 namespace paperproof::compare {
 namespace {
 
+using CommandInputs = CommandTest;
+using CommandJudge = CommandTest;
+
 constexpr const char* map_text =
     R"(<map version="1.5" orientation="orthogonal" width="20" height="3" tilewidth="32" tileheight="32" infinite="0">
 <objectgroup id="1" name="solid"><object id="1" x="0" y="64" width="640" height="32"/></objectgroup></map>)";
 
-TEST(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one_line) {
-  const Workplace place;
+TEST_F(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one_line) {
   place.write("map.tmx", map_text);
   // A floor of white pixels below black air.
   PngFile picture{.width = 320, .height = 96, .samples = std::vector<std::uint16_t>(std::size_t{64} * 320)};
@@ -41,8 +43,7 @@ TEST(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one_l
   EXPECT_TRUE(holds(place.run("check map.tmx").out, "random:1, as a map has no script"));
 }
 
-TEST(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
-  const Workplace place;
+TEST_F(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
   place.write("good.json", good_scene);
   place.write("bad.json", "{}");
   const std::string run =
@@ -65,8 +66,7 @@ TEST(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
   EXPECT_TRUE(holds(place.run(run + "--keep-going").out, "2 of 3 inputs could not be used\n"));
 }
 
-TEST(CommandInputs, names_come_from_a_file_or_from_standard_input) {
-  const Workplace place;
+TEST_F(CommandInputs, names_come_from_a_file_or_from_standard_input) {
   place.write("good.json", good_scene);
   place.write("list", "good.json\r\n\narticle_bullet\n");
   const std::string run = "compare wedge_60 --no-timing --json --contender octagon_sweep --no-reference --files-from ";
@@ -79,7 +79,7 @@ TEST(CommandInputs, names_come_from_a_file_or_from_standard_input) {
   EXPECT_TRUE(holds(place.run(run + "list --rows list").err, "--rows list: expected another file than --files-from"));
 }
 
-TEST(CommandInputs, a_message_is_not_cut_within_a_character) {
+TEST_F(CommandInputs, a_message_is_not_cut_within_a_character) {
   for (std::size_t before = 0; before < 4; ++before) {
     std::string text(before, 'a');
     for (int i = 0; i < 400; ++i) text += "é";
@@ -96,8 +96,7 @@ TEST(CommandInputs, a_message_is_not_cut_within_a_character) {
 constexpr const char* until_it_speaks =
     R"(sh -c '"$@" & i=0; while [ $i -lt 600 ] && ! [ -s /dev/fd/2 ]; do sleep 0.1; i=$((i+1)); done; kill $!' sh)";
 
-TEST(CommandInputs, long_work_says_how_long_it_takes_before_it_has_taken_long) {
-  const Workplace place;
+TEST_F(CommandInputs, long_work_says_how_long_it_takes_before_it_has_taken_long) {
   const std::string run = "compare article_bullet --steps 1000000000 --no-timing --contender octagon_sweep";
   EXPECT_TRUE(holds(place.run(run, until_it_speaks).err, " for 1000000000 steps, as the first "));
   EXPECT_EQ(place.run(run + " --quiet", "timeout 3").err, "");
@@ -114,8 +113,7 @@ void trace(const Workplace& place, const std::string& scene_and_options) {
   ASSERT_EQ(place.run("compare " + scene_and_options + options).status, 0);
 }
 
-TEST(CommandJudge, takes_the_settings_of_the_scene) {
-  const Workplace place;
+TEST_F(CommandJudge, takes_the_settings_of_the_scene) {
   const std::string judge = "judge t.closing_lift.octagon_sweep.double.jsonl --scene closing_lift";
   trace(place, "closing_lift --set clearance=-0.1");
   EXPECT_EQ(place.run(judge + " --set clearance=-0.1").status, 0);
@@ -125,8 +123,7 @@ TEST(CommandJudge, takes_the_settings_of_the_scene) {
                     "--set requires --scene"));
 }
 
-TEST(CommandJudge, asks_for_every_step_of_the_run) {
-  const Workplace place;
+TEST_F(CommandJudge, asks_for_every_step_of_the_run) {
   trace(place, "article_bullet");
   const std::string name = "t.article_bullet.octagon_sweep.double.jsonl";
   const std::string whole = content(place.path(name));
@@ -145,20 +142,15 @@ TEST(CommandJudge, asks_for_every_step_of_the_run) {
   EXPECT_EQ(place.run("judge unsaid.jsonl").status, 0) << "nobody says how long the run was";
 }
 
-TEST(CommandJudge, takes_the_number_of_steps_that_ran) {
-  const Workplace place;
+TEST_F(CommandJudge, takes_the_number_of_steps_that_ran) {
   trace(place, "article_bullet --steps 20");
   const std::string judge = "judge t.article_bullet.octagon_sweep.double.jsonl";
-  EXPECT_EQ(place.run(judge).status, 0);
-  EXPECT_EQ(place.run(judge + " --scene article_bullet --steps 20").status, 0);
-  const Finished other = place.run(judge + " --scene article_bullet");
-  EXPECT_EQ(other.status, 0);
-  EXPECT_TRUE(holds(other.out, "\n  the scene has 60 steps\n")) << other.out;
+  runs(judge + " --scene article_bullet --steps 20");
+  EXPECT_TRUE(holds(runs(judge + " --scene article_bullet").out, "\n  the scene has 60 steps\n"));
   EXPECT_EQ(place.run(judge + " --scene article_bullet --steps 60").status, 1) << "who asks for 60 gets 20";
 }
 
-TEST(CommandJudge, accuses_no_run_that_a_refusal_ended) {
-  const Workplace place;
+TEST_F(CommandJudge, accuses_no_run_that_a_refusal_ended) {
   place.write("far.json", R"({"paperproof_scene": 1, "name": "far", "gravity": [0, 0], "dt": 0.5, "steps": 60,
     "character": {"position": [0, 0], "velocity": [300000, 0]},
     "scenery": [{"id": "floor", "polygon": [[-4, -9], [4, -9], [4, -8], [-4, -8]]}]})");

@@ -6,11 +6,12 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
+using CommandOutputs = CommandTest;
+
+TEST_F(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
 #ifndef NDEBUG
   GTEST_SKIP() << "work-precision refuses a build with assertions";
 #endif
-  const Workplace place;
   const std::string quiet = " --quiet --contender mask,octagon_sweep";
   for (const std::string run : {"compare article_bullet --no-timing --report m.html --rows m.json",
                                 "sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1 --rows s.jsonl",
@@ -30,8 +31,7 @@ TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
   EXPECT_EQ(place.run("compare article_bullet --quiet --svg /dev/null/x").status, 2);
 }
 
-TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupted) {
-  const Workplace place;
+TEST_F(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupted) {
   place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
   (void)place.run("compare article_bullet long.json --no-timing --quiet --contender octagon_sweep --rows rows.jsonl",
                   "timeout -s INT 4");
@@ -41,8 +41,7 @@ TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupte
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
 }
 
-TEST(CommandOutputs, a_signal_removes_what_is_not_whole) {
-  const Workplace place;
+TEST_F(CommandOutputs, a_signal_removes_what_is_not_whole) {
   place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
   // Signals the command as soon as both files are open, and waits for its end.
   place.write("then.sh", R"("$@" & p=$!
@@ -83,8 +82,7 @@ Finished run_into(const Workplace& place, const std::string& arguments, const st
   return finished;
 }
 
-TEST(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every_subcommand) {
-  const Workplace place;
+TEST_F(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every_subcommand) {
   ASSERT_EQ(place.run("compare article_bullet --contender octagon_sweep --no-timing --quiet --trace t").status, 0);
   for (const std::string arguments :
        {"compare article_bullet --no-timing", "compare article_bullet --no-timing --json", "list scenes",
@@ -99,8 +97,7 @@ TEST(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every
       << "nothing is printed";
 }
 
-TEST(CommandOutputs, files_on_a_full_disk_are_an_error) {
-  const Workplace place;
+TEST_F(CommandOutputs, files_on_a_full_disk_are_an_error) {
   for (const char* name : {"rows.jsonl", "rows.csv"}) std::filesystem::create_symlink("/dev/full", place.path(name));
   const std::string compare = "compare article_bullet --no-timing --quiet ";
   for (const std::string& run :
@@ -112,8 +109,7 @@ TEST(CommandOutputs, files_on_a_full_disk_are_an_error) {
   }
 }
 
-TEST(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_behind) {
-  const Workplace place;
+TEST_F(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_behind) {
   for (const std::string arguments : {"list scenes", "check technique_gallery",
                                       "compare article_bullet --no-timing --rows rows.json --report r.html"}) {
     // The reader is gone before the command begins.
@@ -124,8 +120,7 @@ TEST(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_b
   }
 }
 
-TEST(CommandOutputs, a_closed_standard_output_is_not_what_a_file_is_opened_as) {
-  const Workplace place;
+TEST_F(CommandOutputs, a_closed_standard_output_is_not_what_a_file_is_opened_as) {
   const Finished finished = run_into(place, "compare article_bullet --no-timing --quiet --rows rows.json", ">&-");
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_EQ(nlohmann::json::parse(place.files().at("rows.json")).at("paperproof_rows"), 1);

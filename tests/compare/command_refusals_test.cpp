@@ -22,7 +22,7 @@ std::string rows_with(std::string_view from, std::string_view to) {
   return header_line + with(good_row, from, to) + good_row;
 }
 
-class CommandRefuses : public testing::Test {
+class CommandRefuses : public CommandTest {
  protected:
   /// @param says what the line has to say, where that is known.
   void refused(const std::string& arguments, const std::string& says = "") {
@@ -42,8 +42,6 @@ class CommandRefuses : public testing::Test {
       EXPECT_EQ(finished.err.find(foreign), std::string::npos) << what;
     EXPECT_EQ(files(), before) << "a file was touched by\n" << what;
   }
-
-  const Workplace place;
 
  private:
   /// Names, sizes and times: some are larger than memory.

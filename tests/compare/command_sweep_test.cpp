@@ -12,17 +12,9 @@ const std::string sweep =
 
 std::string rows_in(const std::string& text) { return text.substr(text.find('\n') + 1); }
 
-class CommandSweep : public testing::Test {
+class CommandSweep : public CommandTest {
  protected:
-  Finished runs(const std::string& arguments) {
-    const Finished finished = place.run(arguments);
-    EXPECT_EQ(finished.status, 0) << arguments << "\n" << finished.err;
-    return finished;
-  }
-  std::string written(const std::string& name) { return content(place.path(name)); }
   std::vector<nlohmann::json> rows_of(const std::string& name) { return json_lines(rows_in(written(name))); }
-
-  const Workplace place;
 };
 using CommandStudy = CommandSweep;
 

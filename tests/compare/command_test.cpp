@@ -6,8 +6,10 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(Command, counts_runs_in_double_and_in_float_apart) {
-  const Workplace place;
+using Command = CommandTest;
+using CommandConvert = CommandTest;
+
+TEST_F(Command, counts_runs_in_double_and_in_float_apart) {
   for (const auto& [scene, scalar, says] :
        {std::tuple{"article_bullet", "double", "octagon_sweep in double: 60 steps in 1 run, 0 runs with a violation"},
         {"article_bullet", "float",
@@ -21,10 +23,8 @@ TEST(Command, counts_runs_in_double_and_in_float_apart) {
   }
 }
 
-TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a_step_costs) {
-  const Workplace place;
-  const Finished finished = place.run("compare article_bullet thin_platform flush_tiles");
-  EXPECT_EQ(finished.status, 0) << finished.err;
+TEST_F(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a_step_costs) {
+  const Finished finished = runs("compare article_bullet thin_platform flush_tiles");
   EXPECT_EQ(finished.err, "") << "no progress where nobody watches";
   EXPECT_TRUE(place.files().empty());
   std::vector<std::string> screen(25);
@@ -50,8 +50,7 @@ TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a
   }
 }
 
-TEST(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
-  const Workplace place;
+TEST_F(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
   const std::string scenes = "compare article_bullet thin_platform --no-timing";
   const std::string one = place.run(scenes).out;
   EXPECT_TRUE(holds(one, "2 scenes\n"));
@@ -63,8 +62,7 @@ TEST(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
   EXPECT_TRUE(holds(all, "2 scenes\n"));
 }
 
-TEST(Command, gives_rows_alone_when_asked_for_json_of_each_contender_and_scalar) {
-  const Workplace place;
+TEST_F(Command, gives_rows_alone_when_asked_for_json_of_each_contender_and_scalar) {
   const Finished finished = place.run(
       "compare article_bullet --no-timing --json --contender speculative_march,mask "
       "--scalar double,float --knob unit=0.5");
@@ -78,44 +76,37 @@ TEST(Command, gives_rows_alone_when_asked_for_json_of_each_contender_and_scalar)
   EXPECT_FALSE(rows[2].contains("knob"));
 }
 
-TEST(Command, check_says_who_will_run_and_why_the_others_do_not) {
-  const Workplace place;
+TEST_F(Command, check_says_who_will_run_and_why_the_others_do_not) {
   // The same as `compare` finds, for each contender.
   const std::string turning =
       R"(], "movers": [ { "id": "arm", "polygon": [[6,0],[8,0],[8,1],[6,1]], "path": [ { "t": 0, "at": [0,0] } ], "angle": [ { "t": 0, "at": 0 }, { "t": 1, "at": 1 } ] } ],
          "characters": [ { "position": [2, 3] } ] })";
   place.write("company.json", with(good_scene, "]\n}", turning));
-  const Finished checked = place.run("check company.json");
-  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Finished checked = runs("check company.json");
   EXPECT_TRUE(holds(checked.out, "contenders run; octagon_sweep does not, so that status 0 guarantees nothing\n"));
-  const Finished compared = place.run("compare company.json --no-timing --json");
-  EXPECT_EQ(compared.status, 0) << compared.err;
   std::size_t running = 0;
-  const nlohmann::json rows = nlohmann::json::parse(compared.out);
+  const nlohmann::json rows = nlohmann::json::parse(runs("compare company.json --no-timing --json").out);
   for (const nlohmann::json& row : rows.at("rows")) {
-    const bool runs = row.at("verdict") != "not_applicable";
-    running += runs;
+    const bool can_run = row.at("verdict") != "not_applicable";
+    running += can_run;
     const std::string no = "  not " + row.at("contender").get<std::string>() + ": " + row.value("reason", "") + "\n";
-    EXPECT_TRUE(runs || holds(checked.out, no)) << no;
+    EXPECT_TRUE(can_run || holds(checked.out, no)) << no;
   }
   EXPECT_TRUE(holds(checked.out, "  compare    " + std::to_string(running) + " of 13 contenders run"));
 }
 
-TEST(Command, says_what_a_scene_does_not_need) {
-  const Workplace place;
-  const Finished plan = place.run("plan article_bullet");
-  EXPECT_EQ(plan.status, 0) << plan.err;
-  EXPECT_TRUE(begins(plan.out, "article_bullet\n  broad phase  all_pairs: 1 piece"));
-  EXPECT_TRUE(holds(plan.out, "without      jump: "));
+TEST_F(Command, says_what_a_scene_does_not_need) {
+  const std::string plan = runs("plan article_bullet").out;
+  EXPECT_TRUE(begins(plan, "article_bullet\n  broad phase  all_pairs: 1 piece"));
+  EXPECT_TRUE(holds(plan, "without      jump: "));
   EXPECT_FALSE(holds(place.run("plan article_bullet --input random:1").out, "without      jump: "));
 }
 
-TEST(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {
-  const Workplace place;
+TEST_F(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {
   for (const char* scene : {"article_bullet", "plank_on_springs"}) {
-    EXPECT_EQ(place.run(std::string("convert ") + scene + " once.json").status, 0) << scene;
-    EXPECT_EQ(place.run("convert once.json twice.json").status, 0) << scene;
-    EXPECT_EQ(content(place.path("once.json")), content(place.path("twice.json"))) << scene;
+    runs(std::string("convert ") + scene + " once.json");
+    runs("convert once.json twice.json");
+    EXPECT_EQ(written("once.json"), written("twice.json")) << scene;
   }
 }
 

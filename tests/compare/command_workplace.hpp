@@ -50,10 +50,12 @@ class Workplace : public SceneFiles {
   Workplace() {}  // without it clang refuses `const Workplace place;`
   /// @param arguments as typed in a shell. @param before what stands before the command there.
   [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
-    const std::string out = path("") + "../" + unique() + ".out";
-    const std::string err = path("") + "../" + unique() + ".err";
-    const std::string line = "cd '" + path("") + "' && " + before + " '" PAPERPROOF_COMMAND "' </dev/null " +
-                             arguments + " >'" + out + "' 2>'" + err + "'";
+    std::string folder = path("");
+    folder.pop_back();  // the slash: what is said is no file of the folder
+    const std::string out = folder + ".out";
+    const std::string err = folder + ".err";
+    const std::string line = "cd '" + folder + "' && " + before + " '" PAPERPROOF_COMMAND "' </dev/null " + arguments +
+                             " >'" + out + "' 2>'" + err + "'";
     const int raw = std::system(line.c_str());
     Finished finished{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(out), content(err)};
     std::filesystem::remove(out);
@@ -67,12 +69,20 @@ class Workplace : public SceneFiles {
       if (entry.is_regular_file()) all[entry.path().filename()] = content(entry.path());
     return all;
   }
+};
 
- private:
-  static std::string unique() {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    return std::string("paperproof_") + test->test_suite_name() + "_" + test->name();
+/// A test with such a folder.
+class CommandTest : public testing::Test {
+ protected:
+  /// Ends with status 0.
+  Finished runs(const std::string& arguments) const {
+    Finished finished = place.run(arguments);
+    EXPECT_EQ(finished.status, 0) << arguments << "\n" << finished.err;
+    return finished;
   }
+  [[nodiscard]] std::string written(const std::string& name) const { return content(place.path(name)); }
+
+  const Workplace place;
 };
 
 /// A scene that runs; the bad ones differ from it in one place.

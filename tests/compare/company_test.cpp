@@ -10,7 +10,6 @@ namespace {
 using Way = std::vector<PathPoint<double>>;
 
 constexpr double width = 2 * half_width;
-constexpr double gap = 5e-7;
 const ExactPair& pair() {
   static const ExactPair octagons(octagon());
   return octagons;
@@ -45,10 +44,9 @@ TEST(ExactPair, ways_that_cross_meet_only_at_the_same_time) {
 }
 
 TEST(ExactPair, the_first_impact_is_distance_over_both_speeds) {
-  const auto impact = pair().first_impact({0, 0}, {0.5, 0}, {width + 0.25, 0}, {-0.25, 0});
-  ASSERT_TRUE(impact);
-  EXPECT_EQ(impact->fraction, Rational(1, 3));
-  EXPECT_EQ(impact->normal, Vec2d(-1, 0)) << "from the other towards the one";
+  const auto impact = pair().first_impact({0, 0}, {0.5, 0}, {width + 0.25, 0}, {-0.25, 0}).value();
+  EXPECT_EQ(impact.fraction, Rational(1, 3));
+  EXPECT_EQ(impact.normal, Vec2d(-1, 0)) << "from the other towards the one";
   EXPECT_FALSE(pair().first_impact({0, 0}, {0.125, 0}, {width + 0.25, 0}, {-0.125, 0})) << "they come to touch";
   EXPECT_FALSE(pair().first_impact({0, 0}, {1, 0}, {0.5, 0}, {0, 0})) << "they overlap already";
 }
@@ -184,8 +182,8 @@ TEST(CompanyJudge, beside_another_what_scenery_was_met_is_not_told_from_what_was
   }
 }
 
-TraceHeader company_of(std::size_t characters, std::vector<ColliderDef> solids = {}) {
-  TraceHeader made = promising(std::move(solids));
+TraceHeader company_of(std::size_t characters, const std::vector<ColliderDef>& solids = {}) {
+  TraceHeader made = promising(solids);
   made.characters = characters;
   return made;
 }

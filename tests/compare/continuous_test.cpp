@@ -1,7 +1,9 @@
+#include "campaign/random.hpp"
+#include "campaign/shapes.hpp"
 #include "continuous/course.hpp"
 #include "continuous/roots.hpp"
 #include "scenes/scene.hpp"
-#include "support/random_runs.hpp"
+#include "support/refusal.hpp"
 
 #include <paperproof/controller.hpp>
 #include <paperproof/techniques.hpp>
@@ -17,10 +19,7 @@
 namespace paperproof::compare::continuous {
 namespace {
 
-void add_solid(Scene& scene, std::vector<Vec2d> points) {
-  scene.ids.push_back("solid_" + std::to_string(scene.ids.size()));
-  scene.scenery.colliders.push_back({.points = std::move(points)});
-}
+void add(Scene& scene, const ColliderDef& solid) { scene.scenery.colliders.push_back(solid); }
 
 /// The scene with steps that are 2^halvings times shorter; its events stay at their times.
 Scene refined(Scene scene, int halvings) {
@@ -52,10 +51,10 @@ double error_of(const Scene& scene, const Course<Number<50>>& course) {
 }
 
 /// Ground of slopes of any steepness and of kerbs, from one wall to another; each part is a solid of its own.
-void add_random_ground(Scene& scene, test::Random& random) {
+void add_random_ground(Scene& scene, Random& random) {
   double x = -12;
   double y = 0;
-  add_solid(scene, {{-14, -20}, {-12, -20}, {-12, 20}, {-14, 20}});
+  add(scene, polygon({{-14, -20}, {-12, -20}, {-12, 20}, {-14, 20}}));
   while (x < 12) {
     const double width = random.between(0.5, 3);
     const bool steep = random.chance(0.3);
@@ -64,33 +63,31 @@ void add_random_ground(Scene& scene, test::Random& random) {
     const double sign = up ? 1 : -1;
     const double share = steep ? 0.4 : 1;
     const double next = random.chance(0.3) ? y : y + sign * share * width * std::tan(degrees * std::numbers::pi / 180);
-    add_solid(scene, {{x, -20}, {x + share * width, -20}, {x + share * width, next}, {x, y}});
+    add(scene, polygon({{x, -20}, {x + share * width, -20}, {x + share * width, next}, {x, y}}));
     x += share * width;
     y = next;
     if (random.chance(0.15)) y += random.between(-1, 0.5);
   }
-  add_solid(scene, {{x, -20}, {x + 2, -20}, {x + 2, 20}, {x, 20}});
+  add(scene, polygon({{x, -20}, {x + 2, -20}, {x + 2, 20}, {x, 20}}));
 }
 
 /// Convex solids that hang over the ground: their lower sides are ceilings.
-void add_random_blocks(Scene& scene, test::Random& random) {
+void add_random_blocks(Scene& scene, Random& random) {
   for (int count = random.integer(0, 5); count > 0; --count) {
     const Vec2d middle{random.between(-10, 10), random.between(2, 6)};
     const double radius = random.between(0.3, 1.2);
     const double turn = random.angle();
     std::vector<Vec2d> points;
     const int corners = random.integer(3, 6);
-    for (int k = 0; k < corners; ++k) {
-      const double angle = turn + 2 * std::numbers::pi * k / corners;
-      points.push_back(middle + radius * Vec2d(std::cos(angle), std::sin(angle)));
-    }
-    add_solid(scene, points);
+    for (int k = 0; k < corners; ++k)
+      points.emplace_back(middle + radius * towards(turn + 2 * std::numbers::pi * k / corners));
+    add(scene, polygon(points));
   }
 }
 
 /// Falls from above the ground, and walks, stands and jumps at random for three seconds. Steps are 1/32 s.
 Scene random_scene(std::uint64_t seed) {
-  test::Random random(seed);
+  Random random(seed);
   Scene scene;
   scene.name = "random_" + std::to_string(seed);
   scene.gravity = {0, -random.between(8, 30)};
@@ -121,10 +118,6 @@ Scene empty_scene(double gravity) {
   scene.dt = 1.0 / 64;
   scene.steps = 128;
   return scene;
-}
-
-void add_box(Scene& scene, double left, double bottom, double right, double top) {
-  add_solid(scene, {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
 }
 
 Course<Real> run(const Scene& scene, Law law = Law::octagon_sweep) { return course_of<Real>(scene, scene.input, law); }
@@ -158,7 +151,7 @@ Scene on_slope(double rise, double gravity) {
   scene.start.position = {-foot, 0.625};  // the foot at (0, 0)
   scene.steps = 64;
   const Vec2d below = rise < 0 ? Vec2d(-16, 16 * rise) : Vec2d(16, -16 * rise);
-  add_solid(scene, {{-16, -16 * rise}, below, {16, 16 * rise}});
+  add(scene, polygon({{-16, -16 * rise}, below, {16, 16 * rise}}));
   return scene;
 }
 
@@ -194,7 +187,7 @@ TEST(Course, rides_a_lift_however_suddenly_it_turns) {
   scene.character.walk_speed = 1;
   scene.character.acceleration = 4;
   scene.input = {InputEvent{.step = 64, .move = 1, .jump = {}}};
-  add_box(scene, -4, -1, 4, 0);
+  add(scene, box(-4, -1, 4, 0));
   scene.scenery.colliders.back().mover = 0;
   scene.movers.push_back({.id = "lift",
                           .path = {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {0.5, 1.5}}},
@@ -207,8 +200,8 @@ TEST(Course, rides_a_lift_however_suddenly_it_turns) {
 TEST(Course, ends_between_two_steep_slopes) {
   Scene scene = empty_scene(10);
   scene.start.position = {0.5, 6};
-  add_solid(scene, {{-8, 16}, {-8, -1}, {0, -1}, {0, 0}});
-  add_solid(scene, {{8, 16}, {0, 0}, {0, -1}, {8, -1}});
+  add(scene, polygon({{-8, 16}, {-8, -1}, {0, -1}, {0, 0}}));
+  add(scene, polygon({{8, 16}, {0, 0}, {0, -1}, {8, -1}}));
   scene.steps = 192;
   const Course<Real> course = run(scene);
   // Slopes of 2: the arms at (±10, 10) px are on them, at height 20 / 32 of the wedge.
@@ -242,7 +235,7 @@ TEST(Course, keeps_its_energy_on_every_arc_and_loses_some_at_impacts) {
 }
 
 void add_moving_wall(Scene& scene, double way) {
-  add_box(scene, 1, 0, 2, 3);
+  add(scene, box(1, 0, 2, 3));
   scene.scenery.colliders.back().mover = 0;
   scene.movers.push_back({.id = "wall", .path = {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {way, 0}}}, .loop = {}});
 }
@@ -257,15 +250,10 @@ TEST(Course, refuses_in_words_where_it_has_no_law) {
            {[](Scene& scene) { add_moving_wall(scene, 9); }, "nothing"},
            {[](Scene& scene) { add_moving_wall(scene, -9); }, "mover"}}) {
     Scene scene = empty_scene(10);
-    add_box(scene, -4, -1, 4, 0);
+    add(scene, box(-4, -1, 4, 0));
     scene.start.position = {0, 1};
     change(scene);
-    std::string refusal = "nothing";
-    try {
-      (void)run(scene);
-    } catch (const NotCovered& reason) {
-      refusal = reason.what();
-    }
+    const std::string refusal = paperproof::test::refusal_by<NotCovered>([&] { (void)run(scene); }, "nothing");
     EXPECT_THAT(refusal, testing::HasSubstr(says));
   }
 }

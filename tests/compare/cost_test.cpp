@@ -7,7 +7,7 @@ namespace paperproof::compare {
 namespace {
 
 /// Writes down what is done with it.
-class Scribe final : public Contestant {
+class Scribe final : public Contender {
  public:
   Scribe(char name, bool engine, std::string& log) : name_(name), engine_(engine), log_(log) {}
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
@@ -55,7 +55,7 @@ TEST(Cost, box2d_alone_goes_the_way_of_the_run) {
   for (const char* name : {"lift_up", "one_way_from_above", "flush_tiles"}) {
     const Scene scene = built_in(name);
     const Scenery<double> scenery(scene.scenery);
-    const auto twin = make_contestant("box2d", ScalarKind::binary64, scene, scenery);
+    const auto twin = make_contender("box2d", ScalarKind::binary64, scene, scenery);
     const Script script = script_of(scene);
     InputCursor cursor(scene, script);
     std::vector<Vec2d> way;

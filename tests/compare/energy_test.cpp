@@ -214,32 +214,29 @@ TraceStep walking(double from, double to, double height) {
   step.path = {{{from, height}, 0}, {{to, height}, 1}};
   step.requested = {0.1, -0.01};
   step.grounded = true;
-  Contact<double> floor;
-  floor.normal = {0, 1};
-  step.contacts = {floor};
+  step.contacts.emplace_back().normal = {0, 1};
   return step;
 }
 
 TEST(SeamHop, is_the_largest_jump_of_speed_and_height_between_two_steps_on_level_ground) {
-  SceneryDef scenery;
-  scenery.colliders.push_back({.points = {{0, -1}, {9, -1}, {9, 0}, {0, 0}}});
-  Smoothness even(scenery);
-  for (int k = 0; k < 20; ++k) even.add(walking(0.125 * k, 0.125 * (k + 1), 0.625), 1.0 / 60);
-  Row row;
-  even.write(row);
-  EXPECT_EQ(row.seam_hop_share, 0);
-  EXPECT_EQ(row.seam_hop_m, 0);
-  Smoothness snags(scenery);
-  snags.add(walking(0, 0.1, 0.625), 1.0 / 60);
-  snags.add(walking(0.1, 0.15, 0.635), 1.0 / 60);
+  const auto hops_of = [](const std::vector<TraceStep>& steps) {
+    SceneryDef scenery;
+    scenery.colliders.push_back({.points = {{0, -1}, {9, -1}, {9, 0}, {0, 0}}});
+    Smoothness smoothness(scenery);
+    for (const TraceStep& step : steps) smoothness.add(step, 1.0 / 60);
+    Row row;
+    smoothness.write(row);
+    return row;
+  };
+  std::vector<TraceStep> even;
+  for (int k = 0; k < 20; ++k) even.push_back(walking(0.125 * k, 0.125 * (k + 1), 0.625));
+  EXPECT_EQ(hops_of(even).seam_hop_share, 0);
+  EXPECT_EQ(hops_of(even).seam_hop_m, 0);
   TraceStep airborne = walking(0.15, 9, 3);
   airborne.grounded = false;
-  snags.add(airborne, 1.0 / 60);
-  snags.add(walking(9, 9.1, 0.625), 1.0 / 60);
-  Row second;
-  snags.write(second);
-  EXPECT_NEAR(second.seam_hop_share.value(), 0.5, 1e-9);
-  EXPECT_NEAR(second.seam_hop_m.value(), 0.01, 1e-9);
+  const Row snags = hops_of({walking(0, 0.1, 0.625), walking(0.1, 0.15, 0.635), airborne, walking(9, 9.1, 0.625)});
+  EXPECT_NEAR(snags.seam_hop_share.value(), 0.5, 1e-9);
+  EXPECT_NEAR(snags.seam_hop_m.value(), 0.01, 1e-9);
 }
 
 }  // namespace

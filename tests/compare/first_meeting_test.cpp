@@ -237,8 +237,7 @@ TEST(SecondMeeting, agrees_with_the_first) {
       EXPECT_LE(one.low, other.high + near);
       EXPECT_NEAR(one.high, other.high, near);
     }
-    EXPECT_GE(met, rounds * 3 / 10) << name;
-    EXPECT_LE(met, rounds * 7 / 10) << name;
+    EXPECT_NEAR(met, 0.5 * rounds, 0.2 * rounds) << name;
     EXPECT_LE(undecided, name == std::string("at random") ? 0 : rounds / 100) << name;
   }
 }

@@ -2,17 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 /// Which contacts the judge demands, which it confirms, and which it does not: cases that random runs came to.
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
-
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
-
-constexpr double gap = 5e-7;  ///< Where a motion is stopped [m].
-constexpr double standing = half_height + gap;
 
 /// The normal of the octagon's lower left side, as an obstacle has it.
 Vec2d lower_left() { return Vec2d(2, 1) / std::sqrt(5.0); }
@@ -179,4 +171,4 @@ TEST(JudgeOfContacts, a_wedge_with_the_tip_of_a_ledge_holds_who_has_waited_in_it
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

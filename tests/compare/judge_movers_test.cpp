@@ -2,15 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
 
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
-
-constexpr double gap = 5e-7;  ///< Kept at a contact [m].
 const Vec2d here(0, 0);
 
 /// From one place to another, straight.
@@ -166,4 +160,4 @@ TEST(JudgeMovers, a_contact_into_which_a_face_leads_that_ends_the_motion_is_righ
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

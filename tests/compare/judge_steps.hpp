@@ -7,22 +7,28 @@
 namespace paperproof::compare::test {
 
 inline constexpr double dt = 1.0 / 64;
+inline constexpr double gap = 5e-7;  ///< Where a motion is stopped [m].
+inline constexpr double standing = half_height + gap;
 
 using Touches = std::vector<std::pair<ColliderIndex, Side>>;
 
-inline TraceHeader header(std::vector<ColliderDef> colliders, bool path_exact = true) {
+inline void add(TraceHeader& header, const ColliderDef& solid) {
+  header.ids.push_back(std::to_string(header.ids.size()));
+  header.scenery.colliders.push_back(solid);
+}
+
+inline TraceHeader header(const std::vector<ColliderDef>& colliders, bool path_exact = true) {
   TraceHeader header;
   header.dt = dt;
   header.points = octagon();
-  for (std::size_t i = 0; i < colliders.size(); ++i) header.ids.push_back(std::to_string(i));
-  header.scenery.colliders = std::move(colliders);
+  for (const ColliderDef& collider : colliders) add(header, collider);
   header.path_exact = path_exact;
   return header;
 }
 
 /// Of who is excused nothing.
-inline TraceHeader promising(std::vector<ColliderDef> colliders) {
-  TraceHeader promising = header(std::move(colliders));
+inline TraceHeader promising(const std::vector<ColliderDef>& colliders) {
+  TraceHeader promising = header(colliders);
   promising.contender = "octagon_sweep";
   promising.scalar = "double";
   return promising;

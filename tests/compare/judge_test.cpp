@@ -2,15 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
 
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
-
-constexpr double gap = 5e-7;  // where a motion is stopped [m]
-constexpr double standing = half_height + gap;
 constexpr double fall = 1.0 / 128;  // in a step [m]
 
 ColliderDef floor_at(double height) { return box(-4, height - 1, 4, height); }
@@ -326,4 +320,4 @@ TEST(Judge, one_collider_deflects_the_motion_into_another_side_of_itself) {
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

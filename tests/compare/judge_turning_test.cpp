@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
-
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
 /// An arm about (0, 0) whose tip is at x = 1. The feet are 0.8 m up.
 TraceHeader with_arm(bool promises) {
@@ -107,10 +105,8 @@ TEST(TurningArm, that_is_said_to_crush_is_excused_only_where_there_is_no_room) {
   TraceHeader shaft = with_arm(true);
   const double e = 0x1p-25;
   for (const ColliderDef& solid :
-       {box(0, 0.8 + 1.25 + e, 2, 3), box(-1, 0.9, 1 - half_width - e, 3), box(1 + half_width + e, 0, 3, 3)}) {
-    shaft.ids.push_back(std::to_string(shaft.ids.size()));
-    shaft.scenery.colliders.push_back(solid);
-  }
+       {box(0, 0.8 + 1.25 + e, 2, 3), box(-1, 0.9, 1 - half_width - e, 3), box(1 + half_width + e, 0, 3, 3)})
+    add(shaft, solid);
   EXPECT_EQ(told(judged(shaft, pressed)), "inside 0, pressed 0, crushed 0");
   EXPECT_EQ(judged(shaft, pressed).max_penetration, 0);
   pressed.crushed.clear();
@@ -169,4 +165,4 @@ TEST(TurningFrame, with_a_concave_outline_and_a_hole_is_judged_by_its_parts) {
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

@@ -4,12 +4,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
 
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
-
-constexpr double gap = 5e-7;      // that a step leaves
 constexpr double hardly = 1e-5;   // [m]
 constexpr double walk = 0.09375;  // in one step [m]
 
@@ -59,7 +56,7 @@ struct OffALedge {
     std::vector<ColliderDef> colliders{box(-9, -1, 0, 0), box(0, -9, 9, level - goes)};
     colliders[1].mover = 0;
     colliders.insert(colliders.end(), more.begin(), more.end());
-    TraceHeader all = promising(std::move(colliders));
+    TraceHeader all = promising(colliders);
     all.character.snap = snap;
     all.character.max_fall_speed = falls;
     TraceStep off = step({{0.2, half_height + gap}, {0.2 + walk, half_height + gap - 1e-3}});
@@ -114,7 +111,7 @@ struct AtAKerb {
   [[nodiscard]] bool is_missed() const {
     std::vector<ColliderDef> colliders{box(-9, -1, 9, 0), box(1, -1, 1 + deep, height)};
     colliders.insert(colliders.end(), more.begin(), more.end());
-    TraceHeader all = promising(std::move(colliders));
+    TraceHeader all = promising(colliders);
     all.character.step_height = step_height;
     // The corner touches the slanted side at its height: 2 up for 1 aside, from the foot, which is half as wide, on.
     const double touched = std::min(half_width, half_width / 2 + height / 2);
@@ -168,4 +165,4 @@ TEST(KerbThatIsMissed, stops_a_walk) {
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

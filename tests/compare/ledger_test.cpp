@@ -1,42 +1,27 @@
 /// The ledger of disagreement on made-up traces: each cause, and a neighbour that is just outside of it.
 #include "metrics/ledger.hpp"
-#include "campaign/shapes.hpp"
+#include "compare/judge_steps.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <string>
-
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
 
-constexpr double dt = 1.0 / 64;
-constexpr double feet = 0.625;
-
 TraceHeader header(bool box2d) {
-  TraceHeader made;
+  // Two tiles beside each other, a wall, a slope of 45 degrees, and a floor far down the line.
+  TraceHeader made = test::header({box(-4, -1, 0, 0), box(0, -1, 4, 0), box(3, 0, 4, 8),
+                                   polygon({{10, 0}, {18, 0}, {18, 8}}), box(-200, -1, -100, 0)},
+                                  !box2d);
   made.contender = box2d ? "box2d" : "octagon_sweep";
   made.scalar = box2d ? "float" : "double";
-  made.dt = dt;
-  made.path_exact = !box2d;
-  made.character.max_climb_degrees = 50;
-  made.points = {{-0.15625, -0.625}, {0.15625, -0.625}, {0.3125, -0.3125}, {0.3125, 0.3125},
-                 {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
-  // Two tiles beside each other, a wall, a slope of 45 degrees, and a floor far down the line.
-  made.scenery.colliders = {box(-4, -1, 0, 0), box(0, -1, 4, 0), box(3, 0, 4, 8), polygon({{10, 0}, {18, 0}, {18, 8}}),
-                            box(-200, -1, -100, 0)};
-  made.ids = {"tile", "next", "wall", "slope", "far"};
   made.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
   return made;
 }
 
 /// A step by `way` of which `made` is made.
 TraceStep step(const Vec2d& from, const Vec2d& way, const Vec2d& made, std::vector<Contact<double>> contacts = {}) {
-  TraceStep one;
-  one.path = {{from, 0}, {from + made, 1}};
-  one.requested = way;
+  TraceStep one = test::step({from, from + made}, way, std::move(contacts));
   one.velocity = made / dt;
-  one.contacts = std::move(contacts);
   return one;
 }
 
@@ -93,7 +78,7 @@ const Contact<double> ground = floor_below(-2);
 const Contact<double> landing = floor_below(-2, 1);
 
 /// So far above the first tile.
-Vec2d above(double height) { return {-2, feet + height}; }
+Vec2d above(double height) { return {-2, half_height + height}; }
 TraceStep falls(double height, std::vector<Contact<double>> contacts = {}) {
   return step(above(height), down, down, std::move(contacts));
 }
@@ -135,7 +120,7 @@ TraceStep on_slope(double share) {
 }
 TraceStep under_another(TraceStep one) { return met(std::move(one), {0, -1}, 1, Side::top); }
 
-const Vec2d over_seam(-0.15625, feet + 0.015);
+const Vec2d over_seam(-0.15625, half_height + 0.015);
 const Vec2d skin_from_wall(3 - 0.3125 - 0.015, 4);
 /// At 131,072 m a float has steps of 1/64 m.
 TraceStep far_out(double made) { return step({131072, 2}, {0.25, 0}, {made, 0}); }
@@ -221,8 +206,9 @@ TEST(Ledger, counts_apart_what_both_are_right_about_once_they_are_apart) {
   Ledgers ledgers(false);
   const Vec2d way(0.2, 0);
   ledgers.add(step(over_seam, {2.75, 0}, {2.75, 0}), step(over_seam, {2.75, 0}, still, {touch(1, {-1, 0}, {0, 0})}));
-  ledgers.add(stopped(step(over_seam + Vec2d(2.75, 0), way, {0.0937495, 0}, {touch(2, {-1, 0}, {3, feet}, 0.46875)})),
-              step(over_seam, way, way));
+  ledgers.add(
+      stopped(step(over_seam + Vec2d(2.75, 0), way, {0.0937495, 0}, {touch(2, {-1, 0}, {3, half_height}, 0.46875)})),
+      step(over_seam, way, way));
   const Ledger& ledger = ledgers.finished();
   EXPECT_EQ(found_in(ledger),
             "ghost_collision.contact ghost_collision.stop after_divergence.contact after_divergence.stop");
@@ -233,12 +219,12 @@ TEST(Ledger, counts_apart_what_both_are_right_about_once_they_are_apart) {
 
 TEST(Ledger, has_nothing_after_divergence_while_both_are_together) {
   Ledgers ledgers(false);
-  const Vec2d from(2.5875, feet + 0.015);
+  const Vec2d from(2.5875, half_height + 0.015);
   const Vec2d way(0.2, 0);
-  ledgers.add(stopped(step(from, way, {0.0999995, 0}, {touch(2, {-1, 0}, {3, feet}, 0.5)})),
+  ledgers.add(stopped(step(from, way, {0.0999995, 0}, {touch(2, {-1, 0}, {3, half_height}, 0.5)})),
               step(from, way, {0.05, 0}));
   EXPECT_EQ(found_in(ledgers.finished()).find("after_divergence"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

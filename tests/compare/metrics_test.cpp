@@ -40,12 +40,8 @@ std::vector<Moment> resting(int steps, const std::function<Vec2d(int)>& place) {
 const Contact<double> bottom = contact(0, Side::bottom);
 const ExactContact floor_below = exact(0, Side::bottom);
 
-TraceHeader promising_header() {
-  TraceHeader head = header();
-  head.contender = "octagon_sweep";
-  head.scalar = "double";
-  return head;
-}
+const TraceHeader promising = header("octagon_sweep");
+const TraceHeader of_two = header("mine", 2);
 
 TEST(Metrics, a_step_that_passes_two_is_one_tunnel_and_the_first_is_told) {
   std::vector<Moment> run = moments(10);
@@ -73,7 +69,7 @@ TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
   EXPECT_EQ(row_of(run).contact_recall, 1.0);
   EXPECT_EQ(row_of(run).exempted.at("stuck"), 4);
   run[5].judged.stuck_refuted = run[5].judged.ground_refuted = true;
-  const Row promises = row_of(run, promising_header());
+  const Row promises = row_of(run, promising);
   EXPECT_EQ(promises.stuck_refuted, 1);
   EXPECT_EQ(promises.ground_refuted, 1);
   EXPECT_EQ(promises.contact_recall, 2.0 / 3) << "three were right";
@@ -115,7 +111,7 @@ TEST(Metrics, an_overlap_by_rounding_is_counted_apart) {
   run[0].judged.rounded = {0};
   EXPECT_EQ(row_of(run).rounding, 1);
   EXPECT_EQ(row_of(run).steps_ending_inside, 1);
-  EXPECT_FALSE(row_of(run, promising_header()).rounding);
+  EXPECT_FALSE(row_of(run, promising).rounding);
 }
 
 /// Two characters, each step of each.
@@ -128,12 +124,6 @@ std::vector<Moment> two(int steps) {
   return run;
 }
 
-TraceHeader header_of_two() {
-  TraceHeader head = header();
-  head.characters = 2;
-  return head;
-}
-
 TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
   std::vector<Moment> run = two(2);
   run[2].step.contacts = {contact(0, Side::bottom, 0.75)};
@@ -142,14 +132,14 @@ TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
   run[3].judged.first_met = CharacterIndex{0};
   run[3].judged.first_impact = 0.5 + 0x1p-20;
   run[3].judged.first_impact_comparable = true;
-  const Row row = row_of(run, header_of_two());
+  const Row row = row_of(run, of_two);
   EXPECT_EQ(row.contact_steps, 2);
   EXPECT_EQ(row.first_contact_step, 1);
   EXPECT_EQ(row.first_contact_fraction, 0.5);
   EXPECT_EQ(row.toi_error_max, 0x1p-20);
   EXPECT_EQ(row.contact_precision, 1);
   run[3].judged.first_met = CharacterIndex{1};
-  EXPECT_FALSE(row_of(run, header_of_two()).toi_error_max) << "with somebody else";
+  EXPECT_FALSE(row_of(run, of_two).toi_error_max) << "with somebody else";
 }
 
 TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
@@ -163,7 +153,7 @@ TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
   }
   run[10].step.contacts = {bottom};
   run[11].judged.contacts = {floor_below};
-  const Row row = row_of(run, header_of_two());
+  const Row row = row_of(run, of_two);
   EXPECT_EQ(row.rest_peak_to_peak_m, 0x1p-6);
   EXPECT_EQ(row.contact_precision, 0) << "the other one's contact is no excuse";
   EXPECT_EQ(row.contact_recall, 0);
@@ -206,11 +196,11 @@ TEST(Metrics, contacts_within_the_skin_count_neither_way) {
   EXPECT_EQ(row.exempted.at("reach"), 1);
   run[1].judged.dont_care = {1};
   EXPECT_FALSE(row_of(run).contact_precision);
-  EXPECT_EQ(row_of(run, promising_header()).contact_precision, 0) << "who promises has no reach";
+  EXPECT_EQ(row_of(run, promising).contact_precision, 0) << "who promises has no reach";
   run[0].judged.contact_band = {0};
   run[1].judged.deflected = {{1, Side::left}};
-  EXPECT_EQ(row_of(run, promising_header()).contact_precision, 1) << "one in the band, and one that is right";
-  EXPECT_EQ(row_of(run, promising_header()).contact_band, 1);
+  EXPECT_EQ(row_of(run, promising).contact_precision, 1) << "one in the band, and one that is right";
+  EXPECT_EQ(row_of(run, promising).contact_band, 1);
   run[1].judged.deflected.clear();
   run[0].judged.ghosts = {{0, Side::bottom}};
   EXPECT_EQ(row_of(run).contact_precision, 0) << "a ghost is wrong within the skin too";

@@ -9,9 +9,11 @@
 
 namespace paperproof::compare {
 
-inline TraceHeader header() {
+inline TraceHeader header(const char* contender = "mine", std::size_t characters = 1) {
   TraceHeader header;
-  header.contender = "mine";
+  header.contender = contender;
+  header.scalar = "double";
+  header.characters = characters;
   header.dt = 0.5;
   header.ids = {"floor", "paper"};
   header.scenery.colliders.resize(2);

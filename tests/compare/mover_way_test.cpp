@@ -5,10 +5,8 @@
 
 #include <gtest/gtest.h>
 
-namespace paperproof::compare {
+namespace paperproof::compare::test {
 namespace {
-
-using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
 using Loop = MoverScript::Loop;
 using Movers = std::vector<MoverIndex>;
@@ -24,8 +22,7 @@ Rational exact_value(const std::vector<MoverScript::Turn>& turns, const Rational
 }
 
 TEST(MoverScript, is_linear_between_entries_to_a_few_roundings) {
-  constexpr std::uint64_t seed = 280;
-  Random random(seed);
+  Random random(280);
   int between = 0;
   constexpr int rounds = 4000;
   for (int i = 0; i < rounds; ++i) {
@@ -55,7 +52,7 @@ TEST(MoverScript, is_linear_between_entries_to_a_few_roundings) {
     // Times of 6 s have 2^-51 in their last place, angles change by 8 rad in 0.01 s at most.
     const double steepest = 8 / 0.01;
     EXPECT_NEAR(pose_at(script, time).angle, static_cast<double>(exact), 8 * 0x1p-53 * (6 * steepest + 100))
-        << "seed " << seed << " round " << i;
+        << "round " << i;
     between += rest > 0 && rest < length;
   }
   EXPECT_GE(between, rounds * 3 / 10);
@@ -246,4 +243,4 @@ TEST(MoverWay, of_what_goes_straight_is_its_script_in_each_scalar) {
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace paperproof::compare::test

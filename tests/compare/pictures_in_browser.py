@@ -228,35 +228,34 @@ def write_replays(command):
 
 HOSTILE = "</script><script>throw 1</script><!-- & \" ' ]]>"
 WHERE_HOSTILE = "scene=" + quote(HOSTILE)
-# Of each address: what is drawn, a height [m] that the view shows, how high it is at most, and words of the page.
+# Of each address: what is drawn, words of the page, a height [m] that the view shows, and how high it is at most.
 BULLET, DRAWN_AT = "scene=article_bullet", "scene 0 step 0 t "
 REPLAYS = (
-    ("", "summary", None, None, ["Held in every scene it ran in: octagon_sweep"]),
-    (BULLET + "&step=0&view=fit", DRAWN_AT + "1", None, None, ["tunnel: passes platform"]),
-    (BULLET + "&step=0&t=0.25&view=follow", DRAWN_AT + "0.25", None, None, []),
-    ("scene=sensor_gate&step=31&t=0.875&layout=side", "scene 1 step 31 t 0.875", None, None,
+    ("", "summary", ["Held in every scene it ran in: octagon_sweep"]),
+    (BULLET + "&step=0&view=fit", DRAWN_AT + "1", ["tunnel: passes platform"]),
+    (BULLET + "&step=0&t=0.25&view=follow", DRAWN_AT + "0.25", []),
+    ("scene=sensor_gate&step=31&t=0.875&layout=side", "scene 1 step 31 t 0.875",
      ["sensor: enters gate at 0.875 of the step"]),
-    ("scene=characters_head_on&step=2", "scene 2 step 2 t 1", None, None,
-     ["octagon_sweep, character 1", ", character 0"]),
-    ("scene=one_way_drop&step=60", "scene 3 step 60 t 1", None, None,
-     ["drops through ledge", "octagon_sweep: first drop"]),
-    ("scene=slow&step=1", "scene 4 step 1 t 1", None, None, ["step 1 of 1, t = 1.000: 100.016 s"]),
-    (WHERE_HOSTILE + "&step=22", "scene 5 step 22 t 1", None, None, [HOSTILE, "both are right about their own motion"]),
-    ("scene=one_square&step=7&view=fit", "scene 6 step 7 t 1", None, None, ["drawn at", "in between two squares"]),
-    ("scene=999", "summary", None, None, []),
-    ("scene=0", "summary", None, None, []),  # scenes have names
+    ("scene=characters_head_on&step=2", "scene 2 step 2 t 1", ["octagon_sweep, character 1", ", character 0"]),
+    ("scene=one_way_drop&step=60", "scene 3 step 60 t 1", ["drops through ledge", "octagon_sweep: first drop"]),
+    ("scene=slow&step=1", "scene 4 step 1 t 1", ["step 1 of 1, t = 1.000: 100.016 s"]),
+    (WHERE_HOSTILE + "&step=22", "scene 5 step 22 t 1", [HOSTILE, "both are right about their own motion"]),
+    ("scene=one_square&step=7&view=fit", "scene 6 step 7 t 1", ["drawn at", "in between two squares"]),
+    ("scene=999", "summary", []),
+    ("scene=0", "summary", []),  # scenes have names
     # Without a step a replay opens at the event that matters, which fills the view with those beside it. The bullet is
     # in the platform from 30 to 36 of 50 px.
-    (BULLET, DRAWN_AT + "0.66", 0, 1, []),
-    (BULLET + "&contender=octagon_sweep", DRAWN_AT + "0.6", 0, 1, []),
-    (WHERE_HOSTILE + "&contender=octagon_sweep", "scene 5 step 21 t 1", 1.2, 3.5,
-     ["crushed by " + HOSTILE, "octagon_sweep: first crush", "Not run: mask (mask is for scenery that stands still)."]),
+    (BULLET, DRAWN_AT + "0.66", [], 0, 1),
+    (BULLET + "&contender=octagon_sweep", DRAWN_AT + "0.6", [], 0, 1),
+    (WHERE_HOSTILE + "&contender=octagon_sweep", "scene 5 step 21 t 1",
+     ["crushed by " + HOSTILE, "octagon_sweep: first crush", "Not run: mask (mask is for scenery that stands still)."],
+     1.2, 3.5),
 )
 
 
 def check_replays(browser):
     """Every kind of step is drawn where its address says, and told in words."""
-    def check(seen, address, drawn, height, most, words):
+    def check(seen, address, drawn, words, height=None, most=None):
         assert re.fullmatch(drawn, seen["drawn"]), (address, drawn, seen["drawn"])
         # Background, solids, outlines and at least one contender, each with its anti-aliased shades.
         assert drawn == "summary" or seen["colours"] >= 8, (address, seen["colours"])
@@ -271,12 +270,12 @@ def check_replays(browser):
     # After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
     # often a headless browser draws on its own after that is its affair.
     played = browser.look("replays.html", address="#scene=slow&step=0&t=0&play=0.5&check=1")
-    check(played, "played", r"scene 4 step 1 t (0\.0|[0-9.]*e-).*", None, None, [])
+    check(played, "played", r"scene 4 step 1 t (0\.0|[0-9.]*e-).*", [])
     assert "Pause" in played["labels"], played["labels"]
     # Jumps move the view, too: from all of the ways to what is touched first, by Box2D with its gap of 5 mm.
     act = "[...document.querySelectorAll('button')].find((one) => one.textContent === 'first contact').click();"
     jumped = browser.look("replays.html", act + "await changed();", address=f"#{BULLET}&step=9&view=fit&check=1")
-    check(jumped, "first contact", DRAWN_AT + "0.5968", 0, 1, [])
+    check(jumped, "first contact", DRAWN_AT + "0.5968", [], 0, 1)
 
 
 def main():

@@ -14,11 +14,11 @@ namespace {
 /// Enough for every built-in scene but the million steps of rest, which repeat.
 constexpr int most_steps = 400;
 
-/// A contestant, or none where it cannot express the scene.
-std::unique_ptr<Contestant> contestant_or_none(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                               const Scenery<double>& scenery, const Planning& planning) {
+/// A contender, or none where it cannot express the scene.
+std::unique_ptr<Contender> contender_or_none(std::string_view name, ScalarKind scalar, const Scene& scene,
+                                             const Scenery<double>& scenery, const Planning& planning) {
   try {
-    return make_contestant(name, scalar, scene, scenery, planning);
+    return make_contender(name, scalar, scene, scenery, planning);
   } catch (const NotApplicable&) {
     return nullptr;
   }
@@ -28,8 +28,8 @@ std::unique_ptr<Contestant> contestant_or_none(std::string_view name, ScalarKind
 bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
                       const Script& script, int steps) {
   const Foreseen foreseen = foreseen_in(scene, script);
-  const auto planned = contestant_or_none(name, scalar, scene, scenery, {.full = false, .foreseen = foreseen});
-  const auto full = contestant_or_none(name, scalar, scene, scenery, {.full = true, .foreseen = foreseen});
+  const auto planned = contender_or_none(name, scalar, scene, scenery, {.full = false, .foreseen = foreseen});
+  const auto full = contender_or_none(name, scalar, scene, scenery, {.full = true, .foreseen = foreseen});
   EXPECT_EQ(planned == nullptr, full == nullptr) << scene.name << " " << name;
   if (!planned || !full) return false;
   InputCursor cursor(scene, script);

@@ -9,6 +9,8 @@
 namespace paperproof::compare {
 namespace {
 
+using PngFiles = SceneFilesTest;
+
 using test::Random;
 
 struct Kind {
@@ -86,10 +88,9 @@ Known random_file(const Kind& kind, bool interlaced, Random& random) {
   return known;
 }
 
-TEST(PngFiles, of_every_kind_are_read_as_what_is_in_them) {
+TEST_F(PngFiles, of_every_kind_are_read_as_what_is_in_them) {
   constexpr std::uint64_t seed = 31;
   Random random(seed);
-  const SceneFiles files;
   for (const Kind& kind : all_kinds) {
     for (int i = 0; i < 12; ++i) {
       const Known known = random_file(kind, i % 2 == 1, random);
@@ -112,8 +113,7 @@ std::string complaint_about(const SceneFiles& files, const std::string& bytes) {
   return test::refusal_by<InputError>([&] { (void)read_png(files.write("a.png", bytes), "a.png"); }, "accepted");
 }
 
-TEST(PngFiles, with_an_index_beyond_their_palette_are_refused) {
-  const SceneFiles files;
+TEST_F(PngFiles, with_an_index_beyond_their_palette_are_refused) {
   PngFile file{PngColour::indexed, 2, false, 3, 1, {0, 1, 1}, png_chunk("PLTE", "abcdef")};
   EXPECT_EQ(complaint_about(files, file.bytes()), "accepted");
   file.samples = {0, 1, 3};
@@ -123,8 +123,7 @@ TEST(PngFiles, with_an_index_beyond_their_palette_are_refused) {
   EXPECT_TRUE(begins(complaint_about(files, file.bytes()), "a.png: expected a PNG picture ("));
 }
 
-TEST(PngFiles, cut_off_anywhere_or_with_a_spoilt_byte_are_refused_or_read) {
-  const SceneFiles files;
+TEST_F(PngFiles, cut_off_anywhere_or_with_a_spoilt_byte_are_refused_or_read) {
   const std::string whole = PngFile{PngColour::grey, 16, true, 3, 2, {0, 1, 2, 3, 4, 65535}}.bytes();
   for (std::size_t length = 0; length < whole.size(); ++length)
     ASSERT_TRUE(begins(complaint_about(files, whole.substr(0, length)), "a.png: expected a PNG picture (")) << length;

@@ -43,12 +43,9 @@ struct PngFile {
   [[nodiscard]] std::string bytes() const {
     std::string pixels;
     if (interlaced) {
-      struct Pass {
-        int column, row, columns, rows;
-      };
-      for (const Pass& pass : {Pass{0, 0, 8, 8}, Pass{4, 0, 8, 8}, Pass{0, 4, 4, 8}, Pass{2, 0, 4, 4}, Pass{0, 2, 2, 4},
-                               Pass{1, 0, 2, 2}, Pass{0, 1, 1, 2}})
-        pixels += packed(pass.column, pass.row, pass.columns, pass.rows);
+      for (const auto& [column, row, columns, rows] : std::vector<std::array<int, 4>>{
+               {0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}})
+        pixels += packed(column, row, columns, rows);
     } else {
       pixels = packed(0, 0, 1, 1);
     }

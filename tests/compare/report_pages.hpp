@@ -11,9 +11,9 @@ namespace paperproof::compare {
 using nlohmann::json;
 
 /// A folder of its own for each test, and a page in it.
-class ReportTest : public ::testing::Test {
+class ReportTest : public SceneFilesTest {
  protected:
-  [[nodiscard]] std::string path() const { return files_.path("report.html"); }
+  [[nodiscard]] std::string path() const { return files.path("report.html"); }
 
   [[nodiscard]] std::string page(const Report& report, const ReportOptions& options = {}) const {
     write_report(path(), report, options);
@@ -21,12 +21,9 @@ class ReportTest : public ::testing::Test {
   }
 
   [[nodiscard]] std::size_t files_left() const {
-    const std::filesystem::directory_iterator all(files_.path(""));
+    const std::filesystem::directory_iterator all(files.path(""));
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
-
- private:
-  SceneFiles files_;
 };
 
 inline std::size_t count_of(const std::string& text, const std::string& part) {

@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -195,15 +194,14 @@ class RandomLaw : public testing::Test {
     EXPECT_TRUE(velocity_fault(turned, there, turn * wrong).has_value());
   }
 
-  static constexpr std::uint64_t seed = 28;
-  Random random_{seed};
+  Random random_{28};
 };
 
 /// What §4 of the design says of one contact.
 TEST_F(RandomLaw, of_one_contact_is_that_of_the_design) {
   int leaves = 0, ground = 0, steep = 0, pressed = 0, ceilings = 0, climbs = 0;
   for (int k = 0; k < all && !HasFailure(); ++k) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    SCOPED_TRACE("case " + std::to_string(k));
     MetSurface at = random_surface(0.2);
     at.climbs = random_.chance(0.3);
     const ControlledStep step = random_step();
@@ -248,8 +246,7 @@ TEST_F(RandomLaw, of_one_contact_is_that_of_the_design) {
     EXPECT_LE(v.norm(), size / std::cos(climb_limit) + rounding) << "nothing gives speed";
     expect_only(step, {at}, v);
   }
-  EXPECT_GE(leaves, all / 3);
-  EXPECT_LE(leaves, all * 2 / 3);
+  EXPECT_NEAR(leaves, all / 2, all / 6);
   for (const int some : {ground, steep, ceilings}) EXPECT_GE(some, all / 20);
   for (const int some : {pressed, climbs}) EXPECT_GE(some, all / 50);
 }
@@ -258,7 +255,7 @@ TEST_F(RandomLaw, of_one_contact_is_that_of_the_design) {
 TEST_F(RandomLaw, of_two_contacts_enters_neither) {
   int held = 0, second_only = 0;
   for (int k = 0; k < all && !HasFailure(); ++k) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    SCOPED_TRACE("case " + std::to_string(k));
     // Where the normals are square to each other rounding decides whether the second response enters the first again.
     Surfaces two{random_surface(0), random_surface(0)};
     two[0].met = 0.25;
@@ -298,7 +295,7 @@ TEST_F(RandomLaw, is_within_its_bounds) {
   constexpr double any = std::numeric_limits<double>::infinity();
   int changed = 0, moving = 0, steep = 0, crushed = 0;
   for (int k = 0; k < all && !HasFailure(); ++k) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    SCOPED_TRACE("case " + std::to_string(k));
     const ControlledStep step = random_step();
     Surfaces surfaces;
     const bool rest = random_.chance(0.5);

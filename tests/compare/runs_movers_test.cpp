@@ -18,20 +18,13 @@ Scene on_a_slab(int steps) {
   return scene;
 }
 
-RunOptions watched(const Scene& scene, std::vector<std::string> contenders) {
-  RunOptions options = quick();
-  options.contenders = std::move(contenders);
-  options.max_replay_steps = scene.steps;
-  return options;
-}
-
 TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_last) {
   Scene scene = on_a_slab(200);
   scene.movers = {{.id = "slab",
                    .path = {{.time = 0, .at = {0, 0}}, {.time = 1.1, .at = {4, 3}}},
                    .loop = MoverDef::Loop::ping_pong}};
   scene.scenery.colliders[1].mover = 0;
-  const ReportScene result = run_scene(scene, watched(scene, {"speculative"}));
+  const ReportScene result = run_scene(scene, quick({"speculative"}, scene.steps));
   for (const char* name : {"speculative", "box2d"}) {
     const ReportRun& run = run_of(result, name);
     ASSERT_EQ(run.steps.size(), 200U) << name;
@@ -75,7 +68,7 @@ TEST(Movers, that_turn_let_who_lands_in_a_part_of_a_step_jump_in_the_next_and_us
 
 TEST(Bodies, go_the_same_way_for_every_contender_and_for_the_twin) {
   const Scene scene = built_in("stack_100");
-  const ReportScene result = run_scene(scene, watched(scene, {"octagon_sweep", "speculative"}));
+  const ReportScene result = run_scene(scene, quick({"octagon_sweep", "speculative"}, scene.steps));
   const std::vector<TraceStep>& mine = run_of(result, "octagon_sweep").steps;
   const std::vector<TraceStep>& other = run_of(result, "speculative").steps;
   const std::vector<TraceStep>& twin = run_of(result, "box2d").steps;
@@ -96,7 +89,7 @@ TEST(Bodies, that_box2d_cannot_have_leave_rows_that_say_why) {
   Scene instants = built_in("stack_1");
   instants.dt = 1e-12;
   for (const auto& [scene, reason] : {std::pair{points, "single point"}, {instants, "shorter than 1e-9 s"}}) {
-    const ReportScene result = run_scene(scene, watched(scene, {"octagon_sweep"}));
+    const ReportScene result = run_scene(scene, quick({"octagon_sweep"}));
     for (const char* contender : {"octagon_sweep", "box2d"}) {
       const Row& row = row_of(result, contender);
       EXPECT_EQ(row.verdict, Verdict::not_applicable);

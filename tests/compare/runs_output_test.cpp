@@ -10,10 +10,8 @@ namespace {
 /// The reader refuses what the schema refuses, and check_trace.py reads what the schema says.
 TEST(Traces, read_back_to_the_same_bits) {
   const SceneFiles files;
-  RunOptions options = quick();
-  options.contenders = {"octagon_sweep", "speculative"};
+  RunOptions options = quick({"octagon_sweep", "speculative"}, 1000);
   options.scalars = {ScalarKind::binary64, ScalarKind::binary32};
-  options.max_replay_steps = 1000;
   options.trace_stem = files.path("t");
   std::size_t contacts = 0;
   std::size_t sensors = 0;

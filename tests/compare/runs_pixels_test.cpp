@@ -54,9 +54,7 @@ TEST(TileFileRuns, are_for_every_contender_and_pixel_tile_says_where_it_would_mi
   EXPECT_EQ(row_of(alone, "octagon_sweep").verdict, Verdict::holds);
   EXPECT_EQ(row_of(alone, "pixel_tile").steps, 60);
   const auto beside = [&](const std::string& more) {
-    RunOptions options = quick();
-    options.contenders = {"pixel_tile"};
-    return row_of(run_scene(files.load("scene.json", tile_scene(more)), options), "pixel_tile");
+    return row_of(run_scene(files.load("scene.json", tile_scene(more)), quick({"pixel_tile"})), "pixel_tile");
   };
   const std::string block = R"({ "polygon": [[1,1],[2,1],[2,2]])";
   EXPECT_EQ(beside(", " + block + R"(, "sensor": true })").steps, 60) << "it is in nobody's way";

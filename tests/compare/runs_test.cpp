@@ -57,9 +57,7 @@ TEST(Respawn, puts_back_who_has_left_the_map_by_ten_metres) {
   // It is below -1 - 10 m after n steps of g dt² n (n + 1) / 2 each, and put back before the next one.
   int lost_after = 1;
   while (2 - 10.0 / 3600 * lost_after * (lost_after + 1) / 2 >= -11) ++lost_after;
-  RunOptions options = quick();
-  options.max_replay_steps = 400;
-  const ReportScene result = run_scene(scene, options);
+  const ReportScene result = run_scene(scene, quick({}, scene.steps));
   for (const Row& row : result.rows) {
     // The grid falls by whole squares: it is lost a little earlier.
     if (row.verdict == Verdict::not_applicable || row.contender == "grid") continue;
@@ -77,9 +75,8 @@ TEST(Respawn, puts_back_who_has_left_the_map_by_ten_metres) {
 }
 
 TEST(Lockstep, compares_one_step_at_a_time) {
-  RunOptions options = quick();
+  RunOptions options = quick({}, 200);
   options.mode = Mode::lockstep;
-  options.max_replay_steps = 200;
   const ReportScene result = run_scene(built_in("jump_into_corner"), options);
   for (const Row& row : result.rows) EXPECT_TRUE(row.mode == "lockstep" && row.steps == 180) << row.contender;
   // The controller does not notice that it is watched.
@@ -98,9 +95,7 @@ TEST(Lockstep, compares_one_step_at_a_time) {
 }
 
 TEST(Failures, become_rows_with_a_reason) {
-  RunOptions options = quick();
-  options.contenders = {"octagon_sweep", "nobody"};
-  const ReportScene result = run_scene(built_in("article_bullet"), options);
+  const ReportScene result = run_scene(built_in("article_bullet"), quick({"octagon_sweep", "nobody"}));
   ASSERT_EQ(result.rows.size(), 3U);
   const Row& failed = row_of(result, "nobody");
   EXPECT_EQ(failed.verdict, Verdict::failed);
@@ -131,8 +126,7 @@ TEST(ContinuousError, of_a_fall_is_that_of_the_formula) {
   const Scene scene = built_in("fall_dt_1e-1");
   const double one = -scene.gravity.y() * scene.dt * scene.dt / 2;
   const double n = scene.steps;
-  RunOptions options = quick();
-  options.contenders = {"octagon_sweep"};
+  RunOptions options = quick({"octagon_sweep"});
   options.continuous = true;
   for (const char* contender : {"octagon_sweep", "box2d"}) {
     const Row row = row_of(run_scene(scene, options), contender);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/load.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,25 +47,26 @@ class SceneFiles {
     return load_scenes(write(name, text)).front();
   }
 
-  /// What is said about a file, without the file's name that it has to begin with. Empty if nothing is said.
+  /// What is said about a file, without the file's name that it has to begin with. " was accepted" if nothing is.
   [[nodiscard]] std::string complaint(const std::string& name, std::string_view text) const {
     return complaint_about(write(name, text));
   }
   [[nodiscard]] static std::string complaint_about(const std::string& path) {
-    try {
-      (void)load_scenes(path);
-    } catch (const InputError& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(message.compare(0, path.size(), path), 0) << message << "\ndoes not begin with " << path;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      return message.substr(path.size());
-    }
-    ADD_FAILURE() << path << " was accepted";
-    return {};
+    const std::string message =
+        paperproof::test::refusal_by<InputError>([&] { (void)load_scenes(path); }, path + " was accepted");
+    EXPECT_EQ(message.compare(0, path.size(), path), 0) << message << "\ndoes not begin with " << path;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message.substr(path.size());
   }
 
  private:
   std::filesystem::path folder_;
+};
+
+/// A test with such a folder.
+class SceneFilesTest : public testing::Test {
+ protected:
+  const SceneFiles files;
 };
 
 /// The same text with the first `from` replaced by `to`; fails the test if there is none.

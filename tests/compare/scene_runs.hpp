@@ -10,32 +10,28 @@ namespace paperproof::compare {
 
 inline Scene built_in(const std::string& name) { return load_scenes(name).front(); }
 
-inline RunOptions quick() {
+/// These contenders, or all of them, beside the reference, and so many steps of their replays.
+inline RunOptions quick(std::vector<std::string> contenders = {}, int replay_steps = 0) {
   RunOptions options;
+  options.contenders = std::move(contenders);
   options.measure_cost = false;
+  options.max_replay_steps = replay_steps;
   return options;
 }
 
 /// One contender without its reference, and so many steps of its replay.
 inline RunOptions alone(const std::string& contender, int replay_steps) {
-  RunOptions options = quick();
-  options.contenders = {contender};
+  RunOptions options = quick({contender}, replay_steps);
   options.reference = false;
-  options.max_replay_steps = replay_steps;
   return options;
-}
-
-inline const Row* find_row(const ReportScene& result, std::string_view contender, std::string_view scalar = "") {
-  for (const Row& row : result.rows)
-    if (row.contender == contender && (scalar.empty() || row.scalar == scalar)) return &row;
-  return nullptr;
 }
 
 inline const Row& row_of(const ReportScene& result, std::string_view contender) {
   static const Row none;
-  const Row* found = find_row(result, contender);
-  EXPECT_NE(found, nullptr) << contender;
-  return found != nullptr ? *found : none;
+  for (const Row& row : result.rows)
+    if (row.contender == contender) return row;
+  ADD_FAILURE() << contender << " has no row";
+  return none;
 }
 
 inline const ReportRun& run_of(const ReportScene& result, std::string_view contender) {

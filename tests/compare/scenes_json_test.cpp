@@ -9,6 +9,8 @@
 namespace paperproof::compare {
 namespace {
 
+using JsonScene = SceneFilesTest;
+
 using nlohmann::json;
 
 /// One of everything.
@@ -51,8 +53,7 @@ const std::string full = R"({
 const std::string least = R"({ "paperproof_scene": 1, "name": "void", "gravity": [0, 0], "dt": 1, "steps": 1,
   "character": { "position": [0, 0] }, "scenery": [ { "chain": [[5,0],[5,4]] } ] })";
 
-TEST(JsonScene, every_key_arrives_and_is_written_as_it_was_read) {
-  const SceneFiles files;
+TEST_F(JsonScene, every_key_arrives_and_is_written_as_it_was_read) {
   const Scene scene = files.load("room.json", full);
   EXPECT_EQ(json(scene_json(scene)), json::parse(full));
   EXPECT_EQ(scene.ids, (std::vector<std::string>{"paper", "wall", "ledge", "ring", "disc", "gate", "lift", "saw",
@@ -80,8 +81,7 @@ TEST(JsonScene, every_key_arrives_and_is_written_as_it_was_read) {
     EXPECT_TRUE(holds(text, part));
 }
 
-TEST(JsonScene, what_is_left_out_has_the_defaults_of_the_types) {
-  const SceneFiles files;
+TEST_F(JsonScene, what_is_left_out_has_the_defaults_of_the_types) {
   const Scene scene = files.load("least.json", least);
   const CharacterDef defaults;
   EXPECT_EQ(scene.pixels_per_metre, 32);
@@ -96,8 +96,7 @@ TEST(JsonScene, what_is_left_out_has_the_defaults_of_the_types) {
   EXPECT_EQ(joined.joints[0].length, 2) << "as far as the points are apart";
 }
 
-TEST(JsonScene, characters_do_as_the_scene_unless_they_have_an_input_of_their_own) {
-  const SceneFiles files;
+TEST_F(JsonScene, characters_do_as_the_scene_unless_they_have_an_input_of_their_own) {
   const Scene scene = files.load("room.json", with(full, R"(, "input": [{ "step": 3, "move": -1 }])", ""));
   const Script script = script_of(scene);
   ASSERT_EQ(script.size(), 3U);
@@ -108,15 +107,14 @@ TEST(JsonScene, characters_do_as_the_scene_unless_they_have_an_input_of_their_ow
   EXPECT_NE(random[1], random[2]);
 }
 
-TEST(JsonScene, empty_scenery_is_fine_when_it_is_said_to_be) {
+TEST_F(JsonScene, empty_scenery_is_fine_when_it_is_said_to_be) {
   const std::string empty = with(least, R"({ "chain": [[5,0],[5,4]] })", "");
-  EXPECT_EQ(SceneFiles().load("void.json", with(empty, "\"scenery\"", "\"empty\": true, \"scenery\"")).ids.size(), 0U);
+  EXPECT_EQ(files.load("void.json", with(empty, "\"scenery\"", "\"empty\": true, \"scenery\"")).ids.size(), 0U);
   expect_refused("void.json", empty,
                  {{"'dt'", "'dt'", ": /scenery: expected at least one solid, or 'empty': true beside it"}});
 }
 
-TEST(JsonScene, a_start_touches_a_solid_and_is_an_ulp_inside_only_where_it_is_to_be_resolved) {
-  const SceneFiles files;
+TEST_F(JsonScene, a_start_touches_a_solid_and_is_an_ulp_inside_only_where_it_is_to_be_resolved) {
   // The paper is 0.25 m thick, and the feet are 0.375 m below the middle.
   const std::string inside = with(full, "[0, 3]", "[0, 0.62499999999999989]");
   EXPECT_EQ(files.load("room.json", with(full, "[0, 3]", "[0, 0.625]")).start.position.y(), 0.625);
@@ -127,9 +125,9 @@ TEST(JsonScene, a_start_touches_a_solid_and_is_an_ulp_inside_only_where_it_is_to
                   .start.resolve_overlap);
 }
 
-TEST(JsonScene, motion_of_a_million_metres_in_a_step_is_the_most) {
+TEST_F(JsonScene, motion_of_a_million_metres_in_a_step_is_the_most) {
   // dt is 1/128 s, so 1e6 m in a step are 1.28e8 m/s.
-  EXPECT_EQ(SceneFiles().load("room.json", with(full, "[0, -40]", "[0, -1.28e8]")).start.velocity.y(), -1.28e8);
+  EXPECT_EQ(files.load("room.json", with(full, "[0, -40]", "[0, -1.28e8]")).start.velocity.y(), -1.28e8);
   expect_refused("room.json", full,
                  {{"[0, -40]", "[0, -1.2800001e8]", ": /character/velocity: expected at most 1e6 m of motion"}});
 }
@@ -139,7 +137,7 @@ const std::string overlaps =
     ": /character/position: expected a start outside of every solid, but the character overlaps ";
 constexpr std::string_view paper = "[[-4,0],[4,0],[4,0.25],[-4,0.25]]";
 
-TEST(JsonScene, is_refused_in_one_line_with_its_place) {
+TEST_F(JsonScene, is_refused_in_one_line_with_its_place) {
   expect_refused(
       "room.json", full,
       {
@@ -221,7 +219,7 @@ TEST(JsonScene, is_refused_in_one_line_with_its_place) {
       });
 }
 
-TEST(JsonScene, is_refused_for_its_further_characters_bodies_and_joints) {
+TEST_F(JsonScene, is_refused_for_its_further_characters_bodies_and_joints) {
   expect_refused(
       "room.json", full,
       {
@@ -277,9 +275,6 @@ TEST(JsonFile, that_is_no_scene_is_refused_in_one_line) {
   const std::string bytes = files.complaint("a.json", "{\"name\": \"\xff\xfe\"}");
   EXPECT_TRUE(begins(bytes, ":1:"));
   EXPECT_TRUE(std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c < 0x80; })) << bytes;
-  EXPECT_EQ(SceneFiles::complaint_about(files.path("none.json")), ": expected a file that exists; there is none");
-  std::filesystem::create_directories(files.path("folder.json"));
-  EXPECT_EQ(SceneFiles::complaint_about(files.path("folder.json")), ": expected a file; this is a directory");
 }
 
 TEST(JsonJoints, grow_and_shift_with_the_scene_and_are_written_there) {

@@ -79,9 +79,7 @@ TEST(BuiltInScenes, every_one_is_valid_has_its_own_name_and_says_what_it_is) {
     EXPECT_GE(scene.steps, 1);
     EXPECT_LE(scene.steps, entry.name == "long_rest" ? 1'000'000 : 10'000) << entry.name;
     EXPECT_NO_THROW(scene.character.validate()) << entry.name;
-    EXPECT_TRUE(std::is_sorted(scene.input.begin(), scene.input.end(), [](const auto& a, const auto& b) {
-      return a.step < b.step;
-    })) << entry.name;
+    EXPECT_TRUE(std::ranges::is_sorted(scene.input, {}, &InputEvent::step)) << entry.name;
     // A start inside is refused by the loader where nothing asks to resolve it.
     if (!scene.start.resolve_overlap) continue;
     EXPECT_FALSE(FreePlaces(scene.scenery, scene.character.shape).overlapped(scene.start.position).empty())

@@ -10,6 +10,11 @@
 namespace paperproof::compare {
 namespace {
 
+using TiledTiles = SceneFilesTest;
+using TiledStart = SceneFilesTest;
+using TiledFiles = SceneFilesTest;
+using Texts = std::vector<std::string>;
+
 /// One solid tile, and what it is.
 const std::string one_csv = "0,0,0,0, 0,0,0,0, 0,0,1,0";
 const std::string one = "t2,2: box 2 -3 3 -2";
@@ -27,7 +32,7 @@ void expect_read(const std::vector<Map>& maps) {
   for (const Map& map : maps) {
     const Scene scene = files.load("map.tmx", tmx(map.layers + spawn, map.tiles));
     EXPECT_EQ(solids_of(scene), map.solids) << map.what;
-    EXPECT_EQ(scene.notes, map.note.empty() ? std::vector<std::string>{} : std::vector{map.note}) << map.what;
+    EXPECT_EQ(scene.notes, map.note.empty() ? Texts{} : Texts{map.note}) << map.what;
   }
 }
 
@@ -35,7 +40,7 @@ std::string with_number(TileNumber number) {
   return csv_layer("0,0,0,0, 0,0,0,0, 0," + std::to_string(number) + ",0,0");
 }
 
-TEST(TiledTiles, are_boxes_or_their_own_shapes_where_their_cells_are) {
+TEST_F(TiledTiles, are_boxes_or_their_own_shapes_where_their_cells_are) {
   constexpr TileNumber h = flipped_horizontally;
   constexpr TileNumber v = flipped_vertically;
   constexpr TileNumber d = flipped_diagonally;
@@ -63,8 +68,7 @@ TEST(TiledTiles, are_boxes_or_their_own_shapes_where_their_cells_are) {
   });
 }
 
-TEST(TiledTiles, have_sizes_of_their_own_and_lie_anywhere_in_an_infinite_map) {
-  const SceneFiles files;
+TEST_F(TiledTiles, have_sizes_of_their_own_and_lie_anywhere_in_an_infinite_map) {
   const std::string large = with(tmx(csv_layer(one_csv) + spawn), "tilewidth=\"16\" tileheight=\"16\" tilecount",
                                  "tilewidth='32' tileheight='40' tilecount");
   EXPECT_EQ(solids_of(files.load("map.tmx", large)), "t2,2: box 2 -3 4 -0.5") << "on the cell's lower left corner";
@@ -74,8 +78,7 @@ TEST(TiledTiles, have_sizes_of_their_own_and_lie_anywhere_in_an_infinite_map) {
             "t-2,-1: box -2 0 -1 1; t-1,-1: box -1 0 0 1; t2,1: box 2 -2 3 -1");
 }
 
-TEST(TiledTiles, every_encoding_gives_the_same_scene) {
-  const SceneFiles files;
+TEST_F(TiledTiles, every_encoding_gives_the_same_scene) {
   const auto solids = [&](const std::string& attributes, const std::string& content) {
     return solids_of(
         files.load("map.tmx", tmx(tile_layer("Collision", "<data " + attributes + ">\n  " + content + "\n </data>") +
@@ -101,13 +104,12 @@ std::string scene_around_map(double pixels_per_metre) {
          R"(, "character": {"position": [0, 3]}, "scenery": [{"id": "m", "tiled": "map.tmx"}]})";
 }
 
-TEST(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two) {
-  const SceneFiles files;
+TEST_F(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two) {
   files.write("map.tmx", with(with(tmx(csv_layer(floor_csv)), "tilewidth=\"16\" tileheight=\"16\"",
                                    "tilewidth='35' tileheight='35'"),
                               "tilewidth=\"16\" tileheight=\"16\"", "tilewidth='35' tileheight='35'"));
   const Scene scene = files.load("scene.json", scene_around_map(70.5));
-  ASSERT_EQ(scene.ids, (std::vector<std::string>{"m/t0,2", "m/t1,2", "m/t2,2", "m/t3,2"}));
+  ASSERT_EQ(scene.ids, (Texts{"m/t0,2", "m/t1,2", "m/t2,2", "m/t3,2"}));
   const Box2<double> left = Box2<double>::around(scene.scenery.colliders[1].points);
   const Box2<double> right = Box2<double>::around(scene.scenery.colliders[2].points);
   EXPECT_EQ(left.upper, Vec2d(2 * 35 / 70.5, -(2 * 35 / 70.5)));
@@ -139,14 +141,16 @@ TEST(TiledMarks, say_what_is_solid_the_nearest_first) {
 
 std::string in_collision(const std::string& object) { return objects("collision", "<object id='5' " + object); }
 
+/// A tile that is a circle of 8 px in its middle.
+const std::string disc =
+    "<tile id='0' class='solid'><objectgroup><object id='1' x='4' y='4' width='8' height='8'><ellipse/></object>"
+    "</objectgroup></tile>";
+
 TEST(TiledObjects, are_polygons_chains_and_tiles_where_they_are_and_as_they_are_turned) {
   const std::string tile_objects = R"(<object id='5' gid='1' x='16' y='48' width='32' height='24'>
       <properties><property name='bodyType' value='static'/></properties></object>
       <object id='6' gid='1' x='0' y='48' width='8' height='8'>
       <properties><property name='bodyType' value='dynamic'/></properties></object>)";
-  const std::string disc =
-      "<tile id='0' class='solid'><objectgroup><object id='1' x='4' y='4' width='8' height='8'><ellipse/></object>"
-      "</objectgroup></tile>";
   const std::string is_circle = "1 object as wide as high and round is a circle";
   expect_read({
       {"a box", in_collision("x='0' y='32' width='64' height='16'/>"), "o5: box 0 -3 4 -2"},
@@ -205,8 +209,7 @@ TEST(TiledObjects, turn_clockwise_by_any_angle) {
 
 TEST(TiledObjects, an_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
   const Scene scene = with_solid("x='28' y='2' width='36' height='10'><ellipse/></object>");
-  EXPECT_EQ(scene.notes,
-            std::vector<std::string>{"1 ellipse has straight edges, at most 0.125 px inside of the curve"});
+  EXPECT_EQ(scene.notes, Texts{"1 ellipse has straight edges, at most 0.125 px inside of the curve"});
   const std::vector<Vec2d>& points = scene.scenery.colliders[0].points;
   const Vec2d centre{46 / 16.0, -7 / 16.0};
   // How far a point is from the middle, as a factor: 1 is on the curve.
@@ -223,9 +226,7 @@ TEST(TiledObjects, an_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
     EXPECT_GE(on_ellipse((a + b) / 2), 1 - 0.125 / 18);
   }
   // A circle of a tile that is shown half as high: 8 x 4 px, from 4 px right of and 2 px above the lower left corner.
-  const Scene flat = with_solid("gid='1' x='32' y='32' width='16' height='8'/>", "things",
-                                "<tile id='0' class='solid'><objectgroup><object id='1' x='4' y='4' width='8' "
-                                "height='8'><ellipse/></object></objectgroup></tile>");
+  const Scene flat = with_solid("gid='1' x='32' y='32' width='16' height='8'/>", "things", disc);
   const Box2<double> flat_box = Box2<double>::around(flat.scenery.colliders[0].points);
   EXPECT_EQ(flat_box.lower, Vec2d(36 / 16.0, -30 / 16.0));
   EXPECT_EQ(flat_box.upper, Vec2d(44 / 16.0, -26 / 16.0));
@@ -233,8 +234,7 @@ TEST(TiledObjects, an_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
 
 TEST(TiledObjects, a_capsule_has_half_circles_at_its_ends) {
   const Scene scene = with_solid("x='28' y='2' width='32' height='8'><capsule/></object>");
-  EXPECT_EQ(scene.notes,
-            std::vector<std::string>{"1 capsule has straight edges, at most 0.125 px inside of the curve"});
+  EXPECT_EQ(scene.notes, Texts{"1 capsule has straight edges, at most 0.125 px inside of the curve"});
   const std::vector<Vec2d>& points = scene.scenery.colliders[0].points;
   for (const Vec2d& point : points) {
     // 4 px from the middle line, which goes from 32 to 56 px.
@@ -252,9 +252,8 @@ TEST(TiledObjects, round_ones_are_counted_and_block_from_above_as_platforms) {
   const std::string three = R"(x='16' y='2' width='8' height='6'><ellipse/></object>
       <object id='10' x='28' y='2' width='8' height='6'><ellipse/></object>
       <object id='11' x='40' y='2' width='8' height='8'><ellipse/></object>)";
-  EXPECT_EQ(with_solid(three).notes,
-            (std::vector<std::string>{"1 object as wide as high and round is a circle",
-                                      "2 ellipses have straight edges, at most 0.125 px inside of the curve"}));
+  EXPECT_EQ(with_solid(three).notes, (Texts{"1 object as wide as high and round is a circle",
+                                            "2 ellipses have straight edges, at most 0.125 px inside of the curve"}));
   const ColliderDef round = with_solid(three, "one_way").scenery.colliders[2];
   EXPECT_EQ(round.shape, ColliderDef::Shape::chain);
   EXPECT_EQ(round.one_way, Vec2d(0, 1));
@@ -281,8 +280,7 @@ TEST(TiledObjects, a_moving_platform_goes_from_turning_point_to_turning_point_an
   EXPECT_EQ(def.loop, MoverDef::Loop::loop);
 }
 
-TEST(TiledStart, is_at_a_marked_object_or_above_the_first_ground_with_room) {
-  const SceneFiles files;
+TEST_F(TiledStart, is_at_a_marked_object_or_above_the_first_ground_with_room) {
   const auto start = [&](const std::string& layers) { return files.load("map.tmx", tmx(layers)).start.position; };
   // The sprite is 20 x 40 px at 32 px/m. Its upper left corner is the object's.
   EXPECT_EQ(start(csv_layer(floor_csv) + objects("a", "<object name='hero' x='2' y='8'/>")),
@@ -299,8 +297,7 @@ TEST(TiledStart, is_at_a_marked_object_or_above_the_first_ground_with_room) {
   EXPECT_EQ(start(csv_layer("1,0,0,0, 1,0,0,0, 1,1,1,1")), Vec2d(1.5, -2 + 1 / 16.0 + 20 / 32.0));
 }
 
-TEST(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding) {
-  const SceneFiles files;
+TEST_F(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding) {
   // Grounds whose height in metres no double is, above the origin: where the sprite's middle is in a higher binade the
   // sum is rounded.
   int rounded_up = 0;
@@ -319,8 +316,7 @@ TEST(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding
   EXPECT_GT(rounded_up, 5) << "the rounding that this is about did not happen";
 }
 
-TEST(TiledStart, the_character_of_a_map_climbs_a_pixel_and_that_of_a_scene_what_the_scene_says) {
-  const SceneFiles files;
+TEST_F(TiledStart, the_character_of_a_map_climbs_a_pixel_and_that_of_a_scene_what_the_scene_says) {
   const Scene alone = files.load("map.tmx", tmx(csv_layer(floor_csv) + spawn));
   EXPECT_EQ(alone.name, "map");
   EXPECT_EQ(alone.pixels_per_metre, 16);
@@ -334,8 +330,7 @@ TEST(TiledStart, the_character_of_a_map_climbs_a_pixel_and_that_of_a_scene_what_
   EXPECT_EQ(within.description, "");
 }
 
-TEST(TiledFiles, external_tilesets_in_both_formats_are_found_relative_to_the_map_or_beside_it) {
-  const SceneFiles files;
+TEST_F(TiledFiles, external_tilesets_in_both_formats_are_found_relative_to_the_map_or_beside_it) {
   files.write("sets/a.tsx", R"(<tileset name='a' tilewidth='16' tileheight='16' tilecount='4'>
       <tile id='0'><objectgroup><object id='1' x='0' y='8' width='16' height='8'/></objectgroup></tile></tileset>)");
   files.write("b.json", R"({"type": "tileset", "name": "b", "tilewidth": 16, "tileheight": 16, "tilecount": 4,
@@ -346,8 +341,7 @@ TEST(TiledFiles, external_tilesets_in_both_formats_are_found_relative_to_the_map
   EXPECT_EQ(solids_of(scene), "t0,2: box 0 -3 1 -2; t1,2: box 1 -3 2 -2.5; t2,2: box 2 -3 3 -2.75");
 }
 
-TEST(TiledFiles, json_maps_mean_the_same) {
-  const SceneFiles files;
+TEST_F(TiledFiles, json_maps_mean_the_same) {
   const std::string text = R"({"type": "map", "orientation": "orthogonal", "width": 4, "height": 3, "tilewidth": 16,
     "tileheight": 16, "infinite": false,
     "tilesets": [{"firstgid": 1, "name": "a", "tilewidth": 16, "tileheight": 16, "tilecount": 4,
@@ -374,8 +368,7 @@ TEST(TiledFiles, json_maps_mean_the_same) {
                   {"'x': 24", "'x': '24'", ": /layers/3/objects/0/x: expected a number"}});
 }
 
-TEST(TiledFiles, bad_maps_are_refused_with_their_line) {
-  const SceneFiles files;
+TEST_F(TiledFiles, bad_maps_are_refused_with_their_line) {
   const std::string map = tmx(csv_layer(floor_csv) + spawn);
   const auto base64 = [&](const std::string& compression, const std::string& text) {
     return tmx(

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 namespace paperproof::compare {
 namespace {
@@ -35,12 +36,8 @@ Row judged(const std::function<void(Row&)>& change, bool slides = false) {
 
 using Predicate = std::optional<bool> Row::*;
 
-struct Judged {
-  const char* of;
-  std::function<void(Row&)> change;
-  Predicate predicate;
-  std::optional<bool> expected;  ///< None: it is not asked.
-};
+/// Of what is judged, what is changed in it, the predicate, and what it comes to; none: it is not asked.
+using Judged = std::tuple<const char*, std::function<void(Row&)>, Predicate, std::optional<bool>>;
 
 void rests(Row& row, double drift, const char* contender, const char* scalar, double origin = 0) {
   row.contender = contender;
@@ -58,7 +55,7 @@ TEST(StabilityPredicates, hold_up_to_their_bounds_and_no_further) {
   const Predicate drift = &Row::drift_ok;
   const Predicate energy = &Row::energy_ok;
   const Predicate penetration = &Row::penetration_ok;
-  for (const Judged& row : std::vector<Judged>{
+  for (const auto& [of, change, predicate, expected] : std::vector<Judged>{
            {"what octagon_sweep promises", [](Row& r) { r.rest_peak_to_peak_m = 1e-6; }, drift, true},
            {"more than that", [](Row& r) { r.rest_peak_to_peak_m = 1.001e-6; }, drift, false},
            // An ulp there is 0.0625 m, and the bound two: 2 · 2^-23 · 1e6.
@@ -83,7 +80,7 @@ TEST(StabilityPredicates, hold_up_to_their_bounds_and_no_further) {
            {"a step stuck in nothing", [](Row& r) { r.stuck_refuted = 1; }, &Row::hanging_ok, false},
            {"no replica", [](Row&) {}, &Row::events_ok, {}},
            {"what did not run", [](Row& r) { r.verdict = Verdict::failed; }, penetration, {}}}) {
-    EXPECT_EQ(judged(row.change).*row.predicate, row.expected) << row.of;
+    EXPECT_EQ(judged(change).*predicate, expected) << of;
   }
   EXPECT_FALSE(judged([](Row& r) { rests(r, 1, "box2d", "float"); }, true).drift_ok) << "no friction on slopes";
 }

@@ -1,6 +1,5 @@
 /// Sweeps: axes, Cases, borders, and jobs in child processes.
 #include "studies/sweep.hpp"
-#include "runs/run_case.hpp"
 #include "scenes/load.hpp"
 #include "studies/processes.hpp"
 
@@ -32,16 +31,11 @@ TEST(SweepAxes, are_logarithmic_linear_or_listed_and_end_where_they_say) {
   EXPECT_EQ(parse_axis("speed=10:2000:log12").values.back(), "2000");
 }
 
-Sweep paper_sweep() {
+TEST(Sweep, has_each_combination_once_with_the_contender_varying_fastest) {
   Sweep sweep;
   sweep.scene = "paper";
   sweep.axes = {parse_axis("speed=10,40"), parse_axis("thickness=0.001,0.01,0.1")};
   sweep.contenders = {{"mask"}, {"octagon_sweep"}};
-  return sweep;
-}
-
-TEST(Sweep, has_each_combination_once_with_the_contender_varying_fastest) {
-  const Sweep sweep = paper_sweep();
   ASSERT_EQ(sweep.size(), 12U);
   std::set<std::string> ids;
   for (std::size_t i = 0; i < sweep.size(); ++i) ids.insert(id_of(sweep.at(i)));
@@ -51,27 +45,6 @@ TEST(Sweep, has_each_combination_once_with_the_contender_varying_fastest) {
   EXPECT_EQ(command_of(sweep.at(3)),
             "paperproof compare paper --set speed=10 --set thickness=0.01 --contender octagon_sweep --no-reference");
   EXPECT_EQ(id_of(sweep.at(0)), "a6e87314b7434c74") << "it changed: rows of earlier sweeps cannot be gone on with";
-}
-
-/// What cannot be varied is refused by the command, and tested there.
-TEST(Sweep, varies_what_every_scene_has_and_the_knobs_of_its_contenders) {
-  Sweep sweep = paper_sweep();
-  sweep.contenders = {{"speculative"}};
-  for (const char* axis : {"iterations=1,2", "pairs=all,direction", "gravity=0,10"})
-    sweep.axes.push_back(parse_axis(axis));
-  EXPECT_NO_THROW(check(sweep));
-}
-
-TEST(RunCase, of_what_there_is_not_is_a_failed_row) {
-  Case one;
-  one.scene = "paper";
-  one.parameters = {{"speed", "-3"}};
-  one.contender = "octagon_sweep";
-  const Row row = run_case(one);
-  EXPECT_EQ(row.verdict, Verdict::failed);
-  EXPECT_NE(row.reason.find("expected speed from 0.1"), std::string::npos) << row.reason;
-  one.scene = "papr";
-  EXPECT_EQ(run_case(one).verdict, Verdict::failed);
 }
 
 /// Passes something above `border`; cannot be run from `from` to `to`.

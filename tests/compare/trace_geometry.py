@@ -45,6 +45,10 @@ def less(a, b):
     return (a[0] - b[0], a[1] - b[1])
 
 
+def cross(a, b):
+    return a[0] * b[1] - a[1] * b[0]
+
+
 def turn(a, b, c):
     """Above zero where a, b, c turn left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -120,7 +124,7 @@ def crossings(start, way, body, edges):
     pairs += [(end, a, b, scaled(way, -1)) for edge in edges for end in edge for a, b in sides(shifted(body, start))]
     for point, a, b, moved in pairs:
         along = less(b, a)
-        speed = moved[1] * along[0] - moved[0] * along[1]
+        speed = cross(along, moved)
         if speed != 0:
             yield -turn(a, b, point) / speed
 

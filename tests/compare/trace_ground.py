@@ -8,7 +8,6 @@ direction, for what it wants, is what it wants projected onto that direction.
 from math import cos, hypot, inf, nextafter, radians
 
 from trace_geometry import GAP, ZERO, Fraction, add, dot, enters, hull, less, scaled, shifted, sides, size
-from trace_world import wider
 
 GROUND = 7.01e-7  # farther away nothing holds [m]
 NEAR = 1e-4  # edges nearer than this may be in the way [m]

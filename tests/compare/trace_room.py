@@ -12,7 +12,7 @@ that there is room. None found is no proof that there is none.
 from itertools import islice
 from math import cos, hypot, pi, sin
 
-from trace_geometry import ZERO, Fraction, add, between, hull, less, sides, vector
+from trace_geometry import ZERO, Fraction, add, between, cross, dot, hull, less, scaled, sides, turn, vector
 from trace_world import wider
 
 BEYOND = 0.25  # how far may be pushed beyond the crusher's own motion [m]
@@ -25,18 +25,16 @@ MOST_TRIED = 400
 
 def crossing(a, b, c, d):
     """Where two segments cross, in doubles; None where they do not."""
-    (ax, ay), (bx, by), (cx, cy), (dx, dy) = a, b, c, d
-    over = (bx - ax) * (dy - cy) - (by - ay) * (dx - cx)
+    one, other, off = less(b, a), less(d, c), less(c, a)
+    over = cross(one, other)
     if over == 0:
         return None
-    t = ((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx)) / over
-    s = ((cx - ax) * (by - ay) - (cy - ay) * (bx - ax)) / over
-    return (ax + t * (bx - ax), ay + t * (by - ay)) if 0 <= t <= 1 and 0 <= s <= 1 else None
+    t, s = cross(off, other) / over, cross(off, one) / over
+    return add(a, scaled(one, t)) if 0 <= t <= 1 and 0 <= s <= 1 else None
 
 
 def is_in(point, convex):
-    return all((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) > 1e-12
-               for a, b in sides(convex))
+    return all(turn(a, b, point) > 1e-12 for a, b in sides(convex))
 
 
 def guesses(world, motion, at, reach):
@@ -50,14 +48,14 @@ def guesses(world, motion, at, reach):
     rims = [(ring[k - 1], ring[k]) for ring in taken for k in range(len(ring))]
     found = [(0.0, 0.0)] + [(d * reach * cos(2 * pi * k / FAN), d * reach * sin(2 * pi * k / FAN)) for k in range(FAN) for d in STRIDES]
     for i, (a, b) in enumerate(rims):
-        along = (b[0] - a[0], b[1] - a[1])
-        length = along[0] ** 2 + along[1] ** 2
-        foot = -(a[0] * along[0] + a[1] * along[1]) / length if length else 0
+        along = less(b, a)
+        length = dot(along, along)
+        foot = -dot(a, along) / length if length else 0
         places = sorted([0.0, 1.0, min(max(foot, 0.0), 1.0)] + [
-            ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / length
+            dot(less(p, a), along) / length
             for j, other in enumerate(rims) if j != i for p in [crossing(a, b, *other)] if p and length])
         shares = places + [(p + q) / 2 for p, q in zip(places, places[1:])]
-        found += [(a[0] + s * along[0], a[1] + s * along[1]) for s in shares]
+        found += [add(a, scaled(along, share)) for share in shares]
     near = {d for d in found if hypot(*d) <= reach}
     return sorted((d for d in near if not any(is_in(d, ring) for ring in taken)), key=lambda d: hypot(*d))
 

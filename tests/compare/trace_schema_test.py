@@ -89,13 +89,10 @@ class SchemaOfTraces(unittest.TestCase):
     def setUpClass(cls):
         cls.schema = json.loads(Path(SCHEMA).read_text(encoding="utf-8"))
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.traces = list(map(read, traces_of(COMMAND, cls.folder.name, *SCENES).values()))
         cls.traces[0][-1].update(MADE_UP)
         cls.traces[0][0]["plan"]["omitted"].append({"stage": "stairs", "reason": "none"})
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def judge(self, lines, judge=None):
         path = Path(self.folder.name) / "spoilt.jsonl"

@@ -7,7 +7,8 @@ from bisect import bisect_right
 from collections import deque
 
 from trace_geometry import (
-    ZERO, Fraction, add, between, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides, size, turn)
+    ZERO, Fraction, add, between, cross, enters, exact, hull, inside, is_near, less, middle_of, scaled, shifted, sides,
+    size, turn)
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
 MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60
@@ -65,10 +66,6 @@ def overlaps(way, vertices, body):
         return is_near(vertices[0], body, way.collider.radius)
     return any(enters(a, b, body) for a, b in way.collider.edges_of(vertices)) or inside(
         middle_of(body), way.collider.rings_of(vertices))
-
-
-def cross(a, b):
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def stays_right(first, last, corner):

@@ -5,8 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
 namespace paperproof::compare::test {
 
 /// A plank beside a character, and how it goes in one step.

@@ -19,38 +19,29 @@ ColliderDef conveyor(ColliderDef def, double speed) {
 }
 
 /// A character among movers, stepped as a controller does it.
-struct Passenger {
-  Rig<double> rig;
-  double dt = 1.0 / 64;
+struct Passenger : Rig<double> {
   double gravity = 32;
-  Vec2d position{Vec2d::Zero()};
-  Vec2d velocity{Vec2d::Zero()};
-  Ride<double> ride{};
 
-  Passenger(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {})
-      : rig(kind, std::move(colliders), knobs) {}
-
+  Passenger(std::string_view kind, std::vector<ColliderDef> colliders) : Rig(kind, std::move(colliders)) {
+    request.dt = 1.0 / 64;
+  }
+  /// Goes on from where it is.
   const MoveResult<double>& step(const Motions& movers) {
-    MoveRequest<double> request;
-    request.position = position;
-    request.velocity = velocity - ride.velocity;
-    request.velocity.y() -= gravity * dt;
-    request.displacement = request.velocity * dt;
+    request.position = result.position;
+    request.velocity = result.velocity - result.ride.velocity;
+    request.velocity.y() -= gravity * request.dt;
+    request.displacement = request.velocity * request.dt;
     request.movers = movers;
-    request.dt = dt;
-    request.ride = ride;
-    rig.technique->move(request, rig.scratch, rig.result);
-    position = rig.result.position;
-    velocity = rig.result.velocity;
-    ride = rig.result.ride;
-    return rig.result;
+    request.ride = result.ride;
+    technique->move(request, scratch, result);
+    return result;
   }
   /// A step of a second without gravity.
   const MoveResult<double>& fly(const Vec2d& from, const Vec2d& by, const Motions& movers) {
-    dt = 1;
+    request.dt = 1;
     gravity = 0;
-    position = from;
-    velocity = by;
+    result.position = from;
+    result.velocity = by;
     return step(movers);
   }
 };
@@ -124,7 +115,7 @@ TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on
     for (const std::string_view kind : carrying_kinds) {
       SCOPED_TRACE(kind);
       Passenger passenger(kind, {rectangle(-90, -9, 90, -5), compare::box(-2, -1, 2, 0, 0)});
-      passenger.position = {0.3, half_height + gap_of(kind)};
+      passenger.result.position = {0.3, half_height + gap_of(kind)};
       Vec2d place{Vec2d::Zero()};
       Motions motions(1);
       const std::size_t before = tests::allocations();
@@ -135,7 +126,7 @@ TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on
         ASSERT_EQ(result.ride.ground, 1U) << "step " << step;
         ASSERT_EQ(result.contacts.size(), 1U) << "step " << step;
         ASSERT_EQ(result.position, motion.to + result.ride.place) << "step " << step;
-        ASSERT_EQ(result.velocity, Vec2d((motion.to - motion.from) / passenger.dt)) << "step " << step;
+        ASSERT_EQ(result.velocity, Vec2d((motion.to - motion.from) / passenger.request.dt)) << "step " << step;
         if (step == 0) place = result.ride.place;
         ASSERT_LE((result.ride.place - place).norm(), gap_of(kind) > 0 ? rounding : 0) << "step " << step;
       }
@@ -152,15 +143,15 @@ TEST(ClosingWalls, crush_at_the_step_that_the_gap_gives) {
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
     Passenger passenger(kind, {rectangle(-9, -3, 9, 0), compare::box(-9, 2 * half_height + room, 9, 9, 0)});
-    passenger.position = {0, half_height + gap_of(kind)};
+    passenger.result.position = {0, half_height + gap_of(kind)};
     int crushed_at = 0;
     Motions motions(1);
     const std::size_t before = tests::allocations();
     for (int step = 1; step <= 30; ++step) {
       motions[0] = {{0, -(step - 1) / 64.0}, {0, -step / 64.0}};
       const MoveResult<double>& result = passenger.step(motions);
-      ASSERT_GE(passenger.position.y(), half_height - rounding) << "never pushed into the floor";
-      ASSERT_LE(passenger.position.y(), half_height + px);
+      ASSERT_GE(result.position.y(), half_height - rounding) << "never pushed into the floor";
+      ASSERT_LE(result.position.y(), half_height + px);
       if (result.status != MoveStatus::crushed) continue;
       if (crushed_at == 0) crushed_at = step;
       ASSERT_EQ(result.crushed.size(), 1U);
@@ -179,11 +170,11 @@ TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
     SCOPED_TRACE(kind);
     Passenger by_conveyor(kind, {conveyor(rectangle(-9, -1, 9, 0), 1e300)});
     EXPECT_EQ(by_conveyor.fly({0, 1}, {0, -2}, {}).status, MoveStatus::out_of_range);
-    EXPECT_EQ(by_conveyor.position, Vec2d(0, 1));
+    EXPECT_EQ(by_conveyor.result.position, Vec2d(0, 1));
   }
 }
 
-TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
+TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
   const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
     return refusal_by<NotExpressible>([&] { Rig<double>(kind, {collider}); });
   };
@@ -192,6 +183,9 @@ TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
   for (const std::string_view kind : {"grid", "pixel_colour", "pixel_tile", "mask", "wind_back"})
     for (const ColliderDef& each : {mover, belt})
       EXPECT_EQ(refusal(kind, each), std::string(kind) + " is for scenery that stands still");
+  for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative", "discrete"})
+    EXPECT_EQ(refusal(kind, compare::circle({0, 0}, 1)),
+              std::string(kind) + " knows no circles: make a polygon of them");
   EXPECT_EQ(refusal("bounding_box", mover), "");
   EXPECT_EQ(refusal("bounding_box", belt), "bounding_box carries nobody: there is a conveyor");
 }

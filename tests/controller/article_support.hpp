@@ -63,6 +63,7 @@ struct Rig {
   CharacterDef character;
   std::unique_ptr<Technique<Scalar>> technique;
   Scratch<Scalar> scratch;
+  MoveRequest<Scalar> request;  ///< Of the next step; what is not of its motion stays.
   MoveResult<Scalar> result;
 
   Rig(const TechniqueDef& def, std::vector<ColliderDef> colliders,
@@ -77,7 +78,6 @@ struct Rig {
 
   /// One step of a second: velocity and displacement are the same numbers.
   const MoveResult<Scalar>& move(const Vec2d& position, const Vec2d& displacement) {
-    MoveRequest<Scalar> request;
     request.position = position.template cast<Scalar>();
     request.displacement = displacement.template cast<Scalar>();
     request.velocity = request.displacement;

@@ -99,10 +99,8 @@ Box2<Scalar> square_at(Scalar x, Scalar y, Scalar side) {
 template <class Scalar>
 Boxes<Scalar> tiles(int count, int columns) {
   Boxes<Scalar> all;
-  for (int i = 0; i < count; ++i) {
-    const int row = i / columns;
-    all.push_back(square_at<Scalar>(static_cast<Scalar>(i % columns), static_cast<Scalar>(row), 1));
-  }
+  for (int i = 0; i < count; ++i)
+    all.push_back(square_at<Scalar>(static_cast<Scalar>(i % columns), static_cast<Scalar>(i / columns), 1));
   return all;
 }
 

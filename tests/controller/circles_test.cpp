@@ -1,19 +1,15 @@
-/// Circles as obstacles: distances and times against slow twins, questions, refusals, `float`, memory. What a step
-/// among circles comes to is in tests/situations/circles.json.
+/// Circles as obstacles: distances and times against slow twins, questions, `float`. What a step among circles comes to
+/// is in tests/situations/circles.json.
 #include "geometry/circle.hpp"
 
 #include "campaign/shapes.hpp"
 #include "controller/stepping.hpp"
-#include "support/allocations.hpp"
 #include "support/random_runs.hpp"
-#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace paperproof::stepping {
@@ -172,59 +168,6 @@ TEST(QuestionsAboutACircle, are_answered_with_points_and_normals_by_formula) {
   ASSERT_EQ(stepper.controller.contacts_at(at, 1, context, stepper.scratch, found), 1U);
   EXPECT_NEAR(found[0].separation, 0.9 * std::sqrt(2.0) - 1, 1e-14);
   EXPECT_NEAR((found[0].normal - Vec2d(1, 1).normalized()).norm(), 0, 1e-15);
-}
-
-TEST(CircleDefinition, is_refused_in_words) {
-  const auto with = [](std::vector<Vec2d> points, double radius) -> ColliderDef {
-    return {.shape = ColliderDef::Shape::circle, .points = std::move(points), .radius = radius};
-  };
-  ColliderDef hollow = circle({0, 0}, 1);
-  hollow.holes = {{{0, 0}, {1, 0}, {0, 1}}};
-  ColliderDef one_way = circle({0, 0}, 1);
-  one_way.one_way = Vec2d(0, 1);
-  ColliderDef round_box = rectangle(0, 0, 1, 1);
-  round_box.radius = 1;
-  constexpr const char* of_radius = "the radius of a circle must be above 0 and at most 2e6 m";
-  const std::vector<std::pair<ColliderDef, std::string>> refusals{
-      {with({{0, 0}}, 0), of_radius},
-      {with({{0, 0}}, -1), of_radius},
-      {with({{0, 0}}, std::nan("")), of_radius},
-      {with({{0, 0}}, HUGE_VAL), of_radius},
-      {with({{0, 0}}, 3e6), of_radius},
-      {with({}, 1), "a circle needs exactly 1 point, its centre; it has 0"},
-      {with({{0, 0}, {1, 1}}, 1), "a circle needs exactly 1 point, its centre; it has 2"},
-      {with({{std::nan(""), 0}}, 1), "point 0 has a coordinate that is not a finite number"},
-      {hollow, "a circle cannot have holes"},
-      {one_way, "a circle cannot be one-way"},
-      {round_box, "only a circle has a radius"},
-  };
-  for (const auto& [def, words] : refusals) {
-    const auto make = [&made_of = def] { Scenery<double>{SceneryDef{{made_of}}}; };
-    const std::string said = test::refusal_by<InvalidScenery>(make, "accepted");
-    EXPECT_NE(said.find(words), std::string::npos) << said << ", and not: " << words;
-  }
-  EXPECT_THROW(Scenery<float>(SceneryDef{{circle({0, 0}, 1e-60)}}), InvalidScenery) << "zero in float";
-}
-
-TEST(CirclesForOtherTechniques, are_refused_in_words) {
-  for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative", "discrete"}) {
-    const auto make = [kind] { (void)Stepper<double>({circle({0, 0}, 1)}, {}, kind); };
-    const std::string said = test::refusal_by<NotExpressible>(make, "accepted");
-    EXPECT_NE(said.find("knows no circles"), std::string::npos) << kind << ": " << said;
-  }
-}
-
-TEST(StepsAmongCircles, allocate_nothing) {
-  std::vector<ColliderDef> colliders{rectangle(-9, -1, 9, 0)};
-  for (int i = 0; i < 30; ++i) colliders.push_back(circle({0.5 * i - 7, 0.02 * i}, 0.3, i % 3 == 0 ? 0U : no_mover));
-  CharacterDef character;
-  character.snap = character.step_height = 0.2;
-  Stepper<double> stepper(colliders, character);
-  stepper.at(0, 3).step();
-  const std::size_t before = tests::allocations();
-  for (int i = 0; i < 300; ++i)
-    stepper.step_with_mover_by(0, i % 20 < 10 ? 0.05 : -0.05, {.move = i % 100 < 50 ? 1.0 : -1.0});
-  EXPECT_EQ(tests::allocations(), before);
 }
 
 }  // namespace

@@ -119,10 +119,7 @@ TEST(Move, is_carried_in_the_same_step) {
 }
 
 TEST(Move, lets_the_time_of_a_jump_pass) {
-  CharacterDef character;
-  character.coyote_time = 0.1;
-  character.jump_buffer = 0.1;
-  Stepper<double> climber({ground}, character);
+  Stepper<double> climber({ground}, {.coyote_time = 0.1, .jump_buffer = 0.1});
   climber.at(0, half_height + 1e-3).steps(5);
   for (int step = 0; step < 60; ++step) move(climber, {0.01, 0.1});
   EXPECT_EQ(climber.state.coyote_left, 0);

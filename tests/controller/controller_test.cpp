@@ -36,9 +36,7 @@ Input walking(double move) { return {.move = move}; }
 Input jumping(std::optional<double> move = {}) { return {.move = move, .jump = true}; }
 
 TEST(Falling, is_no_faster_than_the_limit) {
-  CharacterDef character;
-  character.max_fall_speed = 5.25;
-  Stepper<double> faller = without_rounding({box(50, -100, 51, 100)}, character);
+  Stepper<double> faller = without_rounding({box(50, -100, 51, 100)}, {.max_fall_speed = 5.25});
   for (int n = 1; n <= 40; ++n) {
     const double before = faller.state.position.y();
     faller.step();
@@ -50,10 +48,7 @@ TEST(Falling, is_no_faster_than_the_limit) {
 }
 
 TEST(Walking, approaches_the_walking_speed_by_the_acceleration) {
-  CharacterDef character;
-  character.walk_speed = 6;
-  character.acceleration = 24;
-  Stepper<double> walker = standing(character);
+  Stepper<double> walker = standing({.walk_speed = 6, .acceleration = 24});
   double travelled = 0;
   for (int n = 1; n <= 40; ++n) {
     walker.step(walking(1));
@@ -75,11 +70,8 @@ TEST(Walking, approaches_the_walking_speed_by_the_acceleration) {
 }
 
 TEST(Walking, is_steered_in_the_air_by_the_air_acceleration) {
-  CharacterDef character;
-  character.acceleration = 64;
   for (const std::optional<double> in_the_air : {std::optional(8.0), std::optional<double>()}) {
-    character.air_acceleration = in_the_air;
-    Stepper<double> walker = standing(character);
+    Stepper<double> walker = standing({.acceleration = 64, .air_acceleration = in_the_air});
     walker.step(jumping(1));
     EXPECT_EQ(walker.state.velocity.x(), 64 * dt) << "the step that leaves the ground still pushes off";
     walker.step(jumping(1));
@@ -99,9 +91,7 @@ int take_offs(Stepper<double>& jumper, int steps, const Input& input) {
 }
 
 TEST(Jumping, reaches_the_semi_implicit_apex_once_for_one_press) {
-  CharacterDef character;
-  character.jump_speed = 16;
-  Stepper<double> jumper = standing(character);
+  Stepper<double> jumper = standing({.jump_speed = 16});
   const double floor = jumper.state.position.y();
   double highest = 0;
   int jumps = 0;
@@ -116,8 +106,7 @@ TEST(Jumping, reaches_the_semi_implicit_apex_once_for_one_press) {
 }
 
 TEST(Jumping, is_allowed_for_a_while_after_the_edge) {
-  CharacterDef character;
-  character.coyote_time = 6.5 * dt;
+  const CharacterDef character{.coyote_time = 6.5 * dt};
   for (const int late : {0, 6, 7}) {
     Stepper<double> walker = without_rounding({box(-9, -1, 0, 0)}, character);
     walker.at(-1, half_height + px).steps(20);
@@ -135,9 +124,7 @@ TEST(Jumping, is_allowed_for_a_while_after_the_edge) {
 }
 
 TEST(Jumping, does_not_use_up_a_press_while_crushed) {
-  CharacterDef character;
-  character.coyote_time = 0.2;
-  Stepper<double> crushed({box(-9, -1, 9, 0), box(-1, 2, 1, 3, 0)}, character);
+  Stepper<double> crushed({box(-9, -1, 9, 0), box(-1, 2, 1, 3, 0)}, {.coyote_time = 0.2});
   crushed.at(0, half_height + 1e-3).steps(5);
   for (int step = 0; step < 4; ++step) crushed.step_with_mover_by(0, -0.3, {.move = {}, .jump = step > 2});
   ASSERT_TRUE(crushed.state.crushed);
@@ -158,9 +145,7 @@ TEST(Jumping, waits_for_the_ground_as_long_as_its_buffer) {
        {Press{true, true, 6, true}, Press{true, true, 7, false}, Press{true, false, 1, true},
         Press{true, false, 6, true}, Press{true, false, 7, false}, Press{false, true, 30, true},
         Press{false, false, 30, false}}) {
-    CharacterDef character;
-    if (buffered) character.jump_buffer = 6.5 * dt;
-    Stepper<double> faller = standing(character);
+    Stepper<double> faller = standing({.jump_buffer = buffered ? std::optional(6.5 * dt) : std::nullopt});
     faller.at(0, 3).with_velocity(0, 0).state.grounded = false;
     const CharacterState<double> in_air = faller.state;
     int steps_to_land = 0;
@@ -174,8 +159,7 @@ TEST(Jumping, waits_for_the_ground_as_long_as_its_buffer) {
 }
 
 TEST(Jumping, is_lower_when_the_button_is_released) {
-  CharacterDef character;
-  character.jump_cut = 0.5;
+  CharacterDef character{.jump_cut = 0.5};
   Stepper<double> jumper = standing(character);
   jumper.step(jumping());
   const double rising = jumper.state.velocity.y();
@@ -200,10 +184,8 @@ TEST(Jumping, is_lower_when_the_button_is_released) {
 
 /// At rest between walls at x = -2 and x = 2, as far from one of them as it is said.
 Stepper<double> beside_a_wall(std::string_view kind, double gap, double toward, bool rule) {
-  CharacterDef character;
-  character.no_jump_toward_wall = rule;
-  Stepper<double> jumper =
-      without_rounding({box(-100, -1, 100, 0), box(2, 0, 3, 9), box(-3, 0, -2, 9)}, character, kind);
+  Stepper<double> jumper = without_rounding({box(-100, -1, 100, 0), box(2, 0, 3, 9), box(-3, 0, -2, 9)},
+                                            {.no_jump_toward_wall = rule}, kind);
   jumper.at(toward * (2 - half_width - gap), half_height).steps(40);
   return jumper;
 }
@@ -266,9 +248,7 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   Stepper<double> anywhere({box(-9, -9, 9, 0)});
   anywhere.state.last_free.x() = infinity;
   EXPECT_EQ(anywhere.at(0, 3).step(), StepStatus::moved) << "a last free position that is not valid";
-  CharacterDef character;
-  character.walk_speed = -1;
-  EXPECT_THROW(Stepper<double>({}, character), InvalidCharacter);
+  EXPECT_THROW(Stepper<double>({}, {.walk_speed = -1}), InvalidCharacter);
 }
 
 TEST(Refusals, spare_a_wish_that_float_cannot_hold_as_it_is_limited_to_one) {

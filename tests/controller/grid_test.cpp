@@ -24,28 +24,18 @@ Vec2d centre_of(double column, double row) { return {column + 0.5, row + 0.5}; }
 
 /// Hands the remainder on, as the controller does.
 template <class Scalar>
-struct GridWalk {
-  Rig<Scalar> rig;
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};
-
+struct GridWalk : Rig<Scalar> {
   GridWalk(std::vector<ColliderDef> colliders, const Vec2d& start)
-      : rig("grid", std::move(colliders), {}, unit_square()), position(start.cast<Scalar>()) {}
-
+      : Rig<Scalar>("grid", std::move(colliders), {}, unit_square()) {
+    this->result.position = start.cast<Scalar>();
+    this->request.dt = Scalar(1) / 64;
+  }
   const MoveResult<Scalar>& move(const Vec2d& displacement) {
-    MoveRequest<Scalar> request;
-    request.position = position;
-    request.displacement = displacement.cast<Scalar>();
-    request.velocity = request.displacement;
-    request.technique_memory = remainder;
-    request.dt = Scalar(1) / 64;
-    rig.technique->move(request, rig.scratch, rig.result);
-    position = rig.result.position;
-    remainder = rig.result.technique_memory;
-    return rig.result;
+    this->request.technique_memory = this->result.technique_memory;
+    return Rig<Scalar>::move(this->result.position.template cast<double>(), displacement);
   }
   [[nodiscard]] bool is_in(double column, double row) const {
-    return position == centre_of(column, row).template cast<Scalar>();
+    return this->result.position == centre_of(column, row).template cast<Scalar>();
   }
 };
 
@@ -99,7 +89,7 @@ TYPED_TEST(GridMoves, end_exactly_in_the_next_square_once_half_of_it_was_wanted)
     walk.move({0.125, 0});
     const double column = std::floor(0.125 * step + 0.5);
     ASSERT_TRUE(walk.is_in(column, 0)) << "step " << step;
-    ASSERT_EQ(walk.remainder.x(), static_cast<TypeParam>(0.125 * step - column));
+    ASSERT_EQ(walk.result.technique_memory.x(), static_cast<TypeParam>(0.125 * step - column));
   }
 }
 
@@ -107,16 +97,16 @@ TYPED_TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
   GridWalk<TypeParam> walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
   for (int step = 0; step < 11; ++step) walk.move({0.125, 0});
   ASSERT_TRUE(walk.is_in(1, 0));
-  ASSERT_EQ(walk.remainder.x(), TypeParam(0.375));
+  ASSERT_EQ(walk.result.technique_memory.x(), TypeParam(0.375));
   // 6 m/s, 64 steps per second: 3/32 m per step, 4 steps.
   for (int step = 1; step <= 6; ++step) {
     walk.move({0, 0});
-    EXPECT_EQ(walk.remainder.x(), std::max(TypeParam(0), TypeParam(0.375) - TypeParam(step) * 3 / 32));
+    EXPECT_EQ(walk.result.technique_memory.x(), std::max(TypeParam(0), TypeParam(0.375) - TypeParam(step) * 3 / 32));
     EXPECT_TRUE(walk.is_in(1, 0)) << "step " << step;
   }
   for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
   for (int step = 0; step < 2; ++step) walk.move({0, 0});
-  EXPECT_EQ(walk.remainder.x(), TypeParam(-0.3125 + 0.1875)) << "from the other side, too";
+  EXPECT_EQ(walk.result.technique_memory.x(), TypeParam(-0.3125 + 0.1875)) << "from the other side, too";
 }
 
 TYPED_TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
@@ -161,12 +151,12 @@ TYPED_TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square
   const std::size_t before_all = tests::allocations();
   for (int step = 0; step < 100'000; ++step) {
     if (step % 20 == 0) wanted = random.point(1.5);
-    const Vec2<TypeParam> before = walk.position;
+    const Vec2<TypeParam> before = walk.result.position;
     contacts += walk.move(wanted).contacts.empty() ? 0 : 1;
-    const TypeParam way = (walk.position - before).cwiseAbs().sum();
+    const TypeParam way = (walk.result.position - before).cwiseAbs().sum();
     ASSERT_TRUE(way == 0 || way == 1) << "seed 31, step " << step;
-    const std::pair here{static_cast<int>(std::floor(walk.position.x())),
-                         static_cast<int>(std::floor(walk.position.y()))};
+    const std::pair here{static_cast<int>(std::floor(walk.result.position.x())),
+                         static_cast<int>(std::floor(walk.result.position.y()))};
     ASSERT_FALSE(solid.contains(here)) << "seed 31, step " << step;
     moves += way == 0 ? 0 : 1;
     visited.at(static_cast<std::size_t>(24 * here.first + here.second)) = true;

@@ -15,20 +15,6 @@ namespace {
 using compare::circle;
 using compare::half_height;
 
-TEST(CircleInALevel, is_stood_on_replaced_and_removed) {
-  Played ride({{circle({0, -5}, 5)}}, {0, 3});
-  ride.steps(60);
-  EXPECT_TRUE(ride.state.grounded);
-  EXPECT_NEAR(ride.state.position.y(), half_height, 1e-6);
-  ASSERT_TRUE(ride.level.replace(0, circle({0, -5}, 4)));
-  ride.steps(60);
-  EXPECT_NEAR(ride.state.position.y(), half_height - 1, 1e-6);
-  ASSERT_TRUE(ride.level.remove(0));
-  ride.steps(60);
-  EXPECT_FALSE(ride.state.grounded);
-  EXPECT_LT(ride.state.position.y(), -2);
-}
-
 TEST(CircleInALevel, of_a_hundred_kilometres_is_found_where_it_is_touched) {
   Played ride({{circle({3e4, -1e5}, std::hypot(3e4, 1e5))}}, {0, 3});
   ride.steps(60);

@@ -17,40 +17,23 @@ namespace {
 
 using test::Random;
 
-constexpr double gravity = -30;
-
 /// One character among scenery that stands still.
-class Player {
- public:
-  Player(const SceneryDef& scenery, const CharacterDef& character)
-      : scenery_(scenery), controller_(scenery_, character), scratch_(controller_.make_scratch()) {}
-
-  /// @param move absent: no steering.
-  StepStatus step(std::optional<double> move, double dt, bool jump = false) {
-    return controller_.step(state, {.move = move, .jump = jump}, {Vec2d{0, gravity}, dt}, scratch_, report);
+struct Player : Stepper<double> {
+  Player(const SceneryDef& def, const CharacterDef& character) : Stepper(def.colliders, character) {
+    gravity = {0, -30};
   }
-
+  /// @param move absent: no steering.
+  void play(std::optional<double> move, double seconds, bool jump = false) {
+    dt = seconds;
+    step({.move = move, .jump = jump});
+  }
   /// The last step met ground that is walked on.
   [[nodiscard]] bool landed() const {
-    const double least_up = controller_.character().walkable_cosine<double>();
+    const double least_up = controller.character().walkable_cosine<double>();
     return state.grounded || std::any_of(report.move.contacts.begin(), report.move.contacts.end(),
                                          [&](const Contact<double>& met) { return met.normal.y() >= least_up; });
   }
-
-  CharacterState<double> state;
-  StepReport<double> report;
-
- private:
-  Scenery<double> scenery_;
-  Controller<double> controller_;
-  Scratch<double> scratch_;
 };
-
-CharacterDef character_for(Random& random) {
-  CharacterDef character;
-  character.shape = test::play_shape(random.integer(0, 2));
-  return character;
-}
 
 // Plays until something is touched in the air, then takes the same step with the key to the left, to the right, at 0
 // and without a key. Walkable ground ends a fall, and is no part of the promise.
@@ -63,23 +46,23 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
     const auto level = test::all_play_levels[seed % test::all_play_levels.size()];
     const SceneryDef scenery = test::play_level(level, random);
     const double dt = 1 / std::array{60.0, 240.0, 1000.0, 10000.0}[seed % 4];
-    Player player(scenery, character_for(random));
+    Player player(scenery, of_shape(test::play_shape(random.integer(0, 2))));
     player.state.position = {random.between(-25, 25), 12};
     double move = 0;
     for (int i = 0; i < 600 && states < wanted; ++i) {
       if (random.chance(0.03)) move = random.integer(-1, 1);
-      player.step(move, std::max(dt, 1 / 240.0), random.chance(0.02));
+      player.play(move, std::max(dt, 1 / 240.0), random.chance(0.02));
       if (player.state.grounded || player.report.move.contacts.empty()) continue;
       ++states;
       const CharacterState<double> touching = player.state;
-      player.step(std::nullopt, dt);
+      player.play(std::nullopt, dt);
       const double fall = player.state.position.y() - touching.position.y();
       const bool falls = player.report.requested.y() < 0;
       bool landed = player.landed();
       double highest = fall;
       for (const double key : {-1.0, 0.0, 1.0}) {
         player.state = touching;
-        player.step(key, dt);
+        player.play(key, dt);
         landed = landed || player.landed();
         highest = std::max(highest, player.state.position.y() - touching.position.y());
       }
@@ -93,19 +76,6 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
     }
   }
   EXPECT_GE(falling, states / 4);
-}
-
-/// Holds a key for five seconds, and tells after which step nothing changed any more.
-int comes_to_rest_after(Player& player, double key, double rate) {
-  const int steps = static_cast<int>(5 * rate);
-  int since = 0;
-  for (int i = 0; i < steps; ++i) {
-    const Vec2d before = player.state.position;
-    const bool grounded = player.state.grounded;
-    player.step(key, 1 / rate);
-    if (player.state.position != before || player.state.grounded != grounded) since = i + 1;
-  }
-  return since;
 }
 
 TEST(DeadEnds, bring_a_walk_to_rest) {
@@ -122,63 +92,55 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
     std::vector<ColliderDef> scenery{rectangle(-20, -2, length, 0), polygon({{0, 0}, {length, 0}, foot}),
                                      polygon({{length, -2}, {length + 20, -2}, {length + 20, 14}, top, foot})};
     if (random.chance(0.3)) scenery.push_back(rectangle(-20, height + 1.5, length + 3, height + 3));
-    CharacterDef character;
-    character.shape = test::play_shape(static_cast<int>(seed % 2));
+    CharacterDef character = of_shape(test::play_shape(static_cast<int>(seed % 2)));
     if (random.chance(0.5)) character.snap = 0.3;
     Player player({scenery}, character);
     player.state.position = {-2, 0.7};
-    const int rest = comes_to_rest_after(player, 1, rate);
+    int rest = 0;  // the number of steps after which nothing changed any more
+    for (int i = 0; i < 5 * rate; ++i) {
+      const Vec2d before = player.state.position;
+      const bool grounded = player.state.grounded;
+      player.play(1, 1 / rate);
+      if (player.state.position != before || player.state.grounded != grounded) rest = i + 1;
+    }
     ASSERT_LT(rest, 4 * rate) << "seed " << seed << ", slope " << slope / degree << ", wall leans " << lean / degree;
     ASSERT_TRUE(player.state.grounded) << "seed " << seed << ", slope " << slope / degree << ", wall leans "
                                        << lean / degree;
   }
 }
 
-/// A slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
-class ExactSlope {
- public:
-  explicit ExactSlope(std::uint64_t seed) : random_(seed) {
-    do {
-      along_ = {static_cast<double>(random_.integer(1, 64)), static_cast<double>(random_.integer(1, 64))};
-      if (random_.chance(0.2)) along_.y() = along_.x();
-    } while (along_.y() < 0.1 * along_.x() || along_.y() > 4 * along_.x());
-    sign_ = random_.chance(0.5) ? 1 : -1;
-    const double sixteenths = random_.integer(1, 400) / 16.0;
-    const Vec2d far{random_.integer(-16000, 16000) / 16.0, random_.integer(-16000, 16000) / 16.0};
-    foot_ = random_.chance(0.3) ? Vec2d(0, 0) : far;
-    // At least 6 m wide, and exact.
-    top_ = foot_ + (sixteenths + std::ceil(6 / along_.x())) * Vec2d(sign_ * along_.x(), along_.y());
-  }
-
-  /// @param less of the limit than what it is exactly [radians].
-  [[nodiscard]] bool is_climbed(double less) const {
-    CharacterDef character;
-    character.max_climb_degrees = along_.x() == along_.y() && less == 0
-                                      ? 45
-                                      : (std::atan2(along_.y(), along_.x()) - less) * 180 / std::numbers::pi;
-    const double behind = foot_.x() - sign_ * 20;
-    Player player({{polygon({foot_, top_, {top_.x(), foot_.y() - 1}, {behind, foot_.y() - 1}, {behind, foot_.y()}})}},
-                  character);
-    player.state.position = foot_ + Vec2d{-sign_, 0.7};
-    for (int i = 0; i < 60; ++i) player.step(sign_, 1.0 / 60);
-    return player.state.position.y() > foot_.y() + half_height + 0.1;
-  }
-
- private:
-  Random random_;
-  Vec2d along_;
-  double sign_ = 1;
-  Vec2d foot_;
-  Vec2d top_;
-};
+/// On a slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
+/// @param less of the limit than what it is exactly [radians].
+bool is_climbed(std::uint64_t seed, double less) {
+  Random random(seed);
+  Vec2d along;
+  do {
+    along = {static_cast<double>(random.integer(1, 64)), static_cast<double>(random.integer(1, 64))};
+    if (random.chance(0.2)) along.y() = along.x();
+  } while (along.y() < 0.1 * along.x() || along.y() > 4 * along.x());
+  const double sign = random.chance(0.5) ? 1 : -1;
+  const double sixteenths = random.integer(1, 400) / 16.0;
+  const Vec2d far{random.integer(-16000, 16000) / 16.0, random.integer(-16000, 16000) / 16.0};
+  const Vec2d foot = random.chance(0.3) ? Vec2d(0, 0) : far;
+  // At least 6 m wide, and exact.
+  const Vec2d top = foot + (sixteenths + std::ceil(6 / along.x())) * Vec2d(sign * along.x(), along.y());
+  CharacterDef character;
+  character.max_climb_degrees =
+      along.x() == along.y() && less == 0 ? 45 : (std::atan2(along.y(), along.x()) - less) * 180 / std::numbers::pi;
+  const double behind = foot.x() - sign * 20;
+  Player player({{polygon({foot, top, {top.x(), foot.y() - 1}, {behind, foot.y() - 1}, {behind, foot.y()}})}},
+                character);
+  player.state.position = foot + Vec2d{-sign, 0.7};
+  player.steps(60, {.move = sign});
+  return player.state.position.y() > foot.y() + half_height + 0.1;
+}
 
 TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
   constexpr double microradian = 1e-6;
   const std::uint64_t cases = test::sampled(10000U);
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
-    const ExactSlope slope(seed);
-    ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;
-    ASSERT_FALSE(slope.is_climbed(microradian)) << "seed " << seed;
+    ASSERT_TRUE(is_climbed(seed, 0)) << "seed " << seed;
+    ASSERT_FALSE(is_climbed(seed, microradian)) << "seed " << seed;
   }
 }
 

@@ -66,15 +66,12 @@ Path random_path(Random& random, const Vec2d& from) {
   return path;
 }
 
-struct Seen {
-  std::vector<Event> events{};
-  bool overflowed = false;
-};
+using Seen = Sensors<double>::Events;
 
 Seen seen_by(const Sensors<double>& sensors, const Path& path, const Motions& motions, Candidates<double>& candidates) {
-  Sensors<double>::Events events;
+  Seen events;
   sensors.observe(path, motions, candidates, events);
-  return {{events.begin(), events.end()}, events.overflowed()};
+  return events;
 }
 
 /// Each in a scenery with nothing else in it, in order of time.
@@ -88,8 +85,7 @@ std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, cons
     const Scenery<double> scenery(alone);
     const Sensors<double> watch(scenery, CharacterShape::article());
     Candidates<double> fresh = watch.make_candidates();
-    for (const Event& event : seen_by(watch, path, motion, fresh).events)
-      all.push_back({i, event.change, event.fraction});
+    for (const Event& event : seen_by(watch, path, motion, fresh)) all.push_back({i, event.change, event.fraction});
   }
   std::ranges::stable_sort(all, {}, &Event::fraction);
   return all;
@@ -138,13 +134,13 @@ TEST(SensorsNearby, are_those_of_a_look_at_each_alone) {
       const Motions motions = random_motions(random);
       at = path.back().position;
       quiet += candidates.quiet.contains(PieceFinder<double>::positions_seen(path, {}));
-      const auto [events, overflowed] = seen_by(watch, path, motions, candidates);
+      const Seen events = seen_by(watch, path, motions, candidates);
       std::vector<Event> all = seen_one_by_one(def, path, motions);
-      ASSERT_EQ(overflowed, all.size() > Sensors<double>::Events::capacity()) << "seed " << seed << ", step " << step;
-      all.resize(std::min(all.size(), Sensors<double>::Events::capacity()));
+      ASSERT_EQ(events.overflowed(), all.size() > Seen::capacity()) << "seed " << seed << ", step " << step;
+      all.resize(std::min(all.size(), Seen::capacity()));
       ASSERT_TRUE(all_same_bits(events, all)) << "seed " << seed << ", step " << step;
       some += !events.empty();
-      too_many += overflowed;
+      too_many += events.overflowed();
       for (std::size_t i = 1; i < events.size(); ++i)
         at_once += events[i].fraction == events[i - 1].fraction && events[i].sensor != events[i - 1].sensor;
     }

@@ -13,13 +13,11 @@ namespace {
 constexpr Tolerances<double> tolerances{};
 
 TEST(Wedge, of_two_movers_ends_a_fall_and_is_not_climbed) {
-  CharacterDef steep_at_once;
-  steep_at_once.max_climb_degrees = 20;
   for (const double side : {1.0, -1.0}) {
     // It falls onto the steeper one, and what it slides with points up the other.
     const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}}, 0);
     const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}}, 1);
-    Stepper<double> fallen({flatter, steeper}, steep_at_once);
+    Stepper<double> fallen({flatter, steeper}, {.max_climb_degrees = 20});  // both are steep
     fallen.movers = {{{0, 0}, {-8e-4 * side, 0}}, {{0, 0}, {0, -9e-4}}};
     fallen.at(0.3 * side, 2).with_velocity(0, -300);
     fallen.step();
@@ -92,8 +90,7 @@ TEST(GoingCorner, holds_a_walker_as_one_that_stands_does) {
     article_tests::Random random(seed);
     Corner corner{random.between(-40, 40), random.between(50, 100)};
     const double move = random.between(0.5, 1);
-    CharacterDef character;
-    character.snap = 0.2;  // without it a walker hops down steep ground
+    const CharacterDef character{.snap = 0.2};  // without it a walker hops down steep ground
     const auto [place, velocity, steps] = corner.play(character, move);
     const double across = random.between(-3, 3);  // compilers differ in the order of arguments
     corner.velocity = Vec2d(across, random.between(-3, 3));

@@ -12,9 +12,7 @@ namespace paperproof::stepping {
 namespace {
 
 TEST(Float, meets_the_scenes_within_its_own_tolerances) {
-  CharacterDef pixel;
-  pixel.shape = single_pixel();
-  Stepper<float> bullet({rectangle(-100 * px, -5 * px, 100 * px, 0)}, pixel);
+  Stepper<float> bullet({rectangle(-100 * px, -5 * px, 100 * px, 0)}, of_shape(single_pixel()));
   const MoveResult<float>& move = bullet.at(0, 30.5 * px).fly(0, -50 * px);
   ASSERT_EQ(move.contacts.size(), 1U);
   EXPECT_NEAR(move.contacts[0].fraction, 0.6F, 4 * std::numeric_limits<float>::epsilon());
@@ -41,24 +39,18 @@ TEST(Float, meets_the_scenes_within_its_own_tolerances) {
 }
 
 TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
-  const Scenery<double> scenery(SceneryDef{{rectangle(-4, -1, 4, 0)}});
   for (const int iterations : {1, 2, 3}) {
-    const Controller<double> controller(scenery, CharacterDef{}, SweepDef{.iterations = iterations});
-    Scratch<double> scratch = controller.make_scratch();
-    StepReport<double> report;
-    CharacterState<double> state;
-    state.position = {0, 2};
-    for (int step = 0; step < 200; ++step) controller.step(state, Input{}, {{0, -30}, 1.0 / 60}, scratch, report);
-    EXPECT_EQ(state.velocity.y(), 0) << iterations;
-    EXPECT_TRUE(state.grounded) << iterations;
+    Stepper<double> faller({rectangle(-4, -1, 4, 0)}, {}, {.sweep_iterations = iterations});
+    faller.gravity = {0, -30};
+    faller.at(0, 2).steps(200);
+    EXPECT_EQ(faller.state.velocity.y(), 0) << iterations;
+    EXPECT_TRUE(faller.state.grounded) << iterations;
   }
 }
 
 /// Two floors, and a step down to a third one.
 TEST(Ground, names_the_collider_that_is_stood_on) {
-  CharacterDef character;
-  character.snap = 0.5;
-  Stepper<double> walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, character);
+  Stepper<double> walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, {.snap = 0.5});
   walker.at(-1, half_height + 0.01).steps(20);
   std::vector<ColliderIndex> grounds;
   for (int step = 0; step < 50; ++step) {
@@ -106,10 +98,8 @@ double fraction_at(double scale) {
   std::vector<Vec2d> points;
   const CharacterShape article = CharacterShape::article();
   for (const Vec2d& point : article.points()) points.push_back(point * scale);
-  CharacterDef character;
-  character.shape = CharacterShape(points);
   const auto at = [scale](double x, double y) { return Vec2d{x * scale, y * scale}; };
-  Stepper<double> flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, character);
+  Stepper<double> flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, of_shape(CharacterShape(points)));
   const MoveResult<double>& move = flyer.at(0.3 * scale, 0.2 * scale).fly(7.7 * scale, -1.3 * scale);
   EXPECT_FALSE(move.contacts.empty()) << scale;
   return move.contacts.empty() ? -1 : move.contacts[0].fraction;

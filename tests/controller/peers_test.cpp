@@ -17,7 +17,7 @@ constexpr double stop = Tolerances<double>{}.stop;
 constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
 
 CharacterDef box_character() {
-  return article_tests::of_shape(CharacterShape(rectangle(-half_width, -half_height, half_width, half_height).points));
+  return of_shape(CharacterShape(rectangle(-half_width, -half_height, half_width, half_height).points));
 }
 
 // ------------------------------------------------------------------------------------------------------- features
@@ -126,9 +126,7 @@ TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
   // A lift that goes 4 m/s up, then 4 m/s down, at once. The jump is pressed at any time around that.
   for (const double first : {4.0, -4.0}) {
     for (int pressed = 0; pressed < 20; ++pressed) {
-      CharacterDef character;
-      character.snap = 0.2;
-      Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, character);
+      Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, {.snap = 0.2});
       rider.gravity = {0, -30};
       rider.at(0, half_height + stop).step();
       double speed = 0;
@@ -166,8 +164,7 @@ TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
   std::array<Contact<double>, 4> found;
   const std::size_t count =
       idle.controller.contacts_at(idle.state.position, touch, {.dt = idle.dt}, idle.scratch, found);
-  EXPECT_TRUE(std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
-                          [](const Contact<double>& contact) { return contact.side == Side::right; }));
+  EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact<double>::side), 0);
 }
 
 }  // namespace

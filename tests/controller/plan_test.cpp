@@ -15,6 +15,7 @@ namespace paperproof {
 namespace {
 
 using compare::box;
+using stepping::Stepper;
 
 const ColliderDef ground = box(-10, -1, 10, 0);
 /// Nothing is known to happen.
@@ -88,55 +89,45 @@ TEST(Plan, chooses_the_broad_phase_by_the_number_of_what_stands_still) {
 }
 
 TEST(Stages, that_were_left_out_make_what_they_were_for_invalid_input) {
-  const Scenery<double> scenery(SceneryDef{{ground}});
-  const Controller<double> controller(scenery, CharacterDef{}, {.stages = {.jump = false, .gravity = false}});
-  Scratch<double> scratch = controller.make_scratch();
-  CharacterState<double> state;
-  state.position = {0, 3};
-  const CharacterState<double> before = state;
-  StepReport<double> report;
-  const auto step = [&](bool jump, double gravity) {
-    return controller.step(state, {.move = 0.0, .jump = jump}, {{0, gravity}, 0.1}, scratch, report);
+  Stepper<double> stepper({ground}, {}, {.stages = {.jump = false, .gravity = false}});
+  const CharacterState<double> before = stepper.at(0, 3).state;
+  const auto step = [&stepper](bool jump, double gravity) {
+    stepper.gravity.y() = gravity;
+    return stepper.step({.move = 0.0, .jump = jump});
   };
   EXPECT_EQ(step(true, 0), StepStatus::invalid_input);
   EXPECT_EQ(step(false, -1e-300), StepStatus::invalid_input);
   EXPECT_EQ(step(false, std::numeric_limits<double>::quiet_NaN()), StepStatus::invalid_input);
-  EXPECT_EQ(state, before);
+  EXPECT_EQ(stepper.state, before);
   EXPECT_EQ(step(false, 0), StepStatus::moved);
 }
 
 /// Steps at random, by the plan and with every stage. @returns how many stages the plan left out.
 template <class Scalar>
 std::size_t run_both(const SceneryDef& def, const Foreseen& foreseen, test::Random& random) {
-  const Scenery<Scalar> scenery(def);
   CharacterDef character;
   character.snap = random.chance(0.3) ? 0.3 : 0;
   character.step_height = random.chance(0.3) ? 0.4 : 0;
-  const Plan plan = make_plan(scenery, foreseen);
-  const Controller<Scalar> planned(scenery, character, {.broad_phase = plan.broad_phase, .stages = plan.stages});
-  const Controller<Scalar> full(scenery, character);
-  Scratch<Scalar> planned_scratch = planned.make_scratch();
-  Scratch<Scalar> full_scratch = full.make_scratch();
-  CharacterState<Scalar> a;
-  a.position = random.point(4).cast<Scalar>();
-  a.velocity = random.point(20).cast<Scalar>();
-  CharacterState<Scalar> b = a;
-  StepReport<Scalar> one;
-  StepReport<Scalar> two;
-  std::vector<test::Wanderer> wanderers(scenery.mover_count());
-  std::vector<MoverMotion<Scalar>> movers(scenery.mover_count());
-  const StepContext<Scalar> context{{0, Scalar(foreseen.gravity ? -30 : 0)}, Scalar(1) / 60, movers};
+  const Plan plan = make_plan(Scenery<Scalar>(def), foreseen);
+  Stepper<Scalar> planned(def.colliders, character, {.broad_phase = plan.broad_phase, .stages = plan.stages});
+  Stepper<Scalar> full(def.colliders, character);
+  full.state.position = random.point(4).cast<Scalar>();
+  full.state.velocity = random.point(20).cast<Scalar>();
+  planned.state = full.state;
+  planned.gravity.y() = full.gravity.y() = Scalar(foreseen.gravity ? -30 : 0);
+  std::vector<test::Wanderer> wanderers(full.movers.size());
   Input input;
   for (int step = 0; step < 20; ++step) {
     if (random.chance(0.2)) input.move = random.integer(-1, 1);
     if (foreseen.jump && random.chance(0.2)) input.jump = !input.jump;
-    for (std::size_t k = 0; k < movers.size(); ++k) {
-      const Vec2d at = movers[k].to.template cast<double>();
-      movers[k] = {movers[k].to, next_offset(wanderers[k], at, random).template cast<Scalar>()};
+    for (std::size_t k = 0; k < wanderers.size(); ++k) {
+      const Vec2d at = full.movers[k].to.template cast<double>();
+      full.movers[k] = {full.movers[k].to, next_offset(wanderers[k], at, random).template cast<Scalar>()};
     }
-    planned.step(a, input, context, planned_scratch, one);
-    full.step(b, input, context, full_scratch, two);
-    EXPECT_TRUE(stepping::same_step(a, one, b, two)) << "step " << step;
+    planned.movers = full.movers;
+    planned.step(input);
+    full.step(input);
+    EXPECT_TRUE(stepping::same_step(planned.state, planned.report, full.state, full.report)) << "step " << step;
   }
   return plan.omitted.size();
 }

@@ -13,6 +13,7 @@ namespace paperproof {
 namespace {
 
 using compare::chain;
+using compare::circle;
 using compare::polygon;
 using test::one_way;
 using test::Points;
@@ -20,6 +21,9 @@ using test::refusal_of;
 
 ColliderDef with_holes(const Points& outline, const std::vector<Points>& holes) {
   return {.points = outline, .holes = holes};
+}
+ColliderDef circle_of(const Points& points) {
+  return {.shape = ColliderDef::Shape::circle, .points = points, .radius = 1};
 }
 /// Whether sides have a common point. Coordinates are whole or half numbers: nothing is rounded.
 bool sides_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
@@ -74,11 +78,15 @@ TEST(Refusals, reasons_are_words_a_level_designer_understands) {
       "the outline crosses itself: the side from (0, 0) to (2, 2) meets the side from (2, 0) to (0, 2)";
   ColliderDef one_way_sensor = one_way(polygon(square), {0, 1});
   one_way_sensor.sensor = true;
+  ColliderDef hollow = circle({0, 0}, 9);
+  hollow.holes = {triangle};
+  ColliderDef round_box = polygon(square);
+  round_box.radius = 1;
   struct Refused {
     ColliderDef def;
-    std::string reason;  ///< Or how it begins.
+    std::string reason;  ///< Or how it begins, with a blank at its end.
   };
-  const std::vector<Refused> all{
+  std::vector<Refused> all{
       {polygon({{0, 0}, {1, 0}}), "the outline needs at least 3 points, it has 2"},
       {polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}}),
        "the outline has the same point twice in a row: points 1 and 2 (counted from 0) are both (1, 0)"},
@@ -99,10 +107,17 @@ TEST(Refusals, reasons_are_words_a_level_designer_understands) {
       {one_way_sensor, "a sensor cannot be one-way"},
       {chain({{0, 0}}), "a chain needs at least 2 points, it has 1"},
       {chain({{0, 0}, {0, 0}}),
-       "the chain has the same point twice in a row: points 0 and 1 (counted from 0) are both (0, 0)"}};
+       "the chain has the same point twice in a row: points 0 and 1 (counted from 0) are both (0, 0)"},
+      {circle_of({}), "a circle needs exactly 1 point, its centre; it has 0"},
+      {circle_of({{0, 0}, {1, 1}}), "a circle needs exactly 1 point, its centre; it has 2"},
+      {hollow, "a circle cannot have holes"},
+      {one_way(circle({0, 0}, 1), {0, 1}), "a circle cannot be one-way: "},
+      {round_box, "only a circle has a radius"}};
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL, 3e6})
+    all.push_back({circle({0, 0}, bad), "the radius of a circle must be above 0 and at most 2e6 m, not "});
   for (const auto& [def, reason] : all) {
     const std::string said = refusal_of({{def}});
-    EXPECT_EQ(reason.ends_with(": ") ? said.substr(0, reason.size()) : said, reason);
+    EXPECT_EQ(reason.ends_with(' ') ? said.substr(0, reason.size()) : said, reason);
   }
 }
 
@@ -115,14 +130,16 @@ TEST(Refusals, coordinates_that_are_not_finite_or_too_far_out_are_named) {
     EXPECT_EQ(refusal_of({{with_holes({{0, 0}, {9, 0}, {0, 9}}, {{{1, 1}, {2, 1}, {bad, 2}}})}}),
               "point 2 of hole 0" + reason);
     EXPECT_EQ(refusal_of({{one_way(chain({{0, 0}, {1, 0}}), {bad, 1})}}), "one_way" + reason);
+    EXPECT_EQ(refusal_of({{circle({bad, 0}, 1)}}), "point 0" + reason);
   }
   EXPECT_EQ(refusal_of({{polygon({{0, 0}, {2e6, 0}, {0, -2e6}})}}), "accepted");
 }
 
-TEST(Refusals, a_polygon_that_rounding_to_float_destroys_is_refused_with_the_reason) {
-  const SceneryDef thin{{compare::box(1000, 0, 1000 + 1e-6, 1)}};
-  EXPECT_EQ(refusal_of<double>(thin), "accepted");
-  EXPECT_NE(refusal_of<float>(thin).find("after rounding the coordinates"), std::string::npos);
+TEST(Refusals, what_rounding_to_float_destroys_is_refused_with_the_reason) {
+  for (const ColliderDef& thin : {compare::box(1000, 0, 1000 + 1e-6, 1), circle({0, 0}, 1e-60)}) {
+    EXPECT_EQ(refusal_of<double>({{thin}}), "accepted");
+    EXPECT_NE(refusal_of<float>({{thin}}).find("after rounding the coordinates"), std::string::npos);
+  }
 }
 
 TEST(Refusals, the_collider_that_was_refused_is_named) {

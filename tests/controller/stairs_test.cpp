@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 namespace paperproof::stepping {
 namespace {
 
@@ -19,12 +17,9 @@ std::vector<ColliderDef> stairs(double rise, double tread, int count) {
 
 /// On most of these the foot is wider than a tread, or a flank meets the next corner before the foot is on the stair.
 TEST(StepHeight, stairs_of_any_tread_are_climbed_and_descended) {
-  CharacterDef eight;
-  eight.step_height = 0.4;
-  eight.snap = 0.5;
+  const CharacterDef eight{.snap = 0.5, .step_height = 0.4};
   CharacterDef four = eight;
-  four.shape =
-      CharacterShape(std::array{Vec2d(-0.3, -0.625), Vec2d(0.3, -0.625), Vec2d(0.3, 0.625), Vec2d(-0.3, 0.625)});
+  four.shape = CharacterShape(rectangle(-0.3, -0.625, 0.3, 0.625).points);
   for (const CharacterDef& character : {eight, four}) {
     for (const double rise : {0.05, 0.1, 0.15, 0.2, 0.25}) {
       for (const double tread : {0.15, 0.2, 0.25, 0.3, 0.4}) {

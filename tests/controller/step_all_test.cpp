@@ -15,9 +15,10 @@ using compare::box;
 
 constexpr std::size_t count = 300;  // more than each of seven threads takes at a time
 
-/// Characters at random among a floor, slopes, a lift and a sensor, and what each wants in each step.
+/// Characters that climb and follow the ground, at random among a floor, slopes, circles, a lift and a sensor, and what
+/// each wants in each step.
 struct Many {
-  Stepper<double> one{level()};
+  Stepper<double> one{level(), {.snap = 0.2, .step_height = 0.2}};
   std::vector<CharacterState<double>> states = std::vector<CharacterState<double>>(count);
   std::vector<Input> inputs = std::vector<Input>(count);
   std::vector<StepReport<double>> reports = std::vector<StepReport<double>>(count);
@@ -33,6 +34,7 @@ struct Many {
     std::vector<ColliderDef> colliders{box(-20, -1, 20, 0), box(4, 0.5, 6, 1, 0), box(8, 0, 10, 2)};
     colliders.back().sensor = true;
     for (int x = -15; x < 15; x += 6) colliders.push_back(polygon({{x + 0.0, 0}, {x + 1.0, 0}, {x + 1.0, 0.5}}));
+    for (int x = -18; x < -13; ++x) colliders.push_back(compare::circle({x + 0.5, 0}, 0.3, x % 2 == 0 ? 0U : no_mover));
     return colliders;
   }
   void begin(int step) {
@@ -80,9 +82,7 @@ TEST(StepAll, gives_the_bits_of_single_steps_with_any_number_of_scratches_and_wi
 TEST(StepAll, leaves_out_of_a_report_what_has_no_room_beside_the_scratch) {
   std::vector<ColliderDef> needles;
   for (int i = 0; i < 50; ++i) needles.push_back(box(0.012 * i - 0.3, -1, 0.012 * i - 0.294, 0));
-  CharacterDef character;
-  character.shape = CharacterShape(box(-0.3, -0.3, 0.3, 0.3).points);
-  Stepper<double> stepper(needles, character);
+  Stepper<double> stepper(needles, of_shape(CharacterShape(box(-0.3, -0.3, 0.3, 0.3).points)));
   std::vector<CharacterState<double>> states(2, stepper.at(0, 0.4).with_velocity(0, -20).state);
   std::vector<StepReport<double>> reports(2);
   reports[1].move.contacts.reserve(100);

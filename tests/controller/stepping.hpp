@@ -9,6 +9,7 @@
 namespace paperproof::stepping {
 
 using article_tests::chain;
+using article_tests::of_shape;
 using article_tests::px;
 using article_tests::rectangle;
 using article_tests::single_pixel;
@@ -30,11 +31,13 @@ struct Stepper {
   Scalar dt = Scalar(1) / 60;
 
   explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
-                   std::string_view kind = "octagon_sweep")
+                   const TechniqueDef& technique = {})
       : scenery(std::make_unique<const Scenery<Scalar>>(SceneryDef{std::move(colliders)})),
-        controller(make_controller(*scenery, character, {.name = kind})),
+        controller(make_controller(*scenery, character, technique)),
         scratch(controller.make_scratch()),
         movers(scenery->mover_count()) {}
+  Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character, std::string_view kind)
+      : Stepper(std::move(colliders), character, TechniqueDef{.name = kind}) {}
 
   Stepper& at(double x, double y) {
     state.position = Vec2d{x, y}.cast<Scalar>();

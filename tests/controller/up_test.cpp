@@ -21,10 +21,7 @@ StepStatus step_with(Stepper<double>& stepper, const Vec2d& up, const Input& inp
 }
 
 CharacterDef box_shaped(double half_width, double bottom, double top) {
-  CharacterDef character;
-  character.shape = CharacterShape(
-      std::vector<Vec2d>{{-half_width, bottom}, {half_width, bottom}, {half_width, top}, {-half_width, top}});
-  return character;
+  return of_shape(CharacterShape(rectangle(-half_width, bottom, half_width, top).points));
 }
 
 TEST(Up, that_is_no_unit_vector_is_refused) {
@@ -47,9 +44,7 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
 }
 
 TEST(Up, decides_how_fast_a_fall_may_be) {
-  CharacterDef character;
-  character.max_fall_speed = 5;
-  Stepper<double> faller({rectangle(-9, -99, 9, -98)}, character);
+  Stepper<double> faller({rectangle(-9, -99, 9, -98)}, {.max_fall_speed = 5});
   const Vec2d up{0.6, 0.8};
   for (int step = 0; step < 60; ++step) step_with(faller, up);
   EXPECT_NEAR(faller.state.velocity.dot(up), -5, 1e-12);
@@ -103,9 +98,7 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
 
 TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
   const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
-  CharacterDef character;
-  character.coyote_time = 0.1;
-  Stepper<double> rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, character);
+  Stepper<double> rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, {.coyote_time = 0.1});
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.1, 0);
   ASSERT_NE(rider.state.ride.ground, no_collider);
@@ -121,12 +114,7 @@ TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
 }
 
 TEST(KnockBack, leaves_the_ground_and_what_carries) {
-  const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
-  CharacterDef character;
-  character.coyote_time = 0.1;
-  character.snap = 0.5;
-  character.jump_cut = 0.25;
-  Stepper<double> rider({lift}, character);
+  Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, {.coyote_time = 0.1, .jump_cut = 0.25, .snap = 0.5});
   rider.gravity = {0, -30};
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.05, 0);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace paperproof {
 namespace {
@@ -17,16 +16,7 @@ struct Walk : stepping::Stepper<double> {
       : Stepper({compare::chain({{-60, -60 * rise}, {60, 60 * rise}})}, character), slope(rise) {
     at(0, 2 + slope);
   }
-  StepStatus go(double move, bool jump = false) { return step({.move = move, .jump = jump}); }
-  /// Of the corner that is nearest to the slope.
-  [[nodiscard]] double height() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec2d& corner : controller.character().shape.hull()) {
-      const Vec2d place = state.position + corner;
-      least = std::min(least, place.y() - slope * place.x());
-    }
-    return least;
-  }
+  StepStatus go(double move) { return step({.move = move}); }
 
   double slope;
 };
@@ -42,9 +32,8 @@ TEST(Regression, a_walker_that_stops_or_turns_round_on_a_slope_stays_on_it) {
           ASSERT_TRUE(walk.state.grounded);
           for (int i = 0; i < 240; ++i) {
             walk.go(side * then);
-            ASSERT_TRUE(walk.state.grounded) << degrees << " degrees, move " << side * then << ", acceleration "
-                                             << acceleration << ", frame " << i << ", height " << walk.height();
-            ASSERT_LT(walk.height(), 1e-5);
+            ASSERT_TRUE(walk.state.grounded)
+                << degrees << " degrees, move " << side * then << ", acceleration " << acceleration << ", frame " << i;
           }
           EXPECT_NEAR(walk.state.velocity.x(), side * then * 6, 1e-9);
           EXPECT_NEAR(walk.state.velocity.y(), walk.state.velocity.x() * walk.slope, 1e-9);
@@ -60,15 +49,6 @@ TEST(Regression, a_launch_on_the_ground_is_no_climb_and_is_not_slowed_by_braking
   walk.state.velocity.y() = 9;  // steeper than walkable ground: 9 / 6 against tan 50 degrees
   walk.go(0);
   EXPECT_NEAR(walk.state.velocity.y(), 9 - 10.0 / 60, 1e-9);
-}
-
-TEST(Regression, a_jump_uphill_has_its_whole_speed_when_the_key_is_released) {
-  for (const double move : {1.0, 0.0, -1.0}) {
-    Walk walk(std::tan(30 * compare::degree), {});
-    for (int i = 0; i < 90; ++i) walk.go(1);
-    walk.go(move, true);
-    EXPECT_NEAR(walk.state.velocity.y(), 12 - 10.0 / 60, 1e-9) << move;
-  }
 }
 
 }  // namespace

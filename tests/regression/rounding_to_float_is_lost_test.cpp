@@ -18,15 +18,13 @@ Pair rounded(const Pair& value) {
 }
 
 TEST(Regression, two_neighbours_rounded_to_float_are_rounded) {
-  const Pair exact{0.1, 0.7};  // neither is a float
+  const Pair exact{0.1, 0.7};                    // neither is a float
   Pair (*volatile call)(const Pair&) = rounded;  // volatile: nothing is known of its argument
   const Pair found = call(exact);
   const volatile float x = 0.1F;  // volatile: converted as it runs
   const volatile float y = 0.7F;
   EXPECT_EQ(found.x, static_cast<double>(x));
   EXPECT_EQ(found.y, static_cast<double>(y));
-  EXPECT_NE(found.x, exact.x);
-  EXPECT_NE(found.y, exact.y);
 }
 
 }  // namespace

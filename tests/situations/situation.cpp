@@ -71,37 +71,6 @@ std::string title_of(const ordered_json& given, const Values& values) {
   return title;
 }
 
-}  // namespace
-
-std::vector<SituationCase> cases_of(const Situation& situation) {
-  const ordered_json& text = situation.text;
-  const ordered_json& file = situation.shared;
-  std::vector<SituationCase> cases;
-  const ordered_json given = text.value("for", ordered_json::object());
-  const json named = text.value("contender", ordered_json("octagon_sweep"));
-  const json contenders = named.is_array() ? named : json::array({named});
-  for (Values& values : cases_of(given, constants())) {
-    for (const ordered_json* place : {&file, &text}) {
-      const ordered_json lets = place->value("let", ordered_json::object());
-      for (const auto& [name, formula] : lets.items()) values[name] = value_of(formula, values);
-    }
-    json scene = json(file.value("scene", ordered_json::object()));
-    scene.merge_patch(json(text.value("scene", ordered_json::object())));
-    scene["paperproof_scene"] = 1;
-    scene["name"] = situation.name;
-    for (const std::string contender : contenders)
-      cases.push_back({.title = title_of(given, values),
-                       .values = values,
-                       .scene = computed(scene, values),
-                       .contender = contender,
-                       .expected = json(text.at("expect")),
-                       .breaks = text.value("breaks", std::vector<std::string>{})});
-  }
-  return cases;
-}
-
-namespace {
-
 /// Short names of what is asked for most; everything else is a JSON pointer into the step's record.
 const std::map<std::string, std::string>& short_names() {
   static const std::map<std::string, std::string> names{
@@ -262,6 +231,33 @@ json computed(const json& document, const Values& values) {
   result.erase("box");
   result["polygon"] = {{box.at(0), box.at(1)}, {box.at(2), box[1]}, {box[2], box.at(3)}, {box[0], box[3]}};
   return result;
+}
+
+std::vector<SituationCase> cases_of(const Situation& situation) {
+  const ordered_json& text = situation.text;
+  const ordered_json& file = situation.shared;
+  std::vector<SituationCase> cases;
+  const ordered_json given = text.value("for", ordered_json::object());
+  const json named = text.value("contender", ordered_json("octagon_sweep"));
+  const json contenders = named.is_array() ? named : json::array({named});
+  for (Values& values : cases_of(given, constants())) {
+    for (const ordered_json* place : {&file, &text}) {
+      const ordered_json lets = place->value("let", ordered_json::object());
+      for (const auto& [name, formula] : lets.items()) values[name] = value_of(formula, values);
+    }
+    json scene = json(file.value("scene", ordered_json::object()));
+    scene.merge_patch(json(text.value("scene", ordered_json::object())));
+    scene["paperproof_scene"] = 1;
+    scene["name"] = situation.name;
+    for (const std::string contender : contenders)
+      cases.push_back({.title = title_of(given, values),
+                       .values = values,
+                       .scene = computed(scene, values),
+                       .contender = contender,
+                       .expected = json(text.at("expect")),
+                       .breaks = text.value("breaks", std::vector<std::string>{})});
+  }
+  return cases;
 }
 
 std::vector<Situation> read_situations(const std::string& folder) {

@@ -65,14 +65,11 @@ class Situations : public ::testing::TestWithParam<Situation> {
   std::set<std::string> broken_;  ///< Clauses, in any case.
 };
 
-/// How many cases of a situation run: all, eight where few steps are asked for, one under sanitizers.
-std::size_t cases_to_run(std::size_t all) {
-  return std::min<std::size_t>(all, sanitized ? 1 : steps_per_family() < few_steps ? 8 : all);
-}
-
 TEST_P(Situations, come_to_what_they_must) {
   const std::vector<SituationCase> cases = cases_of(GetParam());
-  const std::size_t count = cases_to_run(cases.size());
+  // All, eight where few steps are asked for, one under sanitizers.
+  const std::size_t most = sanitized ? 1 : steps_per_family() < few_steps ? 8 : cases.size();
+  const std::size_t count = std::min(cases.size(), most);
   for (std::size_t k = 1; k <= count; ++k) {  // in even strides, to the last
     const SituationCase& situation = cases[k * cases.size() / count - 1];
     run(situation);

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <thread>
 #include <vector>
 
@@ -37,31 +36,33 @@ class Keys {
   Input input_{.move = 0.0};
 };
 
-State start_of(int character) {
-  State state;
-  state.position = {character - 0.5 * characters, 12};
-  return state;
-}
-
 /// Every state of every character, each in a thread of its own or one after the other.
-using Walk = std::function<std::vector<State>(int character)>;
-std::vector<std::vector<State>> all_states(const Walk& walk, bool in_threads) {
+/// @param make_stepper makes what steps one character; it is called for each where that walks.
+std::vector<std::vector<State>> all_states(const auto& make_stepper, bool in_threads) {
   std::vector<std::vector<State>> all(characters);
   std::vector<std::jthread> threads;
   for (int k = 0; k < characters; ++k) {
-    const auto take = [&walk, &all, k] { all[static_cast<std::size_t>(k)] = walk(k); };
+    const auto walk = [&make_stepper, &states = all[static_cast<std::size_t>(k)], k] {
+      auto step_once = make_stepper();
+      Keys keys(k);
+      states.emplace_back().position = {k - 0.5 * characters, 12};
+      for (int step = 0; step < steps; ++step) {
+        states.push_back(states.back());
+        step_once(states.back(), keys.next(), step);
+      }
+    };
     if (in_threads)
-      threads.emplace_back(take);
+      threads.emplace_back(walk);
     else
-      take();
+      walk();
   }
   threads.clear();  // waits for all
   return all;
 }
 
-void expect_the_same_in_threads(const Walk& walk) {
-  const std::vector<std::vector<State>> alone = all_states(walk, false);
-  EXPECT_EQ(all_states(walk, true), alone);
+void expect_the_same_in_threads(const auto& make_stepper) {
+  const std::vector<std::vector<State>> alone = all_states(make_stepper, false);
+  EXPECT_EQ(all_states(make_stepper, true), alone);
   int moved = 0;
   for (const std::vector<State>& states : alone) moved += (states.back().position - states.front().position).norm() > 3;
   EXPECT_EQ(moved, characters) << "who stays where it is shows nothing";
@@ -73,16 +74,11 @@ TEST(SharedController, gives_each_thread_what_it_gives_one_alone) {
   CharacterDef character;
   character.step_height = 0.3;
   const Controller<double> controller(scenery, character);
-  expect_the_same_in_threads([&](int k) {
-    Scratch<double> scratch = controller.make_scratch();
-    StepReport<double> report;
-    Keys keys(k);
-    std::vector<State> states{start_of(k)};
-    for (int step = 0; step < steps; ++step) {
-      states.push_back(states.back());
-      controller.step(states.back(), keys.next(), {gravity, dt}, scratch, report);
-    }
-    return states;
+  expect_the_same_in_threads([&] {
+    return [&, scratch = controller.make_scratch(), report = StepReport<double>()](State& state, const Input& input,
+                                                                                   int) mutable {
+      controller.step(state, input, {gravity, dt}, scratch, report);
+    };
   });
 }
 
@@ -103,17 +99,12 @@ TEST(SharedLevel, gives_each_thread_what_it_gives_one_alone) {
   Level level;
   for (const ColliderDef& collider : play_level(PlayLevel::platforms, random).colliders) level.add(collider);
   for (MoverIndex mover = 0; mover < 4; ++mover) level.add(compare::box(-3, -0.1, 3, 0.1, mover));
-  expect_the_same_in_threads([&](int k) {
-    LevelController controller(level, CharacterDef{});
-    StepReport<double> report;
-    Keys keys(k);
-    std::vector<State> states{start_of(k)};
-    for (int step = 0; step < steps; ++step) {
-      states.push_back(states.back());
+  expect_the_same_in_threads([&] {
+    return [controller = LevelController(level, CharacterDef{}), report = StepReport<double>()](
+               State& state, const Input& input, int step) mutable {
       const std::vector<PoseMotion> poses = poses_in(step);
-      controller.step(states.back(), keys.next(), {gravity, dt, poses}, report);
-    }
-    return states;
+      controller.step(state, input, {gravity, dt, poses}, report);
+    };
   });
 }
 

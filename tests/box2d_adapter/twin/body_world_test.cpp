@@ -27,6 +27,10 @@ struct Bodies {
   std::vector<MoverMotion<double>> motions;
 };
 
+JointDef spring(double stiffness, double damping = 0) {
+  return {.point = {0.5, 1}, .end = {0.5, 9}, .length = 8, .stiffness = stiffness, .damping = damping};
+}
+
 TEST(BodyWorld, equal_masses_exchange_their_velocities_and_a_heavy_one_goes_on) {
   for (const double mass : {1.0, 1000.0}) {
     Bodies bodies({box(-9, -9, 9, -8), box(0, 0, 1, 1, 0), box(2, 0, 3, 1, 1)},
@@ -41,9 +45,8 @@ TEST(BodyWorld, equal_masses_exchange_their_velocities_and_a_heavy_one_goes_on) 
 TEST(BodyWorld, friction_of_a_body_and_of_scenery_mix_to_the_root_of_their_product) {
   // On the flat a body slows down by mu g, mu = sqrt(0.45 * 0.2) = 0.3: from 3 m/s it stops within 1.5 m, within
   // Box2D's gap above the ground. A slack spring changes nothing.
-  const JointDef slack{.point = {0.5, 1}, .end = {0.5, 9}, .length = 8, .stiffness = 1e-3};
   Bodies bodies({box(-9, -1, 9, 0), box(0, rest_gap, 1, 1, 0)}, {{.friction = 0.45, .velocity = {3, 0}}}, gravity,
-                {slack});
+                {spring(1e-3)});
   for (int n = 0; n < 120; ++n) bodies.step();
   EXPECT_NEAR(bodies.motions[0].to.x(), 3 * 3 / (2 * 0.3 * 10), 0.05);
   EXPECT_NEAR(bodies.motions[0].to.y(), 0, 0.006);
@@ -71,10 +74,6 @@ Bodies joined(const std::vector<BodyDef>& defs, const std::vector<JointDef>& joi
   std::vector<ColliderDef> colliders{box(-900, -901, 900, -900)};
   for (MoverIndex i = 0; i < defs.size(); ++i) colliders.push_back(box(3.0 * i, 0, 3.0 * i + 1, 1, i));
   return {std::move(colliders), defs, gravity, joints};
-}
-
-JointDef spring(double stiffness, double damping = 0) {
-  return {.point = {0.5, 1}, .end = {0.5, 9}, .length = 8, .stiffness = stiffness, .damping = damping};
 }
 
 TEST(Rod, keeps_its_length_and_swings_like_a_pendulum) {

@@ -1,4 +1,4 @@
-#include "runs/technique_contestant.hpp"
+#include "runs/technique_contender.hpp"
 
 #include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
@@ -11,10 +11,10 @@ namespace paperproof::compare {
 namespace {
 
 template <class Scalar>
-class TechniqueContestant final : public Contestant {
+class TechniqueContender final : public Contender {
  public:
-  TechniqueContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
-                      const Planning& planning)
+  TechniqueContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                     const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
         controller_(make_controller(scenery_.get(), rules_for(technique, scene, planning.knobs),
@@ -64,12 +64,12 @@ class TechniqueContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_technique_contestant(const TechniqueEntry& technique, ScalarKind scalar,
-                                                      const Scene& scene, const Scenery<double>& scenery,
-                                                      const Planning& planning) {
+std::unique_ptr<Contender> make_technique_contender(const TechniqueEntry& technique, ScalarKind scalar,
+                                                    const Scene& scene, const Scenery<double>& scenery,
+                                                    const Planning& planning) {
   if (scalar == ScalarKind::binary32)
-    return std::make_unique<TechniqueContestant<float>>(technique, scene, scenery, planning);
-  return std::make_unique<TechniqueContestant<double>>(technique, scene, scenery, planning);
+    return std::make_unique<TechniqueContender<float>>(technique, scene, scenery, planning);
+  return std::make_unique<TechniqueContender<double>>(technique, scene, scenery, planning);
 }
 
 }  // namespace paperproof::compare

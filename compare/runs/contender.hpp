@@ -22,7 +22,7 @@ namespace paperproof::compare {
 enum class ScalarKind : std::uint8_t { binary64, binary32 };
 [[nodiscard]] std::string_view name_of(ScalarKind scalar) noexcept;
 
-/// What a contestant carries from step to step that a twin in lockstep takes over.
+/// What a contender carries from step to step that a twin in lockstep takes over.
 struct Pose {
   Vec2d position{Vec2d::Zero()};
   Vec2d velocity{Vec2d::Zero()};
@@ -34,7 +34,7 @@ struct Pose {
   Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what it rides on.
 };
 
-/// What happens to every contestant alike in one step.
+/// What happens to every contender alike in one step.
 struct StepInput {
   double dt = 0;                                ///< [s]
   std::span<const Input> players;               ///< One for each character.
@@ -44,12 +44,12 @@ struct StepInput {
   Vec2d up{Vec2d::UnitY()};                     ///< Unit vector.
 };
 
-class Contestant {
+class Contender {
  public:
-  virtual ~Contestant() = default;
+  virtual ~Contender() = default;
   [[nodiscard]] virtual const TraceHeader& header() const noexcept = 0;
   /// One step. Fills everything of the records, one for each character, but step, character, the overlaps at the start
-  /// and respawn. Movers are recorded as they ran: the input's, rounded to what the contestant computes in.
+  /// and respawn. Movers are recorded as they ran: the input's, rounded to what the contender computes in.
   virtual void step(const StepInput& input, std::span<TraceStep> records) = 0;
   /// One step without a record, for timing.
   virtual void step_unrecorded(const StepInput& input) = 0;
@@ -72,20 +72,19 @@ class NotApplicable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A step that the contestant is not made for was refused; the steps before it stand.
+/// A step that the contender is not made for was refused; the steps before it stand.
 class StepRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// Puts every character where the scene has it begin.
-void place_at_start(Contestant& contestant, const Scene& scene);
+void place_at_start(Contender& contender, const Scene& scene);
 
-/// @param scenery of the scene, in double; must outlive the contestant.
+/// @param scenery of the scene, in double; must outlive the contender.
 /// @param planning of the techniques; Box2D has none.
 /// @throws NotApplicable where the contender cannot express the scene; std::exception where it cannot be built.
-[[nodiscard]] std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                                          const Scenery<double>& scenery,
-                                                          const Planning& planning = {});
+[[nodiscard]] std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scalar, const Scene& scene,
+                                                        const Scenery<double>& scenery, const Planning& planning = {});
 
 }  // namespace paperproof::compare

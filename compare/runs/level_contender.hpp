@@ -1,7 +1,7 @@
 /// octagon_sweep in double where something turns.
 #pragma once
 
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
 namespace paperproof::compare {
 
@@ -9,8 +9,7 @@ namespace paperproof::compare {
 /// not turn does not go evenly either.
 /// @throws NotApplicable for several characters, for movers that are one-way, and for knobs of the technique: the
 ///   controller of a level has none.
-[[nodiscard]] std::unique_ptr<Contestant> make_level_contestant(const TechniqueEntry& octagon_sweep, const Scene& scene,
-                                                                const Scenery<double>& scenery,
-                                                                const Planning& planning);
+[[nodiscard]] std::unique_ptr<Contender> make_level_contender(const TechniqueEntry& octagon_sweep, const Scene& scene,
+                                                              const Scenery<double>& scenery, const Planning& planning);
 
 }  // namespace paperproof::compare

@@ -1,9 +1,9 @@
-#include "runs/contestant.hpp"
+#include "runs/contender.hpp"
 
-#include "runs/box2d_contestant.hpp"
-#include "runs/crowd_contestant.hpp"
-#include "runs/level_contestant.hpp"
-#include "runs/technique_contestant.hpp"
+#include "runs/box2d_contender.hpp"
+#include "runs/crowd_contender.hpp"
+#include "runs/level_contender.hpp"
+#include "runs/technique_contender.hpp"
 
 #include <fmt/format.h>
 
@@ -32,23 +32,23 @@ bool is_reference(std::string_view contender) { return contender == box2d_name |
 
 std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKind::binary32 ? "float" : "double"; }
 
-void Contestant::launch(const Vec2d& velocity, std::size_t character) {
+void Contender::launch(const Vec2d& velocity, std::size_t character) {
   Pose launched = pose(character);
   launched.velocity = velocity;
   place(launched, character);
 }
 
-void place_at_start(Contestant& contestant, const Scene& scene) {
+void place_at_start(Contender& contender, const Scene& scene) {
   for (std::size_t k = 0; k < character_count(scene); ++k)
-    contestant.place({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, k);
+    contender.place({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, k);
 }
 
-std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                            const Scenery<double>& scenery, const Planning& planning) {
+std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scalar, const Scene& scene,
+                                          const Scenery<double>& scenery, const Planning& planning) {
   if (is_reference(name)) {
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
-      return make_box2d_contestant(mode, scene, scenery, planning.knobs);
+      return make_box2d_contender(mode, scene, scenery, planning.knobs);
     } catch (const box2d::InvalidDefinition& error) {
       throw NotApplicable(error.what());
     }
@@ -60,13 +60,13 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
     throw NotApplicable(fmt::format("{}{} is for movers that do not turn, and \"{}\" does", name,
                                     name == sweep_name ? " in float" : "", turning->id));
   if (const TechniqueEntry* technique = find_technique(name)) {
-    if (turns) return make_level_contestant(*technique, scene, scenery, planning);
+    if (turns) return make_level_contender(*technique, scene, scenery, planning);
     const bool crowd = !scene.others.empty();
-    if (crowd && technique->moves_crowds) return make_crowd_contestant(*technique, scalar, scene, scenery, planning);
+    if (crowd && technique->moves_crowds) return make_crowd_contender(*technique, scalar, scene, scenery, planning);
     if (crowd)
       throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     try {
-      return make_technique_contestant(*technique, scalar, scene, scenery, planning);
+      return make_technique_contender(*technique, scalar, scene, scenery, planning);
     } catch (const NotExpressible& error) {
       throw NotApplicable(error.what());
     }

@@ -1,4 +1,4 @@
-#include "runs/crowd_contestant.hpp"
+#include "runs/crowd_contender.hpp"
 
 #include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
@@ -9,10 +9,10 @@ namespace paperproof::compare {
 namespace {
 
 template <class Scalar>
-class CrowdContestant final : public Contestant {
+class CrowdContender final : public Contender {
  public:
-  CrowdContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
-                  const Planning& planning)
+  CrowdContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                 const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
         crowd_(make_crowd(scenery_.get(), rules_for(technique, scene, planning.knobs),
@@ -73,13 +73,12 @@ class CrowdContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_crowd_contestant(const TechniqueEntry& technique, ScalarKind scalar,
-                                                  const Scene& scene, const Scenery<double>& scenery,
-                                                  const Planning& planning) {
+std::unique_ptr<Contender> make_crowd_contender(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene,
+                                                const Scenery<double>& scenery, const Planning& planning) {
   try {
     if (scalar == ScalarKind::binary32)
-      return std::make_unique<CrowdContestant<float>>(technique, scene, scenery, planning);
-    return std::make_unique<CrowdContestant<double>>(technique, scene, scenery, planning);
+      return std::make_unique<CrowdContender<float>>(technique, scene, scenery, planning);
+    return std::make_unique<CrowdContender<double>>(technique, scene, scenery, planning);
   } catch (const std::invalid_argument& error) {
     throw NotApplicable(error.what());
   }

@@ -1,4 +1,4 @@
-#include "runs/box2d_contestant.hpp"
+#include "runs/box2d_contender.hpp"
 
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
@@ -78,10 +78,10 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHe
   record.capped = record.capped || twin.capped;
 }
 
-class Box2dContestant final : public Contestant {
+class Box2dContender final : public Contender {
  public:
-  Box2dContestant(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
-                  std::span<const KnobSetting> knobs)
+  Box2dContender(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
+                 std::span<const KnobSetting> knobs)
       : character_(rules_for_twin(scene)),
         substeps_(def.substeps),
         world_(scenery, scene.character, starts_of(scene), def.world),
@@ -292,11 +292,11 @@ class Box2dContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
-                                                  const Scenery<double>& scenery, std::span<const KnobSetting> knobs) {
+std::unique_ptr<Contender> make_box2d_contender(box2d::SceneryMode mode, const Scene& scene,
+                                                const Scenery<double>& scenery, std::span<const KnobSetting> knobs) {
   TwinDef def{.world = {.mode = mode}};
   turn_knobs(knobs, def);
-  return std::make_unique<Box2dContestant>(def, scene, scenery, knobs);
+  return std::make_unique<Box2dContender>(def, scene, scenery, knobs);
 }
 
 }  // namespace paperproof::compare

@@ -1,4 +1,4 @@
-#include "runs/level_contestant.hpp"
+#include "runs/level_contender.hpp"
 
 #include "runs/level_ways.hpp"
 #include "runs/technique_parts.hpp"
@@ -12,10 +12,10 @@
 namespace paperproof::compare {
 namespace {
 
-class LevelContestant final : public Contestant {
+class LevelContender final : public Contender {
  public:
-  LevelContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
-                  const Planning& planning)
+  LevelContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                 const Planning& planning)
       : level_(scenery.as_run()),
         controller_(level_, rules_for(technique, scene, planning.knobs)),
         header_(header_of(technique, scenery, scene, plan_of(scenery, planning), planning.knobs)) {
@@ -41,7 +41,8 @@ class LevelContestant final : public Contestant {
     motions_.clear();
     for (std::size_t i = 0; i < input.movers.size(); ++i)
       motions_.push_back({{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
-    controller_.step(state_, input.players.front(), {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, report_);
+    controller_.step(state_, input.players.front(),
+                     {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
@@ -69,8 +70,8 @@ class LevelContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_level_contestant(const TechniqueEntry& octagon_sweep, const Scene& scene,
-                                                  const Scenery<double>& scenery, const Planning& planning) {
+std::unique_ptr<Contender> make_level_contender(const TechniqueEntry& octagon_sweep, const Scene& scene,
+                                                const Scenery<double>& scenery, const Planning& planning) {
   if (!scene.others.empty())
     throw NotApplicable(fmt::format("octagon_sweep knows one character where something turns, and here are {}",
                                     character_count(scene)));
@@ -81,7 +82,7 @@ std::unique_ptr<Contestant> make_level_contestant(const TechniqueEntry& octagon_
   for (const KnobSetting& knob : planning.knobs)
     if (knob.name != "jump_rules" && has_knob(octagon_sweep.name, knob.name))
       throw NotApplicable("octagon_sweep has no knob " + knob.name + " where something turns");
-  return std::make_unique<LevelContestant>(octagon_sweep, scene, scenery, planning);
+  return std::make_unique<LevelContender>(octagon_sweep, scene, scenery, planning);
 }
 
 }  // namespace paperproof::compare
