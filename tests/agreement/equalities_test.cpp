@@ -139,6 +139,9 @@ Stepper controller_of(const SceneryDef& def, const CharacterDef& character, cons
   };
 }
 
+using Kinds = std::span<const char* const>;
+constexpr std::array all_kinds{"static", "any_up", "movers", "stairs"};
+
 struct Equality {
   const char* name;
   /// Changes the run before either way makes it. @return false where there is no such way.
@@ -152,6 +155,7 @@ struct Equality {
   /// Above zero: the shape is written around another origin. Numbers that are so near count as equal; then each step
   /// begins alike, and only what it reports is compared.
   double near = 0;
+  Kinds kinds = all_kinds;  ///< Of families; the others have no such runs.
 };
 
 bool as_it_is(RandomRun&) { return true; }
@@ -328,18 +332,22 @@ Saying written_elsewhere(Random& random) {
 
 constexpr double rounding = 1e-9;  ///< Of a place within 1,000 m [m].
 
+constexpr Kinds near_the_origin{all_kinds.data(), 3};
+constexpr Kinds on_plain_grounds{all_kinds.data(), 2};
+
 constexpr std::array equalities{
     Equality{"turned_by_quarters", as_it_is, turned, false, 1e-3},
     Equality{"mirrored", as_it_is, mirrored, false, 3e-3},
     Equality{"edited_as_built_at_once", put_in_order, edited_level, true},
-    Equality{"filtered_as_without", add_frame, filtered, false, 3e-4},
+    Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, near_the_origin},
     Equality{"restored_as_gone_on", as_it_is, restored_each_step},
     Equality{"in_two_threads", as_it_is, in_two_threads},
     Equality{"by_another_broad_phase", as_it_is, by_another_broad_phase},
-    Equality{"as_one_of_many", on_plain_ground, one_of_many},
+    Equality{"as_one_of_many", on_plain_ground, one_of_many, false, 0, 0, on_plain_grounds},
     Equality{"with_its_shape_elsewhere", as_it_is, said_otherwise, false, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_level", put_in_order, edited_level, true, 3e-4, rounding},
-    Equality{"with_its_shape_elsewhere_in_a_crowd", on_plain_ground, one_of_many, false, 3e-4, rounding},
+    Equality{"with_its_shape_elsewhere_in_a_crowd", on_plain_ground, one_of_many, false, 3e-4, rounding,
+             on_plain_grounds},
 };
 
 /// One run in two ways.
@@ -421,7 +429,7 @@ TEST_P(Equalities, give_the_same_bits) {
   int touching = 0;
   int ties = 0;
   for (std::uint64_t k = 0; steps < wanted; ++k) {
-    if (k == tries && steps == 0) GTEST_SKIP() << kind << " has no such runs";
+    ASSERT_TRUE(k < tries || steps > 0) << kind << " has no such runs";
     const compare::Family& family = *families[k % families.size()];
     const std::uint64_t seed = family.first_seed + k / families.size();
     RandomRun run = family.draw(seed);
@@ -467,12 +475,16 @@ TEST(ShapeElsewhere, comes_to_the_same_in_a_crowd_and_among_what_turns) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Equalities,
-                         ::testing::Combine(::testing::ValuesIn(equalities),
-                                            ::testing::Values("static", "any_up", "movers", "stairs")),
-                         [](const auto& which) {
-                           return std::string(std::get<0>(which.param).name) + "_" + std::get<1>(which.param);
-                         });
+std::vector<std::tuple<Equality, const char*>> equalities_by_kind() {
+  std::vector<std::tuple<Equality, const char*>> all;
+  for (const Equality& equality : equalities)
+    for (const char* kind : equality.kinds) all.emplace_back(equality, kind);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Equalities, ::testing::ValuesIn(equalities_by_kind()), [](const auto& which) {
+  return std::string(std::get<0>(which.param).name) + "_" + std::get<1>(which.param);
+});
 
 }  // namespace
 }  // namespace paperproof::test

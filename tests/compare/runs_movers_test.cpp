@@ -1,7 +1,14 @@
 /// Runs among what moves, and of several characters: who is handed what, and who cannot run. How stacks carry and
 /// crates crush, and what octagon_sweep makes of crowds, is said by the answers of their scenes.
+#include "campaign/random.hpp"
 #include "campaign/shapes.hpp"
 #include "compare/scene_runs.hpp"
+#include "runs/vertex_ways.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
 
 namespace paperproof::compare {
 namespace {
@@ -34,6 +41,25 @@ TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_
       EXPECT_LE((run.steps[i].movers[0].to - to).norm(), name[0] == 'b' ? 2e-6 : 0) << name << " " << i;
       EXPECT_TRUE(i == 0 || run.steps[i].movers[0].from == run.steps[i - 1].movers[0].to) << name << " " << i;
     }
+  }
+}
+
+/// The arc over a chord of angle a is r (1 - cos(a / 2)) high. A third of the chords would be too few.
+TEST(VertexWays, are_as_many_chords_as_keep_them_within_their_sag) {
+  Random random(31);
+  for (int i = 0; i < 200; ++i) {
+    const double radius = random.log_between(1e-3, 1e3);
+    const double turn = random.log_between(1e-6, 30) * (random.chance(0.5) ? 1 : -1);
+    VertexWay way;
+    add_turn({.points = {radius * towards(random.angle()), {0, 0}}}, {.angle = {0, turn}}, way);
+    const auto chords = static_cast<double>(way.instants.size() - 1);
+    const auto sag = [&](double many) {
+      return radius * (1 - std::cos(std::min(std::numbers::pi, std::abs(turn) / many / 2)));
+    };
+    EXPECT_LE(sag(chords), most_sag * (1 + 1e-6)) << i;
+    EXPECT_TRUE(chords <= 2 || sag(chords / 3) > most_sag) << i;
+    const Vec2d end = Eigen::Rotation2D<double>(turn) * way.vertices.front()[0];
+    EXPECT_NEAR((way.vertices.back()[0] - end).norm(), 0, 1e-12 * radius) << i;
   }
 }
 

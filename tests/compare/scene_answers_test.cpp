@@ -93,6 +93,22 @@ TEST(Answers, are_each_missed_by_a_run_that_does_something_else) {
   }
 }
 
+/// At random among each other, they come to the walls, the floor and the ceiling.
+TEST(Answers, of_a_room_are_as_narrow_as_the_room) {
+  const Scene scene = built_in("crowd");
+  const ReportRun run = ran(scene).runs.at(0);
+  for (Answer answer : scene.answers) {
+    answer.at_most -= 1e-3;
+    AnswerCheck check({answer}, run.header);
+    for (const TraceStep& step : run.steps) check.add(step);
+    for (const std::vector<TraceStep>& other : run.others)
+      for (const TraceStep& step : other) check.add(step);
+    Row row;
+    check.write(row);
+    EXPECT_EQ(row.answer_ok, false) << answer.along.transpose();
+  }
+}
+
 TEST(Answers, are_absent_where_an_option_changes_the_scene) {
   const Scene scene = built_in("flush_tiles");
   const auto has_answer = [&](const auto& change) {

@@ -4,7 +4,7 @@ it, and runs the tests.
 
   faults.py draw [--seed N] [--each N] [--spare N] > faults.json
       N faults for each part of the project, each an operator and a place drawn by the seed, and spare ones for those
-      that do not compile.
+      that do not compile or change nothing.
   faults.py run FAULTS RESULTS [--into FOLDER] [--every] [--full]
       RESULTS is a JSON file with one entry for each fault. A fault that has an entry is not run again.
       FOLDER (build/faults) gets the copy and its build. --every: all tests that fail are named, not only the first.
@@ -154,12 +154,14 @@ def put(copy, fault):
 
 
 def try_fault(copy, fault, every, full):
+    if fault['after'] == fault['before']:
+        return {**fault, 'no_fault': 'changes nothing'}  # three times 0.0
     before = put(copy, fault)
     if before is None:
         return {**fault, 'gone': True}
     try:
         if not copy.compiles():
-            return None
+            return {**fault, 'no_fault': 'does not compile'}
         begin = time.time()
         found, how = copy.failing('quick', every), 'quick'
         if full and not found:
@@ -178,11 +180,11 @@ def run(drawn, path, folder, every, full):
         for fault in mine:
             done = [r for r in results if r['part'] == part]
             old = [r for r in done if r['number'] == fault['number']]
-            if old and not (full and not old[0].get('found') and old[0].get('tried') != 'full' and 'compiles' not in old[0]):
+            if old and not (full and not old[0].get('found') and old[0].get('tried') != 'full' and 'no_fault' not in old[0]):
                 continue
-            if not old and sum('compiles' not in r for r in done) == drawn['each']:
+            if not old and sum('no_fault' not in r for r in done) == drawn['each']:
                 break
-            result = try_fault(copy, fault, every, full) or {**fault, 'compiles': False}
+            result = try_fault(copy, fault, every, full)
             result['tried'] = 'full' if full else 'quick'
             results = [r for r in results if r not in old] + [result]
             with open(path, 'w') as file:
@@ -191,7 +193,7 @@ def run(drawn, path, folder, every, full):
 
 
 def table(files):
-    runs = [[r for r in json.load(open(path)) if 'compiles' not in r] for path in files]
+    runs = [[r for r in json.load(open(path)) if 'no_fault' not in r] for path in files]
     for result in runs[0]:
         same = [next((r for r in other if (r['part'], r['number']) == (result['part'], result['number'])), {}) for other in runs]
         words = ['gone' if r.get('gone') else f"{r.get('found') or 'survives'} {r.get('seconds', 0)} s {(r.get('tests') or [''])[0]}" for r in same]
