@@ -137,7 +137,9 @@ Findings run_family(const Family& family, int steps, const RunSettings& settings
                     const std::function<void(std::uint64_t, const Findings&)>& each) {
   const int wanted = std::max(1, static_cast<int>(family.share * steps));
   Findings all;
+  constexpr std::uint64_t tries = 200;  // runs, of which one must have a step: others begin inside something
   for (std::uint64_t seed = family.first_seed; all.steps < wanted && all.failed.empty(); ++seed) {
+    if (all.steps == 0 && seed == family.first_seed + tries) all.failed = "no run has a step";
     const Findings one = run_and_judge(family.draw(seed), family.name_of_run(seed), settings);
     if (each) each(seed, one);
     all.add(one);
@@ -155,11 +157,13 @@ std::string describe(const Breaches& breaches, const std::string& begin) {
 
 namespace {
 
-/// How far a count may be from its expectation by chance.
-double chance(double expected) { return 3 + 4 * std::sqrt(expected); }
-
-/// So many records must have a happening that has any share.
-constexpr int many_records = 3000;
+/// Runs come by chance: half of what is expected is enough, and three fewer. Of few records, which are a handful of
+/// runs, nothing is asked; and what is rare must be seen in somewhat more of them: in a third of 2,000 steps, which
+/// slow families take.
+constexpr int enough_records = 400;
+constexpr int enough_for_rare = 600;
+double fewest(double expected) { return expected / 2 - 3; }
+double most_by_chance(double expected) { return expected + 3 + 4 * std::sqrt(expected); }
 
 }  // namespace
 
@@ -169,11 +173,12 @@ std::vector<std::string> uncovered(const Family& family, const Findings& finding
     const std::size_t which = happening_named(part.happening);
     const int found = findings.happened[which];
     const double least = part.least * findings.records;
-    const double most = part.most * findings.records;
-    const bool never = found == 0 && part.least > 0 && findings.records >= many_records;
-    if (never || found < least - chance(least) || found > most + chance(most))
-      said.push_back(fmt::format("{}: {} of {} steps {}, expected from {} to {} of them", family.title(), found,
-                                 findings.records, happenings()[which].meaning, part.least, part.most));
+    const bool is_rarer = findings.records >= enough_records && found < fewest(least);
+    const bool never = findings.records >= enough_for_rare && found == 0 && least > 0;
+    if (is_rarer || never || found > most_by_chance(part.most * findings.records))
+      said.push_back(fmt::format("{}: {:.3g} % of {} steps {}: expected {:g} % to {:g} %", family.title(),
+                                 100.0 * found / findings.records, findings.records, happenings()[which].meaning,
+                                 100 * part.least, 100 * part.most));
   }
   return said;
 }

@@ -1,11 +1,11 @@
 /// The subcommands with their options.
 #include "command/command_line.hpp"
 
+#include "command/campaign_command.hpp"
 #include "command/compare_command.hpp"
 #include "command/complain.hpp"
 #include "command/convert_command.hpp"
 #include "command/demo_command.hpp"
-#include "command/campaign_command.hpp"
 #include "command/judge_command.hpp"
 #include "command/list_command.hpp"
 #include "command/option_checks.hpp"
@@ -315,7 +315,8 @@ void add_judge(CLI::App& app, int& status) {
 }
 
 void add_random_runs(CLI::App& app, int& status) {
-  CLI::App& campaign = *app.add_subcommand("campaign", "Run families of random runs, and count what they meet and break");
+  CLI::App& campaign =
+      *app.add_subcommand("campaign", "Run families of random runs, and count what they meet and break");
   const auto counted = std::make_shared<CampaignArguments>();
   campaign.add_option("FAMILY", counted->families, "Families such as movers/tiles, or kinds such as movers; none: all");
   campaign.add_option("--steps", counted->steps, "Of each family; slow ones take a share")
@@ -398,8 +399,8 @@ void add_demo_and_list(CLI::App& app, int& status) {
   const auto what = std::make_shared<std::string>();
   list.add_option("WHAT", *what, "Which names")
       ->required()
-      ->type_name("scenes|contenders|knobs|metrics|parameters")
-      ->check(expect_one_of({"scenes", "contenders", "knobs", "metrics", "parameters"}));
+      ->type_name("scenes|contenders|families|knobs|metrics|parameters")
+      ->check(expect_one_of({"scenes", "contenders", "families", "knobs", "metrics", "parameters"}));
   on_parsed(list, status, what, list_command);
 }
 

@@ -1,5 +1,6 @@
 #include "command/list_command.hpp"
 
+#include "campaign/families.hpp"
 #include "command/forecast.hpp"
 #include "records/metric.hpp"
 #include "records/output_file.hpp"
@@ -73,6 +74,8 @@ int list_command(const std::string& what) {
   std::string text;
   if (what == "contenders") {
     for (const std::string_view name : contender_names()) text += fmt::format("{}\n", name);
+  } else if (what == "families") {
+    for (const Family& family : families()) text += family.title() + "\n";
   } else if (what == "metrics") {
     for (const Metric& metric : metrics())
       text += fmt::format("{:<32} {:<15} {} ({})\n", metric.key, metric.unit, metric.meaning, name_of(metric.of));

@@ -8,8 +8,8 @@
 #include <paperproof/techniques.hpp>
 
 #include <memory>
-#include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -66,7 +66,7 @@ class Contender {
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };
 
-/// A run that cannot be made, with the reason in words; its row is `not_applicable` or `failed`.
+/// A run that cannot be made, with the reason in words; its row is `not_applicable`.
 class NotApplicable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

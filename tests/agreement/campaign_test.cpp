@@ -27,11 +27,21 @@ TEST_P(Campaign, breaks_only_what_is_known_and_open) {
   EXPECT_EQ(all.failed, "");
   for (const auto& [clause, breach] : all.breaches)
     EXPECT_LE(breach.steps, most_broken(family.kind, clause, all.steps, family.name))
-        << name_of(clause) << " in " << family.title() << ", of " << all.steps << " steps";
+        << name_of(clause) << " in " << family.title() << ", of " << all.steps
+        << " steps; known_and_open.json says more";
   for (const std::string& missing : uncovered(family, all)) ADD_FAILURE() << missing;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Campaign, ::testing::ValuesIn(sampled_of(compare::families(), 4)),
+/// All; under sanitizers every fourth, and the first of each kind.
+std::vector<Family> families_to_run() {
+  const std::vector<Family>& all = compare::families();
+  std::vector<Family> some;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!sanitized || i % 4 == 0 || all[i].kind != all[i - 1].kind) some.push_back(all[i]);
+  return some;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Campaign, ::testing::ValuesIn(families_to_run()),
                          [](const auto& family) { return family.param.kind + "_" + family.param.name; });
 
 /// What broke once, or was accused wrongly: the runs of a family, and the clauses that they keep.

@@ -42,7 +42,7 @@ def main(command, checker, known_file, steps):
         done = subprocess.run([sys.executable, "-B", checker, "--but", "continuity", *files],
                               capture_output=True, text=True, check=False)
     print(done.stderr, end="")
-    steps, contacts, broken = collections.Counter(), 0, collections.defaultdict(set)
+    steps, contacts, broken, judged = collections.Counter(), 0, collections.defaultdict(set), 0
     for line in done.stdout.splitlines():
         name = Path(line.split(".jsonl: ")[0]).name
         if found := re.search(r"\.jsonl: step (\d+): (\w+): ", line):
@@ -51,7 +51,9 @@ def main(command, checker, known_file, steps):
         elif found := re.search(r"\.jsonl: (\d+) steps, (\d+) contacts, ", line):
             steps[kind_of(name)] += int(found[1])
             contacts += int(found[2])
-    failed = done.returncode == 2 or contacts < LEAST_CONTACTS * sum(steps.values())
+            judged += 1
+    failed = done.returncode not in (0, 1) or judged < len(files) or set(steps) != set(KINDS)
+    failed = failed or contacts < LEAST_CONTACTS * sum(steps.values())
     for (kind, clause), where in sorted(broken.items()):
         most = most_broken(known, kind, clause, steps[kind])
         print(f"{kind}: {clause} is broken in {len(where)} steps, at most {most} are known and open")

@@ -13,7 +13,8 @@ def united(build):
     """Command without its files, and source: of all sources that are compiled together with others, each once."""
     seen = {}
     for entry in json.load(open(os.path.join(build, 'compile_commands.json'))):
-        if not re.search(r'/unity_\d+_cxx\.cxx$', entry['file']):
+        # What the sanitizers look at has the flags of another compiler.
+        if not re.search(r'(?<!_sanitized)\.dir/Unity/unity_\d+_cxx\.cxx$', entry['file']):
             continue
         words = shlex.split(entry['command'])
         at = words.index('-o')
@@ -25,6 +26,7 @@ def united(build):
 
 def main():
     sources = united(sys.argv[1])
+    assert len(sources) > 100, f'{len(sources)} sources are compiled together'
     step = 1 if os.environ.get('PAPERPROOF_LONG_TESTS') == '1' else 16
     commits = subprocess.run(['git', 'rev-list', '--count', 'HEAD'], cwd=here, capture_output=True, text=True).stdout
     chosen = sources[int(commits or 0) % step::step]

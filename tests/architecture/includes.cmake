@@ -60,8 +60,15 @@ check_part(compare/continuous "${may_include_oracle}" compare)
 
 # Inside `compare`, of its own folders each may include itself and those that are listed:
 #   records  <-  oracle  <-  scenes  <-  metrics  <-  runs  <-  studies  <-  command,  records  <-  report  <-  studies,
-#   scenes  <-  continuous  <-  runs,   runs  <-  benchmarks
-set(folders records oracle scenes continuous metrics runs report studies benchmarks command)
+#   scenes  <-  continuous  <-  runs,   runs  <-  campaign  <-  command,   runs  <-  benchmarks
+set(folders records oracle scenes continuous metrics runs report studies campaign benchmarks command)
+file(GLOB sources RELATIVE "${ROOT}/compare" "${ROOT}/compare/*/*.cpp")
+foreach(source IN LISTS sources)
+  cmake_path(GET source PARENT_PATH folder)
+  if(NOT folder IN_LIST folders)
+    message(FATAL_ERROR "nothing is said of what compare/${folder} may include")
+  endif()
+endforeach()
 set(records_may "")
 set(oracle_may records)
 set(scenes_may ${oracle_may} oracle)
@@ -70,8 +77,9 @@ set(metrics_may ${scenes_may} scenes)
 set(runs_may ${metrics_may} metrics continuous)
 set(report_may records)
 set(studies_may ${runs_may} runs report)
+set(campaign_may ${runs_may} runs)
 set(benchmarks_may ${runs_may} runs)
-set(command_may ${studies_may} studies)
+set(command_may ${studies_may} studies campaign)
 foreach(folder IN LISTS folders)
   file(GLOB_RECURSE files "${ROOT}/compare/${folder}/*.[ch]pp")
   foreach(file IN LISTS files)

@@ -146,12 +146,14 @@ TEST(JudgeCrush, with_room_is_one_breach_of_who_promises_it) {
   });
 }
 
-TEST(JudgeCrush, excuses_who_is_crushed_in_the_air_and_does_not_fall) {
-  for (const bool comes : {false, true}) {
-    TraceStep stays = step_of({{here, here}, {here, {comes ? 0.4 : 0.0, 0}}, comes ? Colliders{1} : Colliders{}});
-    stays.requested = {0, -0.01};
-    EXPECT_EQ(judged(promising(opening(0)), stays).hangs, !comes);
-  }
+/// Who says so while nothing moves breaks `crush`, and one breach is said once.
+TEST(JudgeCrush, of_who_stays_in_the_air_is_no_hanging) {
+  for (const bool comes : {false, true})
+    for (const bool says : {false, true}) {
+      TraceStep stays = step_of({{here, here}, {here, {comes ? 0.4 : 0.0, 0}}, says ? Colliders{1} : Colliders{}});
+      stays.requested = {0, -0.01};
+      EXPECT_EQ(judged(promising_crush(opening(0)), stays).hangs, !comes && !says) << comes << says;
+    }
 }
 
 TEST(JudgeCrush, excuses_until_it_is_free_and_no_passing_by_its_own_motion) {

@@ -16,9 +16,10 @@ TEST(Traces, read_back_to_the_same_bits) {
   std::size_t contacts = 0;
   std::size_t sensors = 0;
   std::size_t crushes = 0;
-  for (const std::string scene : {"jump_into_overhang", "closing_ceiling", "sensor_gate", "conveyor"}) {
+  std::size_t turns = 0;
+  for (const std::string scene : {"jump_into_overhang", "closing_ceiling", "sensor_gate", "conveyor", "turning_arm"}) {
     const ReportScene result = run_scene(built_in(scene), options);
-    ASSERT_EQ(result.runs.size(), 5U);
+    ASSERT_EQ(result.runs.size(), scene == "turning_arm" ? 2U : 5U);
     for (const ReportRun& run : result.runs) {
       TraceReader reader(files.path("t." + scene + "." + run.header.contender + "." + run.header.scalar + ".jsonl"));
       const TraceHeader& read = reader.header();
@@ -35,13 +36,14 @@ TEST(Traces, read_back_to_the_same_bits) {
         contacts += step.contacts.size();
         sensors += step.sensors.size();
         crushes += step.crushed.size();
+        turns += step.vertex_ways.size();
       }
       EXPECT_FALSE(reader.next());
       EXPECT_EQ(read.path_exact, !is_reference(run.header.contender));
     }
   }
   EXPECT_GT(contacts, 100U);
-  EXPECT_TRUE(sensors > 0 && crushes > 0);
+  EXPECT_TRUE(sensors > 0 && crushes > 0 && turns > 0);
 }
 
 TEST(OutputFile, keeps_a_link_and_what_it_points_to) {

@@ -39,6 +39,13 @@ TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
   }
 }
 
+TEST(Answers, ask_of_steps_that_the_run_has) {
+  for (const BuiltInScene& entry : built_in_scenes()) {
+    const Scene scene = built_in(entry.name);
+    for (const Answer& answer : scene.answers) EXPECT_LT(answer.step, scene.steps) << entry.name;
+  }
+}
+
 // What a step says in a run that does something else.
 void move_off(TraceStep& step, double sign) {
   const Vec2d off = sign * 1000 * (1 + step.step) * Vec2d(1, 0.3);

@@ -180,18 +180,20 @@ TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
 }
 
 TEST(Sprite, has_the_outermost_pixel_of_each_row_and_column_on_its_edges) {
-  const raster::Sprite sprite(CharacterDef{}.shape, 50);
-  const Bitmap& mask = sprite.mask();
-  for (const auto& [side, outwards] : {std::pair{Side::left, Pixel{-1, 0}}, std::pair{Side::right, Pixel{1, 0}},
-                                       std::pair{Side::bottom, Pixel{0, -1}}, std::pair{Side::top, Pixel{0, 1}}}) {
-    Pixels outermost;  // a convex shape has one run of pixels in each row and column
-    for (std::int64_t y = 0; y < mask.box().height; ++y)
-      for (std::int64_t x = 0; x < mask.box().width; ++x)
-        if (mask.is_white({x, y}) && !mask.is_white(Pixel{x, y} + outwards)) outermost.emplace(x, y);
-    Pixels edge;
-    for (const Pixel& pixel : sprite.edge(side)) edge.emplace(pixel.x, pixel.y);
-    EXPECT_EQ(edge, outermost);
-    EXPECT_EQ(sprite.edge(side).size(), outermost.size());
+  for (const double pixels_per_metre : {32, 47, 49}) {  // exact; the last row, or column, is a part of a pixel
+    const raster::Sprite sprite(CharacterDef{}.shape, pixels_per_metre);
+    const Bitmap& mask = sprite.mask();
+    for (const auto& [side, outwards] : {std::pair{Side::left, Pixel{-1, 0}}, std::pair{Side::right, Pixel{1, 0}},
+                                         std::pair{Side::bottom, Pixel{0, -1}}, std::pair{Side::top, Pixel{0, 1}}}) {
+      Pixels outermost;  // a convex shape has one run of pixels in each row and column
+      for (std::int64_t y = 0; y < mask.box().height; ++y)
+        for (std::int64_t x = 0; x < mask.box().width; ++x)
+          if (mask.is_white({x, y}) && !mask.is_white(Pixel{x, y} + outwards)) outermost.emplace(x, y);
+      Pixels edge;
+      for (const Pixel& pixel : sprite.edge(side)) edge.emplace(pixel.x, pixel.y);
+      EXPECT_EQ(edge, outermost);
+      EXPECT_EQ(sprite.edge(side).size(), outermost.size());
+    }
   }
 }
 

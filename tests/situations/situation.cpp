@@ -135,11 +135,32 @@ std::string fault_of(const json& part, const json& wanted) {
   return {};
 }
 
-void refuse_other_keys(const json& wanted) {
-  for (const auto& [key, value] : wanted.items())
-    if (std::string(" of step steps some times is within at_least at_most above below because ")
-            .find(" " + key + " ") == std::string::npos)
-      throw std::invalid_argument("no such key of an expectation: " + key);
+/// Where nothing is of that name in any record, an expectation of `null` or of none would hold.
+void check_part(const std::string& of) {
+  static const json keys = json::parse(std::ifstream(PAPERPROOF_TRACE_SCHEMA)).at("$defs").at("step").at("properties");
+  const std::string first = of.substr(0, of.find('/', 1));
+  if (!of.starts_with('=') && !short_names().contains(of) && !keys.contains(first.substr(first.starts_with('/'))))
+    throw std::invalid_argument("a step's record has no " + of);
+}
+
+/// @param known names between blanks.
+void refuse_other_keys(const json& object, const std::string& known, const std::string& what) {
+  for (const auto& [key, value] : object.items())
+    if (known.find(" " + key + " ") == std::string::npos)
+      throw std::invalid_argument("no such key of " + what + ": " + key);
+}
+
+/// @throws std::invalid_argument for an expectation that no run could miss, or that says nothing of when.
+void check(const json& expected) {
+  refuse_other_keys(expected, " of step steps some times is within at_least at_most above below because ",
+                    "an expectation");
+  const auto has = [&](const char* key) { return static_cast<int>(expected.contains(key)); };
+  if (has("is") + has("at_least") + has("at_most") + has("above") + has("below") == 0)
+    throw std::invalid_argument("an expectation needs is, at_least, at_most, above or below: " + expected.dump());
+  if (has("step") + has("steps") + has("some") != 1)
+    throw std::invalid_argument("an expectation needs one of step, steps and some: " + expected.dump());
+  if (has("times") > has("some")) throw std::invalid_argument("times stands beside some: " + expected.dump());
+  check_part(expected.at("of"));
 }
 
 /// The first and the last step that an expectation speaks of.
@@ -168,7 +189,7 @@ Values in_step(int step, const std::vector<json>& records, Values values) {
 }
 
 std::string missed_one(const SituationCase& situation, const json& expected, const std::vector<json>& records) {
-  refuse_other_keys(expected);
+  check(expected);
   const std::string of = expected.at("of");
   const auto [first, last] = steps_of(expected, situation.values, static_cast<int>(records.size()));
   if (first < 0 || last < first || last >= static_cast<int>(records.size()))
@@ -183,8 +204,8 @@ std::string missed_one(const SituationCase& situation, const json& expected, con
     if (!here.empty() && fault.empty()) fault = fmt::format("in step {} {} {}", step, of, here);
   }
   if (expected.contains("some")) {
-    const int wanted = computed(expected.value("times", json(0)), situation.values).get<int>();
-    if (wanted == 0 ? times > 0 : times == wanted) return {};
+    const bool holds = expected.contains("times") ? times == computed(expected["times"], situation.values) : times > 0;
+    if (holds) return {};
     fault = fmt::format("{} of steps {} to {} are as expected; {}", times, first, last, fault);
   }
   if (fault.empty()) return {};
@@ -236,6 +257,7 @@ json computed(const json& document, const Values& values) {
 std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& text = situation.text;
   const ordered_json& file = situation.shared;
+  refuse_other_keys(text, " name for let scene expect contender breaks because ", "a situation");
   std::vector<SituationCase> cases;
   const ordered_json given = text.value("for", ordered_json::object());
   const json named = text.value("contender", ordered_json("octagon_sweep"));
@@ -243,7 +265,8 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
   for (Values& values : cases_of(given, constants())) {
     for (const ordered_json* place : {&file, &text}) {
       const ordered_json lets = place->value("let", ordered_json::object());
-      for (const auto& [name, formula] : lets.items()) values[name] = value_of(formula, values);
+      for (const auto& [name, formula] : lets.items())
+        values[name] = formula.is_number() ? formula.get<double>() : value_of(formula, values);
     }
     json scene = json(file.value("scene", ordered_json::object()));
     scene.merge_patch(json(text.value("scene", ordered_json::object())));
@@ -257,6 +280,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
                        .expected = json(text.at("expect")),
                        .breaks = text.value("breaks", std::vector<std::string>{})});
   }
+  if (cases.empty()) throw std::invalid_argument(situation.name + ": `for` has no case");
   return cases;
 }
 

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <set>
 
+#include <unistd.h>
+
 namespace paperproof::test {
 namespace {
 
@@ -37,7 +39,8 @@ class Situations : public ::testing::TestWithParam<Situation> {
  protected:
   /// Files of this test: its scene and its trace, kept where it fails.
   [[nodiscard]] std::string stem() const {
-    return ::testing::TempDir() + "situation_" + GetParam().file + "_" + GetParam().name;
+    const std::string process = std::to_string(getpid());  // sanitized tests run at the same time
+    return ::testing::TempDir() + "situation_" + process + "_" + GetParam().file + "_" + GetParam().name;
   }
 
   void run(const SituationCase& situation) {
@@ -50,6 +53,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
     const compare::Script script = script_of(scene);
     compare::InputCursor cursor(scene, script);
     for (int step = 0; step < scene.steps && lane.running(); ++step) lane.step(step, cursor.at(step));
+    ASSERT_TRUE(lane.running()) << lane.row().reason;
     lane.finish();
     const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, "double");
     for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
@@ -120,7 +124,7 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
        "in step 0 grounded is false instead of 1.0 within 0"},
       {R"({"steps": [0, 1], "of": "stuck", "is": "=step > 1"})", ""},
       {R"({"steps": [0, 1], "of": "y", "is": "=step + 1"})", "in step 1 y is 1 instead of 2.0 within 0"},
-      {R"({"step": 0, "of": "drift", "at_most": 1})", "in step 0 drift is null, and not at_most 1"},
+      {R"({"step": 0, "of": "ride", "at_most": 1})", "in step 0 ride is null, and not at_most 1"},
       {R"({"step": 2, "of": "y", "is": 1})", "y is asked of steps 2 to 2, and there are 2"},
   };
   for (const Row& row : rows) {
@@ -130,9 +134,22 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
     const std::vector<std::string> sentences = missed(situation, records);
     EXPECT_EQ(sentences.empty() ? "" : sentences.front(), row.sentence) << row.expected;
   }
-  SituationCase misspelt;
-  misspelt.expected = json::parse(R"([{"step": 0, "of": "y", "iz": 1}])");
-  EXPECT_THROW((void)missed(misspelt, records), std::invalid_argument);
+}
+
+TEST(Situation, that_no_run_could_miss_is_refused) {
+  const std::vector<json> records{json::parse(R"({"path": [[0, 2, 0]]})")};
+  for (const char* expected :
+       {R"({"step": 0, "of": "y", "iz": 2})", R"({"step": 0, "of": "y"})", R"({"of": "y", "is": 2})",
+        R"({"step": 0, "steps": [0, 0], "of": "y", "is": 2})", R"({"step": 0, "times": 1, "of": "y", "is": 2})",
+        R"({"step": 0, "of": "crsh/#", "is": 0})", R"({"step": 0, "of": "rides", "is": null})"}) {
+    SituationCase situation;
+    situation.expected = json::array({json::parse(expected)});
+    EXPECT_THROW((void)missed(situation, records), std::invalid_argument) << expected;
+  }
+  for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})"}) {
+    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text), .shared = {}};
+    EXPECT_THROW((void)cases_of(situation), std::invalid_argument) << text;
+  }
 }
 
 TEST(Situation, repeats_what_each_says) {
