@@ -5,9 +5,9 @@ it, and runs the tests.
   faults.py draw [--seed N] [--each N] [--spare N] > faults.json
       N faults for each part of the project, each an operator and a place drawn by the seed, and spare ones for those
       that do not compile or change nothing.
-  faults.py run FAULTS RESULTS [--into FOLDER] [--every] [--full]
+  faults.py run FAULTS RESULTS [--into FOLDER] [--full]
       RESULTS is a JSON file with one entry for each fault. A fault that has an entry is not run again.
-      FOLDER (build/faults) gets the copy and its build. --every: all tests that fail are named, not only the first.
+      FOLDER (build/faults) gets the copy and its build.
       --full: faults that the quick tests did not find meet the slow ones as well.
   faults.py table RESULTS...
       One line for each fault, and how many were found; of several files, side by side.
@@ -156,7 +156,7 @@ def put(copy, fault):
     return text
 
 
-def try_fault(copy, fault, every, full):
+def try_fault(copy, fault, full):
     if fault['after'] == fault['before']:
         return {**fault, 'no_fault': 'changes nothing'}  # three times 0.0
     before = put(copy, fault)
@@ -166,16 +166,16 @@ def try_fault(copy, fault, every, full):
         if not copy.compiles():
             return {**fault, 'no_fault': 'does not compile'}
         begin = time.time()
-        found, how = copy.failing('quick', every), 'quick'
+        found, how = copy.failing('quick'), 'quick'
         if full and not found:
-            found, how = copy.failing('slow', every), 'full'
+            found, how = copy.failing('slow'), 'full'
         return {**fault, 'found': how if found else None, 'tests': found, 'seconds': round(time.time() - begin)}
     finally:
         with open(os.path.join(copy.folder, fault['path']), 'w') as file:
             file.write(before)
 
 
-def run(drawn, path, folder, every, full):
+def run(drawn, path, folder, full):
     results = json.load(open(path)) if os.path.exists(path) else []
     copy = Copy(folder, full)
     for part in parts:
@@ -187,7 +187,7 @@ def run(drawn, path, folder, every, full):
                 continue
             if not old and sum('no_fault' not in r for r in done) == drawn['each']:
                 break
-            result = try_fault(copy, fault, every, full)
+            result = try_fault(copy, fault, full)
             result['tried'] = 'full' if full else 'quick'
             results = [r for r in results if r not in old] + [result]
             with open(path, 'w') as file:
@@ -216,14 +216,13 @@ def main():
     running.add_argument('faults')
     running.add_argument('results')
     running.add_argument('--into', default=os.path.join(project, 'build/faults'))
-    running.add_argument('--every', action='store_true')
     running.add_argument('--full', action='store_true')
     what.add_parser('table').add_argument('results', nargs='+')
     given = parser.parse_args()
     if given.what == 'draw':
         json.dump(draw(given.seed, given.each, given.spare), sys.stdout, indent=1)
     elif given.what == 'run':
-        run(json.load(open(given.faults)), given.results, given.into, given.every, given.full)
+        run(json.load(open(given.faults)), given.results, given.into, given.full)
     else:
         table(given.results)
 

@@ -94,11 +94,7 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
   const std::vector<json> records{
       json::parse(R"({"path": [[0, 2, 0], [0, 1, 1]], "grounded": false, "contacts": []})"),
       json::parse(R"({"path": [[0, 1, 0]], "grounded": true, "contacts": [{"side": "bottom"}]})")};
-  struct Row {
-    const char* expected;
-    const char* sentence;
-  };
-  const std::vector<Row> rows{
+  const std::vector<std::pair<const char*, const char*>> rows{
       {R"({"step": 0, "of": "y", "is": "=high - 1"})", ""},
       {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.25})", ""},
       {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.24})", "in step 0 y is 1 instead of 1.25 within 0.24"},
@@ -127,12 +123,12 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
       {R"({"step": 0, "of": "ride", "at_most": 1})", "in step 0 ride is null, and not at_most 1"},
       {R"({"step": 2, "of": "y", "is": 1})", "y is asked of steps 2 to 2, and there are 2"},
   };
-  for (const Row& row : rows) {
+  for (const auto& [expected, sentence] : rows) {
     SituationCase situation;
     situation.values = {{"high", 2}};
-    situation.expected = json::array({json::parse(row.expected)});
+    situation.expected = json::array({json::parse(expected)});
     const std::vector<std::string> sentences = missed(situation, records);
-    EXPECT_EQ(sentences.empty() ? "" : sentences.front(), row.sentence) << row.expected;
+    EXPECT_EQ(sentences.empty() ? "" : sentences.front(), sentence) << expected;
   }
 }
 
