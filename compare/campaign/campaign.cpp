@@ -157,10 +157,11 @@ std::string describe(const Breaches& breaches, const std::string& begin) {
 
 namespace {
 
-/// Runs come by chance: half of what is expected is enough, and three fewer. Of few records, which are a handful of
-/// runs, nothing is asked; and what is rare must be seen in somewhat more of them: in a third of 2,000 steps, which
-/// slow families take.
+/// A few runs are a small sample: a family may have half of what is expected, and three fewer. With fewer records than
+/// this nothing is too rare.
 constexpr int enough_records = 400;
+/// With so many records a family must have each expected happening once. A slow family has them at 2,000 steps, of
+/// which it takes a third.
 constexpr int enough_for_rare = 600;
 double fewest(double expected) { return expected / 2 - 3; }
 double most_by_chance(double expected) { return expected + 3 + 4 * std::sqrt(expected); }

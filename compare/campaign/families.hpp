@@ -34,6 +34,10 @@ struct Family {
   [[nodiscard]] std::string name_of_run(std::uint64_t seed) const {
     return kind + "_" + name + "_" + std::to_string(seed);
   }
+  /// The command that repeats one run.
+  [[nodiscard]] std::string replay_of(std::uint64_t seed) const {
+    return "paperproof replay " + title() + " " + std::to_string(seed);
+  }
   friend std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.title(); }
 };
 

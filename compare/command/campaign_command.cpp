@@ -76,11 +76,10 @@ int campaign_command(const CampaignArguments& arguments) {
   const std::string as = arguments.contender == "octagon_sweep" ? "" : " --contender " + arguments.contender;
   for (const Family* family : asked_for(arguments.families)) {
     if (!kind.empty() && kind.front().family->kind != family->kind) print_kind();
-    const std::string replay = "paperproof replay " + family->title() + " ";
     Findings findings =
         run_family(*family, arguments.steps, {.contender = arguments.contender, .trace_stem = arguments.trace_stem},
                    [&](std::uint64_t seed, const Findings& run) {
-                     broken += describe(run.breaches, replay + fmt::format("{}{}: ", seed, as));
+                     broken += describe(run.breaches, family->replay_of(seed) + as + ": ");
                    });
     if (!findings.failed.empty()) missing += fmt::format("{}: {}\n", family->title(), findings.failed);
     for (const std::string& uncovered_part : uncovered(*family, findings)) missing += uncovered_part + "\n";

@@ -66,7 +66,7 @@ class Contender {
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };
 
-/// A run that cannot be made, with the reason in words; its row is `not_applicable`.
+/// A contender cannot make a run. The message says why, and the row has the verdict `not_applicable`.
 class NotApplicable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -21,8 +21,7 @@ class Campaign : public ::testing::TestWithParam<Family> {};
 TEST_P(Campaign, breaks_only_what_is_known_and_open) {
   const Family& family = GetParam();
   const Findings all = run_family(family, steps_per_family(), {}, [&](std::uint64_t seed, const Findings& run) {
-    const std::string replay = "paperproof replay " + family.title() + " " + std::to_string(seed) + ": ";
-    std::printf("%s", describe(run.breaches, replay).c_str());
+    std::printf("%s", describe(run.breaches, family.replay_of(seed) + ": ").c_str());
   });
   EXPECT_EQ(all.failed, "");
   for (const auto& [clause, breach] : all.breaches)
@@ -86,8 +85,7 @@ TEST(CampaignFound, what_broke_once_holds) {
       const Findings run = run_and_judge(family.draw(seed), found.title);
       EXPECT_GT(run.steps, 0) << found.title << " " << seed;
       for (const Clause clause : found.clauses)
-        EXPECT_EQ(run.breaches.count(clause), 0U)
-            << name_of(clause) << ": paperproof replay " << found.title << " " << seed;
+        EXPECT_EQ(run.breaches.count(clause), 0U) << name_of(clause) << ": " << family.replay_of(seed);
     }
   }
 }

@@ -140,13 +140,13 @@ Stepper controller_of(const SceneryDef& def, const CharacterDef& character, cons
 }
 
 using Kinds = std::span<const char* const>;
-constexpr std::array all_kinds{"static", "any_up", "movers", "stairs"};
+constexpr std::array all_kinds{"static", "any_up", "movers", "stairs"};  // the selections below count on this order
 
 struct Equality {
   const char* name;
   /// Changes the run before either way makes it. @return false where there is no such way.
   bool (*prepare)(RandomRun&);
-  /// @param other what steps is still to be made; what it says is already there where the shape is elsewhere.
+  /// @param other has no stepper yet. It has a saying already where the shape is written elsewhere.
   OtherWay (*make)(const RandomRun&, Random&, OtherWay other);
   /// A run ends with its first crush: after it a level and a controller may say other things (see "Found and open" in
   /// controller/README.md).
@@ -332,22 +332,22 @@ Saying written_elsewhere(Random& random) {
 
 constexpr double rounding = 1e-9;  ///< Of a place within 1,000 m [m].
 
-constexpr Kinds near_the_origin{all_kinds.data(), 3};
-constexpr Kinds on_plain_grounds{all_kinds.data(), 2};
+constexpr Kinds without_stairs{all_kinds.data(), 3};
+constexpr Kinds standing_kinds{all_kinds.data(), 2};
 
 constexpr std::array equalities{
     Equality{"turned_by_quarters", as_it_is, turned, false, 1e-3},
     Equality{"mirrored", as_it_is, mirrored, false, 3e-3},
     Equality{"edited_as_built_at_once", put_in_order, edited_level, true},
-    Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, near_the_origin},
+    Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, without_stairs},
     Equality{"restored_as_gone_on", as_it_is, restored_each_step},
     Equality{"in_two_threads", as_it_is, in_two_threads},
     Equality{"by_another_broad_phase", as_it_is, by_another_broad_phase},
-    Equality{"as_one_of_many", on_plain_ground, one_of_many, false, 0, 0, on_plain_grounds},
+    Equality{"as_one_of_many", on_plain_ground, one_of_many, false, 0, 0, standing_kinds},
     Equality{"with_its_shape_elsewhere", as_it_is, said_otherwise, false, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_level", put_in_order, edited_level, true, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_crowd", on_plain_ground, one_of_many, false, 3e-4, rounding,
-             on_plain_grounds},
+             standing_kinds},
 };
 
 /// One run in two ways.

@@ -72,7 +72,7 @@ TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_ther
   int starts = 0;
   int to_its_side = 0;
   for (std::uint64_t seed = GetParam()->first_seed; starts < wanted && !HasFailure(); ++seed) {
-    SCOPED_TRACE("paperproof replay " + GetParam()->title() + " " + std::to_string(seed));
+    SCOPED_TRACE(GetParam()->replay_of(seed));
     const Solids solids(GetParam()->draw(seed));
     const Colliders inside = solids.oracle.overlapped(solids.start);
     Random random(seed);

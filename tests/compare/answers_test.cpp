@@ -76,7 +76,7 @@ TEST(Answers, allow_a_contender_the_gap_that_it_keeps_and_no_more) {
   const std::vector<TraceStep> near = run_to({{0, 0}, {0, 0.015}});
   EXPECT_FALSE(checked({y_is(0)}, near).ok);
   EXPECT_TRUE(checked({y_is(0)}, near, skin).ok);
-  EXPECT_EQ(checked({y_is(0)}, near, skin).error, 0.015) << "which is told all the same";
+  EXPECT_EQ(checked({y_is(0)}, near, skin).error, 0.015) << "a larger gap is accepted, and the error is still told";
   EXPECT_FALSE(checked({y_is(0).gaps(0.5)}, near, skin).ok);
   EXPECT_TRUE(checked({y_is(-0.03).gaps(3)}, near, skin).ok);
   std::vector<TraceStep> late = run_to({{0, 0}, {0, 0}, {0, 0}});

@@ -51,7 +51,7 @@ class Workplace : public SceneFiles {
   /// @param arguments as typed in a shell. @param before what stands before the command there.
   [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
     std::string folder = path("");
-    folder.pop_back();  // the slash: what is said is no file of the folder
+    folder.pop_back();  // the slash. The outputs lie beside the folder, not in it
     const std::string out = folder + ".out";
     const std::string err = folder + ".err";
     const std::string line = "cd '" + folder + "' && " + before + " '" PAPERPROOF_COMMAND "' </dev/null " + arguments +

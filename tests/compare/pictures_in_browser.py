@@ -228,7 +228,7 @@ def write_replays(command):
 
 HOSTILE = "</script><script>throw 1</script><!-- & \" ' ]]>"
 WHERE_HOSTILE = "scene=" + quote(HOSTILE)
-# Of each address: what is drawn, words of the page, a height [m] that the view shows, and how high it is at most.
+# For each address: the drawing, words of the page, a height [m] that the view must show, and how high the view may be [m].
 BULLET, DRAWN_AT = "scene=article_bullet", "scene 0 step 0 t "
 REPLAYS = (
     ("", "summary", ["Held in every scene it ran in: octagon_sweep"]),

@@ -47,7 +47,7 @@ class SceneFiles {
     return load_scenes(write(name, text)).front();
   }
 
-  /// What is said about a file, without the file's name that it has to begin with. " was accepted" if nothing is.
+  /// The message that refuses a file, without the name of the file with which it begins; else " was accepted".
   [[nodiscard]] std::string complaint(const std::string& name, std::string_view text) const {
     return complaint_about(write(name, text));
   }

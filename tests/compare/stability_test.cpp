@@ -36,7 +36,7 @@ Row judged(const std::function<void(Row&)>& change, bool slides = false) {
 
 using Predicate = std::optional<bool> Row::*;
 
-/// Of what is judged, what is changed in it, the predicate, and what it comes to; none: it is not asked.
+/// A name, a change of the row, a predicate, and its value after the change; none: the predicate is not asked.
 using Judged = std::tuple<const char*, std::function<void(Row&)>, Predicate, std::optional<bool>>;
 
 void rests(Row& row, double drift, const char* contender, const char* scalar, double origin = 0) {

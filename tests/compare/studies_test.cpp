@@ -32,7 +32,8 @@ constexpr double root_3 = 1.7320508075688772;
 /// So far up or down the slope of 30 degrees. @param gap to the slope, along its normal
 Vec2d on_30_degrees(double way, double gap) { return {root_3 / 2 * way - gap / 2, way / 2 + root_3 / 2 * gap}; }
 
-/// The motions at t = n h, but for `level`. With a lead and a gap of 0 they are as their descriptions have them.
+/// The motions at t = n h, but for `level`. With a lead and a gap of 0 they are as their descriptions have them:
+/// Box2D's limit of 2 m a step is then infinite.
 ///
 /// The lead of steps is h: each first adds gravity to the velocity and then moves, so that n steps of an acceleration
 /// a lead a t (t + h) / 2 far instead of a t² / 2. What is touched is `gap` away along its normal. Box2D goes no more
