@@ -150,6 +150,18 @@ TEST(JudgeOfContacts, who_rises_has_ground_to_climb) {
   }
 }
 
+/// A wall that is touched at 1e6 m/s leaves all of the speed, or nothing: what is the least has no share in what is the
+/// rounding of the most, 1e-9 of it.
+TEST(JudgeOfContacts, a_speed_is_known_to_a_share_of_the_largest_that_the_law_allows) {
+  const double fast = 0x1p20;
+  const TraceHeader wall = promising({box(fast * dt + half_width + gap, -4, fast * dt + 4, 4)});
+  for (const auto& [beyond, gained] : {std::pair{0.0, false}, {0x1p-11, false}, {0x1p-9, true}}) {
+    TraceStep flight = step({{0, 0}, {fast * dt, 0}}, {}, {contact(0, {-1, 0}, 1)});
+    flight.velocity.x() = fast + beyond;
+    EXPECT_EQ(judged(wall, flight, wanting({fast * dt, 0})).speed_gained > 0, gained) << beyond;
+  }
+}
+
 /// Between the tip of a one-way ledge and a steep slope: the last leg that moved began above the ledge.
 TEST(JudgeOfContacts, a_wedge_with_the_tip_of_a_ledge_holds_who_has_waited_in_it) {
   const double slope = 2;  // of the ground to the right, 63 degrees
