@@ -5,6 +5,7 @@
 #include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,13 +17,13 @@
 
 namespace paperproof::compare {
 
-/// A folder of the running test's own, removed at the end.
+/// A folder of the running test's own, removed at the end. The same test may run elsewhere at the same time.
 class SceneFiles {
  public:
   SceneFiles() {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("paperproof_") + test->test_suite_name() + "_" + test->name());
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("paperproof_") + std::to_string(getpid()) + "_" +
+                                                           test->test_suite_name() + "_" + test->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
