@@ -206,7 +206,8 @@ TEST_P(HeroInRuns, steps_as_the_controller_over_the_same_colliders) {
       Random random(seed);
       const int apart = tally.apart;
       Twice(std::move(run), random).go(tally);
-      ASSERT_TRUE(tally.apart == apart || kind == "movers") << family->title() << " " << seed;
+      ASSERT_TRUE(tally.apart == apart || kind == "movers")
+          << "hero and controller part; the controller's run is " << family->replay_of(seed);
     }
   }
   EXPECT_GE(tally.touching, tally.steps / 12);

@@ -1,5 +1,7 @@
 #include "situations/situation.hpp"
 
+#include "records/clause.hpp"
+
 #include <fmt/format.h>
 #include <muParser.h>
 
@@ -258,6 +260,8 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& text = situation.text;
   const ordered_json& file = situation.shared;
   refuse_other_keys(text, " name for let scene expect contender breaks because ", "a situation");
+  for (const std::string clause : text.value("breaks", ordered_json::array()))
+    if (!compare::clause_named(clause)) throw std::invalid_argument(situation.name + ": no such clause: " + clause);
   std::vector<SituationCase> cases;
   const ordered_json given = text.value("for", ordered_json::object());
   const json named = text.value("contender", ordered_json("octagon_sweep"));

@@ -1,6 +1,8 @@
 /// Runs every situation of this folder, has every step judged, and asks for the numbers that it expects.
 #include "situations/situation.hpp"
 
+#include "campaign/campaign.hpp"
+#include "campaign/campaign.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
 #include "scenes/load.hpp"
@@ -62,7 +64,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
     for (const auto& [clause, breach] : lane.breaches()) {
       broken_.emplace(name_of(clause));
       EXPECT_EQ(std::count(situation.breaks.begin(), situation.breaks.end(), name_of(clause)), 1)
-          << name_of(clause) << " is broken";
+          << compare::describe({{clause, breach}}, "");
     }
   }
 
