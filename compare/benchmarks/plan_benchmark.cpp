@@ -14,12 +14,8 @@ namespace paperproof::benchmarks {
 namespace {
 
 void plan_benchmark(benchmark::State& state, const Workload& workload) {
-  const auto jumps = [](const Input& input) { return input.jump; };
-  const Foreseen foreseen{.gravity = workload.scene.gravity != Vec2d(0, 0),
-                          .jump = std::any_of(workload.inputs.begin(), workload.inputs.end(), jumps)};
-  const Plan plan = make_plan(workload.scenery, foreseen);
-  const auto planned = make_controller<double>(workload, {.broad_phase = plan.broad_phase, .stages = plan.stages});
-  const auto full = make_controller<double>(workload, {});
+  const auto planned = make_controller<double>(workload);
+  const auto full = make_controller<double>(workload, {.search = PieceSearch::none});
   timed_pass(*full);
   timed_pass(*planned);
   if (planned->position() != full->position())
@@ -37,7 +33,7 @@ void plan_benchmark(benchmark::State& state, const Workload& workload) {
   state.counters["planned_ns"] = least_planned / steps;
   state.counters["full_ns"] = least_full / steps;
   state.counters["ratio"] = least_full / least_planned;
-  state.counters["omitted"] = static_cast<double>(plan.omitted.size());
+  state.counters["omitted"] = static_cast<double>(compare::plan_of(workload.scenery, {}).omitted.size());
 }
 
 }  // namespace

@@ -138,11 +138,10 @@ class Characters {
     ++frame_;
   }
   /// One after the other.
-  void step_each() {
+  void step() {
     for (std::size_t i = 0; i < many; ++i)
-      controller_.step(states[i], inputs_[i], {{0, gravity_y}, frame}, scratches_[i % scratches_.size()], reports_[0]);
+      controller_.step(states[i], inputs_[i], {{0, gravity_y}, frame}, scratches_[i % scratches_.size()], report_);
   }
-  void step_all() { controller_.step_all(states, inputs_, {{0, gravity_y}, frame, {}}, scratches_, reports_); }
 
   std::vector<CharacterState<double>> states = std::vector<CharacterState<double>>(many);
 
@@ -150,7 +149,7 @@ class Characters {
   Scenery<double> scenery_;
   Controller<double> controller_{scenery_, CharacterDef{}};
   std::vector<Scratch<double>> scratches_;
-  std::vector<StepReport<double>> reports_ = std::vector<StepReport<double>>(many);
+  StepReport<double> report_;
   std::vector<Input> walk_ = random_walk(1, walked_steps);
   std::vector<Input> inputs_ = std::vector<Input>(many);
   std::size_t frame_ = 0;
@@ -178,7 +177,7 @@ class Box2dCharacters {
   std::vector<b2Vec2> velocities_ = std::vector<b2Vec2>(many);
 };
 
-void many_characters(benchmark::State& state, std::size_t scratches, void (Characters::*step)()) {
+void many_characters(benchmark::State& state, std::size_t scratches) {
   const Level level = make_level(pieces_of_many);
   Characters characters(level, scratches);
   Box2dCharacters bodies(level, characters);
@@ -187,7 +186,7 @@ void many_characters(benchmark::State& state, std::size_t scratches, void (Chara
   const auto turn = [&] {
     characters.press();
     bodies.follow(characters);
-    paperproof.note(nanoseconds_of([&] { (characters.*step)(); }));
+    paperproof.note(nanoseconds_of([&] { characters.step(); }));
     box2d.note(nanoseconds_of([&] { bodies.step(); }));
   };
   for (int i = 0; i < frames_to_land; ++i) turn();
@@ -246,14 +245,8 @@ void register_table_benchmarks() {
         [=](benchmark::State& state) { one_character(state, make_level(pieces)); });
   add("sensors/10000", 50,
       [](benchmark::State& state) { one_character(state, make_level_with_sensors(pieces_of_many, 10'000)); });
-  const auto add_characters = [](const char* how, std::size_t scratches, void (Characters::*step)()) {
-    add(std::string("characters/") + how, 40,
-        [=](benchmark::State& state) { many_characters(state, scratches, step); });
-  };
-  add_characters("own_scratch", many, &Characters::step_each);
-  add_characters("shared_scratch", 1, &Characters::step_each);
-  add_characters("step_all_1_thread", 1, &Characters::step_all);
-  add_characters("step_all_2_threads", 2, &Characters::step_all);
+  add("characters/own_scratch", 40, [](benchmark::State& state) { many_characters(state, many); });
+  add("characters/shared_scratch", 40, [](benchmark::State& state) { many_characters(state, 1); });
   add("start_inside/surface", 200, [](benchmark::State& state) { start_inside(state, 0.1, StepStatus::moved); });
   add("start_inside/deep", 200, [](benchmark::State& state) { start_inside(state, 3, StepStatus::stuck); });
 }

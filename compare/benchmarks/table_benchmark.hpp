@@ -6,8 +6,7 @@ namespace paperproof::benchmarks {
 /// Registers, beside `table/setup/...` of the set-up benchmark:
 /// - `table/pieces/N`: a step of one character that walks and jumps in a level of N pieces,
 /// - `table/sensors/N`: the same among N sensors,
-/// - `table/characters/HOW`: a step of each of 10,000 characters, with one scratch for each, with one for all, and by
-///   `step_all` in one and in two threads,
+/// - `table/characters/HOW`: a step of each of 10,000 characters, with one scratch for each and with one for all,
 /// - `table/start_inside/WHERE`: the first step of a character that begins inside solids, somewhere in a level of
 ///   1,000,000 pieces that no cache holds: a tenth of a metre below the surface, or deep in the ground.
 ///

@@ -24,7 +24,7 @@ class JudgedRun {
         scene_(with_names(run.scene, name)),
         scenery_(scene_.scenery),
         script_(script_of(scene_)),
-        lane_(settings.contender, settings.scalar, scene_, scenery_, {.full = true}, "free", settings.trace_stem,
+        lane_(settings.contender, settings.scalar, scene_, scenery_, {}, "free", settings.trace_stem,
               {.steps = scene_.steps}),
         cursor_(scene_, script_) {}
 

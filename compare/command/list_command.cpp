@@ -25,10 +25,9 @@ std::string parameter_line(const ParameterDef& def) {
 }
 
 /// Why a contender cannot run a scene; empty where it can.
-std::string why_not(std::string_view contender, const Scene& scene, const Scenery<double>& scenery,
-                    const Planning& planning) {
+std::string why_not(std::string_view contender, const Scene& scene, const Scenery<double>& scenery) {
   try {
-    static_cast<void>(make_contender(contender, ScalarKind::binary64, scene, scenery, planning));
+    static_cast<void>(make_contender(contender, ScalarKind::binary64, scene, scenery));
   } catch (const std::exception& reason) {
     return reason.what();
   }
@@ -45,7 +44,6 @@ std::string describe_contenders(const Scene& scene) {
                        duration_in_words(preparation->seconds));
   const Scenery<double> scenery(scene.scenery);
   const Script script = script_of(scene);
-  const Planning planning{.full = false, .foreseen = foreseen_in(scene, script), .knobs = {}};
   std::string cannot_move;
   try {
     const InputCursor movers(scene, script);
@@ -56,7 +54,7 @@ std::string describe_contenders(const Scene& scene) {
   std::size_t running = 0;
   bool is_guaranteed = false;
   for (const std::string_view name : names) {
-    const std::string why = cannot_move.empty() ? why_not(name, scene, scenery, planning) : cannot_move;
+    const std::string why = cannot_move.empty() ? why_not(name, scene, scenery) : cannot_move;
     if (why.empty()) {
       ++running;
       is_guaranteed = is_guaranteed || name == "octagon_sweep";
@@ -108,7 +106,8 @@ int check_command(const std::vector<std::string>& scenes) {
 int plan_command(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
   for (const std::string& name : scenes)
     for (const Scene& scene : load_scenes(name))
-      print_out(describe_plan(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)) + '\n');
+      print_out(describe_plan(scene) +
+                describe_saving(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)) + '\n');
   return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "command/study_command.hpp"
 #include "command/study_outputs.hpp"
 #include "records/output_file.hpp"
+#include "records/trace.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/techniques.hpp>
@@ -13,12 +14,12 @@
 namespace paperproof::compare {
 namespace {
 
-const std::vector<std::string> heading{"pieces",  "broad phase", "ns per step", "median",
-                                       "largest", "build [ms]",  "same bits"};
+const std::vector<std::string> heading{"pieces",  "search",     "ns per step", "median",
+                                       "largest", "build [ms]", "same bits"};
 
 std::vector<std::string> cells_of(const ScalePoint& point) {
   return {std::to_string(point.pieces),
-          std::string(name_of(point.broad_phase)),
+          std::string(name_of(point.search)),
           fmt::format("{:.1f}", point.ns_per_step_min),
           fmt::format("{:.1f}", point.ns_per_step_median),
           fmt::format("{:.1f}", point.ns_per_step_max),
@@ -35,11 +36,11 @@ Row row_of(const ScalePoint& point) {
   Row row;
   row.scene = "floors";
   row.contender = "octagon_sweep";
-  row.knob = fmt::format("broad_phase={} pieces={}", name_of(point.broad_phase), point.pieces);
+  row.knob = fmt::format("search={} pieces={}", name_of(point.search), point.pieces);
   row.steps = point.steps;
   if (!point.same_bits) {
     row.verdict = Verdict::failed;
-    row.reason = "the positions are not those of all_pairs";
+    row.reason = "the positions are not those of one_by_one";
   }
   row.ns_per_step = point.ns_per_step_min;
   row.ns_per_step_median = point.ns_per_step_median;
@@ -50,8 +51,8 @@ Row row_of(const ScalePoint& point) {
 std::string growth_sentence(const std::vector<ScalePoint>& points) {
   std::string sentence = "From the fewest pieces to the most a step costs";
   const char* separator = " ";
-  for (const BroadPhaseKind kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::buckets, BroadPhaseKind::tree}) {
-    sentence += fmt::format("{}{:.2f} times as much with {}", separator, growth(points, kind), name_of(kind));
+  for (const PieceSearch search : scale_searches) {
+    sentence += fmt::format("{}{:.2f} times as much with {}", separator, growth(points, search), name_of(search));
     separator = ", ";
   }
   return sentence + ".";
@@ -62,16 +63,15 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
   page.title = "cost of a step against the number of pieces";
   page.paragraphs = {
       "A character walks and jumps at random over tiles of 1 m, with octagon_sweep in double. What is near it stays "
-      "the same; only the level around it grows. Minimum of nine runs after a warm-up, all kinds taking turns in one "
+      "the same; only the level around it grows. Minimum of nine runs after a warm-up, both taking turns in one "
       "process.",
       growth_sentence(points),
-      "The candidates of a step are kept for the next ones, so that the broad phase is asked only now and then."};
+      "The candidates of a step are kept for the next ones, so that they are looked for only now and then."};
   Chart& chart = page.charts.emplace_back(Chart{"octagon_sweep, walking and jumping", "pieces", "ns per step", {}});
-  for (const BroadPhaseKind kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::buckets, BroadPhaseKind::tree}) {
-    ChartSeries series{std::string(name_of(kind)), {}};
+  for (const PieceSearch search : scale_searches) {
+    ChartSeries series{std::string(name_of(search)), {}};
     for (const ScalePoint& point : points)
-      if (point.broad_phase == kind)
-        series.points.push_back({static_cast<double>(point.pieces), point.ns_per_step_min});
+      if (point.search == search) series.points.push_back({static_cast<double>(point.pieces), point.ns_per_step_min});
     chart.series.push_back(std::move(series));
   }
   page.table.heading = heading;

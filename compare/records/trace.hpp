@@ -7,7 +7,7 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/crowd.hpp>
-#include <paperproof/plan.hpp>
+#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 
@@ -62,6 +62,30 @@ struct TraceState {
   std::optional<TraceRide> ride{};
 };
 
+[[nodiscard]] constexpr std::string_view name_of(PieceSearch search) noexcept {
+  switch (search) {
+    case PieceSearch::one_by_one:
+      return "one_by_one";
+    case PieceSearch::none:
+      return "none";
+    case PieceSearch::tree:
+      break;
+  }
+  return "tree";
+}
+
+/// Something that a level has no need of, and what follows from that. Both texts are static.
+struct Omission {
+  std::string_view stage;
+  std::string_view reason;
+};
+
+/// What a level has no need of. Each of it is left out, and the steps are the same bits.
+struct LevelPlan {
+  PieceSearch search = PieceSearch::tree;
+  std::vector<Omission> omitted{};
+};
+
 struct TraceHeader {
   std::string scene;
   std::string contender;
@@ -85,7 +109,7 @@ struct TraceHeader {
   std::vector<std::string> ids;               ///< One per collider.
   std::vector<bool> turning;                  ///< By mover; empty where none turns.
   std::string box2d;                          ///< Version of the Box2D in use.
-  std::optional<Plan> plan;                   ///< None for Box2D, which has none.
+  std::optional<LevelPlan> plan;              ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;

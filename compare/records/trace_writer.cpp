@@ -15,13 +15,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json plan_json(const std::optional<Plan>& plan) {
+ordered_json plan_json(const std::optional<LevelPlan>& plan) {
   ordered_json object = ordered_json::object();
-  if (plan) object["broad_phase"] = paperproof::name_of(plan->broad_phase);
+  if (plan) object["broad_phase"] = name_of(plan->search);
   object["omitted"] = ordered_json::array();
   if (plan)
     for (const Omission& omission : plan->omitted)
-      object["omitted"].push_back({{"stage", paperproof::name_of(omission.stage)}, {"reason", omission.reason}});
+      object["omitted"].push_back({{"stage", omission.stage}, {"reason", omission.reason}});
   return object;
 }
 

@@ -252,7 +252,7 @@ void write_header(JsonObject& object, const ReportRun& run, const Quantum& quant
   JsonArray omitted;
   if (header.plan)
     for (const Omission& omission : header.plan->omitted)
-      omitted.add_raw(json_string(std::string(name_of(omission.stage)) + ": " + omission.reason));
+      omitted.add_raw(json_string(std::string(omission.stage) + ": " + std::string(omission.reason)));
   object.put("contender", json_string(header.contender)).put("scalar", json_string(header.scalar));
   if (!header.knob.empty()) object.put("knob", json_string(header.knob));
   object.put("mode", json_string(header.mode)).put("dt", short_number(header.dt, 6));

@@ -14,13 +14,12 @@ class CrowdContender final : public Contender {
   CrowdContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
                  const Planning& planning)
       : scenery_(scenery),
-        plan_(plan_of(scenery_.get(), planning)),
         crowd_(make_crowd(scenery_.get(), rules_for(technique, scene, planning.knobs),
-                          definition_of(technique, scene, plan_, planning.knobs))),
+                          definition_of(technique, scene, planning))),
         scratch_(crowd_.make_scratch(character_count(scene))),
         sides_(sides_of(technique)),
         movers_(scene.movers.size(), scenery_.get()),
-        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
+        header_(header_of(technique, scenery_.get(), scene, planning)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
     place_at_start(*this, scene);
@@ -60,7 +59,6 @@ class CrowdContender final : public Contender {
 
  private:
   OwnScenery<Scalar> scenery_;
-  Plan plan_;
   Crowd<Scalar> crowd_;
   CrowdScratch scratch_;
   Sides sides_;

@@ -18,7 +18,7 @@ class LevelContender final : public Contender {
                  const Planning& planning)
       : level_(scenery.as_run()),
         controller_(level_, rules_for(technique, scene, planning.knobs)),
-        header_(header_of(technique, scenery, scene, plan_of(scenery, planning), planning.knobs)) {
+        header_(header_of(technique, scenery, scene, planning)) {
     header_.plan.reset();  // it leaves nothing out
     header_.turning.assign(scene.movers.size(), true);
     place_at_start(*this, scene);

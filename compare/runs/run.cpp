@@ -37,7 +37,7 @@ class SceneRun {
         steps_(options.steps.value_or(scene.steps)),
         script_(options.random_input ? random_script(scene, *options.random_input, steps_) : script_of(scene, steps_)),
         scenery_(scene.scenery),
-        planning_{.full = options.full_plan, .foreseen = foreseen_in(scene, script_), .knobs = options.knobs} {
+        planning_{.full = options.full_plan, .knobs = options.knobs} {
     const std::string mode = options.mode == Mode::lockstep ? "lockstep" : "free";
     const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
     for (const std::string& name : contenders_of(options))

@@ -1,32 +1,78 @@
 #include "runs/scene_plan.hpp"
 
+#include "runs/contender.hpp"
+#include "runs/cost.hpp"
+
+#include <paperproof/scenery_facts.hpp>
+
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace paperproof::compare {
-
-Foreseen foreseen_in(const Scene& scene, const Script& script) {
-  const auto jumps = [](const std::vector<InputEvent>& events) {
-    return std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.jump == true; });
-  };
-  const auto pulls = [](double gravity) { return gravity != 0 || std::signbit(gravity); };
-  return {.gravity = pulls(scene.gravity.x()) || pulls(scene.gravity.y()),
-          .jump = std::any_of(script.begin(), script.end(), jumps),
-          .company = !scene.others.empty()};
-}
+namespace {
 
 template <class Scalar>
-Plan plan_of(const Scenery<Scalar>& scenery, const Planning& planning) {
-  if (!planning.full) return make_plan(scenery, planning.foreseen);
-  Plan full;
-  full.broad_phase_reason = "as asked for: nothing is left out";
-  return full;
+bool has_slopes(const Scenery<Scalar>& scenery) {
+  for (PieceIndex piece = 0; piece < scenery.sensor_pieces().first; ++piece) {
+    if (scenery.pieces()[piece].is_circle()) return true;
+    if (scenery.pieces()[piece].is_rectangle()) continue;
+    const auto vertices = scenery.vertices_of(piece);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec2<Scalar> edge = vertices[(i + 1) % vertices.size()] - vertices[i];
+      if (edge.x() != 0 && edge.y() != 0) return true;
+    }
+  }
+  return false;
 }
 
-template Plan plan_of(const Scenery<float>&, const Planning&);
-template Plan plan_of(const Scenery<double>&, const Planning&);
+/// Of what the allocator gave away [bytes].
+std::size_t memory_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+/// The technique of the controller, planned one way, and the memory that it takes.
+struct Planned {
+  std::size_t bytes = 0;
+  std::unique_ptr<Contender> contender;
+};
+
+Planned make_planned(bool full, const Scene& scene, const Scenery<double>& scenery) {
+  const std::size_t before = memory_in_use();
+  auto made = make_contender("octagon_sweep", ScalarKind::binary64, scene, scenery, {.full = full});
+  return {memory_in_use() - before, std::move(made)};
+}
+
+}  // namespace
+
+template <class Scalar>
+LevelPlan plan_of(const Scenery<Scalar>& scenery, const Planning& planning) {
+  LevelPlan plan;
+  if (planning.full) {
+    plan.search = PieceSearch::none;
+    return plan;
+  }
+  const auto leave_out = [&plan](bool needed, std::string_view stage, std::string_view reason) {
+    if (!needed) plan.omitted.push_back({stage, reason});
+  };
+  leave_out(has_filters(scenery), "filters", "no collider has a filter, so no piece is asked whether it is there");
+  leave_out(has_slopes(scenery), "slopes",
+            "every edge is level or upright, so no piece has axes of its own: none is built, stored or tested");
+  leave_out(scenery.mover_count() > 0 || has_conveyors(scenery), "movers",
+            "nothing moves and there is no conveyor, so no mover is looked up and nothing carries the character");
+  leave_out(has_one_way_chains(scenery), "one_way",
+            "there is no one-way chain, so no surface is built and none is asked for its side");
+  leave_out(scenery.sensor_pieces().size() > 0, "sensors", "there is no sensor, so no path is searched for one");
+  return plan;
+}
+
+template LevelPlan plan_of(const Scenery<float>&, const Planning&);
+template LevelPlan plan_of(const Scenery<double>&, const Planning&);
 
 MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   MetricPlan plan;
@@ -38,7 +84,10 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
     if (member != nullptr) plan.measured.*member = needed;
     if (!needed) plan.omitted.push_back({metric, reason});
   };
-  leave_out(planning.foreseen.gravity, &Measured::rest, "rest jitter",
+  const auto pulls = [](double gravity) {
+    return gravity != 0 || std::signbit(gravity);
+  };  // minus zero gives other bits
+  leave_out(pulls(scene.gravity.x()) || pulls(scene.gravity.y()), &Measured::rest, "rest jitter",
             "without gravity nothing presses the character onto anything, so nothing rests");
   leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), nullptr, "one-way violations",
             "there is no one-way chain");
@@ -49,17 +98,32 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   return plan;
 }
 
-std::string describe_plan(const Scene& scene, const Script& script) {
-  const Planning planning{.foreseen = foreseen_in(scene, script)};
-  const Plan plan = plan_of(Scenery<double>(scene.scenery), planning);
+std::string describe_plan(const Scene& scene) {
+  const Scenery<double> scenery(scene.scenery);
+  const LevelPlan plan = plan_of(scenery, {});
+  const std::size_t pieces = scenery.pieces().size();
   std::string out = scene.name + "\n";
-  out += fmt::format("  broad phase  {}: {}\n", name_of(plan.broad_phase), plan.broad_phase_reason);
+  out += fmt::format("  looks at     pieces whose boxes meet the step's, of {} {}\n", pieces,
+                     pieces == 1 ? "piece" : "pieces");
   for (const Omission& omission : plan.omitted)
-    out += fmt::format("  without      {}: {}\n", name_of(omission.stage), omission.reason);
-  if (plan.omitted.empty()) out += "  without      nothing: the scene can need every stage\n";
-  for (const MetricOmission& omission : metrics_for(scene, planning).omitted)
+    out += fmt::format("  without      {}: {}\n", omission.stage, omission.reason);
+  if (plan.omitted.empty()) out += "  without      nothing: the level has everything\n";
+  for (const MetricOmission& omission : metrics_for(scene, {}).omitted)
     out += fmt::format("  not measured {}: {}\n", omission.metric, omission.reason);
   return out;
+}
+
+std::string describe_saving(const Scene& scene, const Script& script) {
+  const Scenery<double> scenery(scene.scenery);
+  const Planned planned = make_planned(false, scene, scenery);
+  const Planned full = make_planned(true, scene, scenery);
+  const std::array runs{TimedRun{planned.contender.get(), {}}, TimedRun{full.contender.get(), {}}};
+  const std::vector<Costs> costs = measure_costs(runs, scene, script, scene.steps);
+  for (std::size_t k = 0; k < character_count(scene); ++k)
+    if (planned.contender->pose(k).position != full.contender->pose(k).position)
+      throw std::logic_error(scene.name + ": planned and full end at different positions");
+  return fmt::format("  takes        {:.0f} ns a step and {} bytes, and with nothing left out {:.0f} ns and {} bytes\n",
+                     costs[0].full.ns_per_step_min, planned.bytes, costs[1].full.ns_per_step_min, full.bytes);
 }
 
 }  // namespace paperproof::compare

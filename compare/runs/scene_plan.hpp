@@ -1,11 +1,10 @@
-/// The plan of a scene: what its controller leaves out, and which metrics apply.
+/// The plan of a scene: what its level has no need of, what that saves, and which metrics apply.
 #pragma once
 
 #include "metrics/measured.hpp"
+#include "records/trace.hpp"
 #include "runs/knobs.hpp"
 #include "scenes/scene.hpp"
-
-#include <paperproof/plan.hpp>
 
 #include <span>
 #include <string>
@@ -15,17 +14,13 @@ namespace paperproof::compare {
 
 /// How the runs of a scene are planned.
 struct Planning {
-  bool full = false;                     ///< Nothing is left out, whatever the scene can need.
-  Foreseen foreseen{};                   ///< From the scene's gravity and the input of the run.
+  bool full = false;                     ///< Nothing is left out: see `PieceSearch::none`.
   std::span<const KnobSetting> knobs{};  ///< Turned, of the techniques that have them.
 };
 
-/// What gravity and input of a scene say about every step.
-[[nodiscard]] Foreseen foreseen_in(const Scene& scene, const Script& script);
-
-/// The controller's plan, or with `Planning::full` one that omits nothing and finds pieces with a tree.
+/// What the level has no need of, in the order of a step. It follows from the colliders alone.
 template <class Scalar>
-[[nodiscard]] Plan plan_of(const Scenery<Scalar>& scenery, const Planning& planning);
+[[nodiscard]] LevelPlan plan_of(const Scenery<Scalar>& scenery, const Planning& planning);
 
 struct MetricPlan {
   Measured measured;
@@ -33,7 +28,13 @@ struct MetricPlan {
 };
 [[nodiscard]] MetricPlan metrics_for(const Scene& scene, const Planning& planning);
 
-/// Several lines for `paperproof plan`: broad phase, stages and metrics that are left out, each with its reason.
-[[nodiscard]] std::string describe_plan(const Scene& scene, const Script& script);
+/// Several lines for `paperproof plan`: how near pieces are found, what is left out and why that is safe, and which
+/// metrics are. Does not measure.
+[[nodiscard]] std::string describe_plan(const Scene& scene);
+
+/// One line for `paperproof plan`: time of a step and memory of `octagon_sweep`, as planned and with nothing left out.
+/// Both run the same steps, by turns: see `measure_costs`. Not for tests: machines are shared.
+/// @throws std::logic_error where the two do not end at the same position.
+[[nodiscard]] std::string describe_saving(const Scene& scene, const Script& script);
 
 }  // namespace paperproof::compare

@@ -16,13 +16,12 @@ class TechniqueContender final : public Contender {
   TechniqueContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
                      const Planning& planning)
       : scenery_(scenery),
-        plan_(plan_of(scenery_.get(), planning)),
         controller_(make_controller(scenery_.get(), rules_for(technique, scene, planning.knobs),
-                                    definition_of(technique, scene, plan_, planning.knobs))),
+                                    definition_of(technique, scene, planning))),
         scratch_(controller_.make_scratch()),
         sides_(sides_of(technique)),
         movers_(scene.movers.size(), scenery_.get()),
-        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)) {
+        header_(header_of(technique, scenery_.get(), scene, planning)) {
     place_at_start(*this, scene);
   }
 
@@ -52,7 +51,6 @@ class TechniqueContender final : public Contender {
 
  private:
   OwnScenery<Scalar> scenery_;
-  Plan plan_;
   Controller<Scalar> controller_;
   Scratch<Scalar> scratch_;
   Sides sides_;

@@ -100,12 +100,14 @@ double unit_of(const TechniqueEntry& technique, const Scene& scene, std::span<co
 
 }  // namespace
 
-TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Plan& plan,
-                           std::span<const KnobSetting> knobs) {
+TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Planning& planning) {
+  const std::span<const KnobSetting> knobs = planning.knobs;
   TechniqueDef def;
   def.name = technique.name;
-  def.broad_phase = plan.broad_phase;
-  def.stages = plan.stages;
+  if (planning.full) {
+    def.broad_phase = BroadPhaseKind::all_pairs;
+    def.search = PieceSearch::none;
+  }
   def.article = article_knobs(technique, scene, knobs);
   turn_knobs(knobs, def);
   refuse_coarser_drawing(technique, scene, knobs);
@@ -189,7 +191,8 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
 
 template <class Scalar>
 TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
-                      const Plan& plan, std::span<const KnobSetting> knobs) {
+                      const Planning& planning) {
+  const std::span<const KnobSetting> knobs = planning.knobs;
   TraceHeader header;
   header.scene = scene.name;
   header.contender = technique.name;
@@ -203,7 +206,7 @@ TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& sc
   header.scenery = rounded<Scalar>(scene.scenery);
   check_as_run(header.scenery, scenery.as_run(), scene.ids);
   header.ids = scene.ids;
-  header.plan = plan;
+  header.plan = plan_of(scenery, planning);
   header.tolerances = tolerances_of<Scalar>();
   if (const double unit = unit_of(technique, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
   if (technique.draws_level && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
@@ -279,10 +282,8 @@ CharacterState<Scalar> state_at(const Pose& pose) {
   return state;
 }
 
-template TraceHeader header_of(const TechniqueEntry&, const Scenery<float>&, const Scene&, const Plan&,
-                               std::span<const KnobSetting>);
-template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, const Scene&, const Plan&,
-                               std::span<const KnobSetting>);
+template TraceHeader header_of(const TechniqueEntry&, const Scenery<float>&, const Scene&, const Planning&);
+template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, const Scene&, const Planning&);
 template std::optional<TraceRide> recorded_ride(const Ride<float>&);
 template std::optional<TraceRide> recorded_ride(const Ride<double>&);
 template void write_report(const StepReport<float>&, const CharacterState<float>&, Sides, TraceStep&);

@@ -32,8 +32,7 @@ class OwnScenery<double> {
 
 /// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile where it
 ///   would see only the part of the scenery that is in a file of tiles, or with other pixels than those of the file.
-[[nodiscard]] TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Plan& plan,
-                                         std::span<const KnobSetting> knobs);
+[[nodiscard]] TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Planning& planning);
 
 /// The scene's character with the jumping rules in force. The knob `jump_rules` comes first, then the scene's own word,
 /// then what is usual: on for the article's techniques, off for octagon_sweep.
@@ -51,7 +50,7 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
 
 template <class Scalar>
 [[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
-                                    const Plan& plan, std::span<const KnobSetting> knobs);
+                                    const Planning& planning);
 
 /// What carries a character, as a record has it.
 template <class Scalar>

@@ -17,7 +17,6 @@ constexpr double between_floors = 8;  ///< [m] Higher than a jump.
 constexpr int steps = 600;
 constexpr std::size_t repeats = 9;
 constexpr std::uint64_t seed = 1;
-constexpr std::array all_kinds{BroadPhaseKind::all_pairs, BroadPhaseKind::buckets, BroadPhaseKind::tree};
 
 using Clock = std::chrono::steady_clock;
 
@@ -47,14 +46,14 @@ std::vector<Input> inputs() {
   return all;
 }
 
-/// One broad phase in one level, ready to run again and again.
+/// One search in one level, ready to run again and again.
 class Subject {
  public:
-  Subject(BroadPhaseKind kind, const Scenery<double>& scenery) {
+  Subject(PieceSearch search, const Scenery<double>& scenery) {
     const auto begin = Clock::now();
-    controller_ = std::make_unique<Controller<double>>(scenery, CharacterDef{}, SweepDef{.broad_phase = kind});
+    controller_ = std::make_unique<Controller<double>>(scenery, CharacterDef{}, SweepDef{.search = search});
     point_.build_ms = milliseconds_since(begin);
-    point_.broad_phase = kind;
+    point_.search = search;
     point_.pieces = scenery.pieces().size();
     point_.steps = steps;
     scratch_ = controller_->make_scratch();
@@ -107,8 +106,8 @@ class Subject {
 void study_level(std::size_t pieces, const std::vector<Input>& inputs, std::vector<ScalePoint>& points) {
   const Scenery<double> scenery(floors(pieces));
   std::vector<Subject> subjects;
-  for (const BroadPhaseKind kind : all_kinds) subjects.emplace_back(kind, scenery);
-  // The warm-up: and what every kind has to give.
+  for (const PieceSearch search : scale_searches) subjects.emplace_back(search, scenery);
+  // The warm-up, and what both have to give.
   const std::vector<Vec2d> expected = subjects.front().positions(inputs);
   std::vector<bool> same;
   for (Subject& subject : subjects) same.push_back(subject.positions(inputs) == expected);
@@ -136,11 +135,11 @@ std::vector<ScalePoint> study_scale(const std::vector<std::size_t>& counts,
   return points;
 }
 
-double growth(const std::vector<ScalePoint>& points, BroadPhaseKind kind) {
+double growth(const std::vector<ScalePoint>& points, PieceSearch search) {
   const ScalePoint* fewest = nullptr;
   const ScalePoint* most = nullptr;
   for (const ScalePoint& point : points) {
-    if (point.broad_phase != kind) continue;
+    if (point.search != search) continue;
     if (fewest == nullptr || point.pieces < fewest->pieces) fewest = &point;
     if (most == nullptr || point.pieces > most->pieces) most = &point;
   }

@@ -1,26 +1,28 @@
-/// What a step costs among more and more pieces, for each broad phase.
+/// What a step costs among more and more pieces, with the tree that finds the near ones and without.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
+#include <paperproof/octagon_sweep.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace paperproof::compare {
 
-/// One broad phase among one number of pieces.
+/// One search among one number of pieces.
 struct ScalePoint {
-  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  PieceSearch search = PieceSearch::tree;
   std::size_t pieces = 0;
   int steps = 0;               ///< Of one run.
   double build_ms = 0;         ///< Once per level, everything that the technique prepares included.
-  double ns_per_step_min = 0;  ///< Of 9 runs after a warm-up; the kinds take turns, so that a disturbance meets all.
+  double ns_per_step_min = 0;  ///< Of 9 runs after a warm-up; the two take turns, so that a disturbance meets all.
   double ns_per_step_median = 0;
   double ns_per_step_max = 0;
-  bool same_bits = true;  ///< Every position is that of `all_pairs`, bit for bit.
+  bool same_bits = true;  ///< Every position is that of `one_by_one`, bit for bit.
 };
 
+inline constexpr std::array scale_searches{PieceSearch::one_by_one, PieceSearch::tree};
 inline constexpr std::size_t tiles_per_floor = 100;
 /// A million takes 0.8 GB, so that few machines have room for more; and a floor of these is within the range in which
 /// the controller keeps its promises.
@@ -36,6 +38,6 @@ inline constexpr std::size_t most_tiles = 10'000'000;
                                                   const std::function<void(double)>& progress);
 
 /// How many times as much a step costs among the most pieces as among the fewest.
-[[nodiscard]] double growth(const std::vector<ScalePoint>& points, BroadPhaseKind kind);
+[[nodiscard]] double growth(const std::vector<ScalePoint>& points, PieceSearch search);
 
 }  // namespace paperproof::compare

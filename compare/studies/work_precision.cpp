@@ -161,7 +161,7 @@ class MotionStudy {
 
   void measure_error(Point& point) {
     const Level& level = *scenes_.at(point.dt);
-    const Planning planning{.foreseen = foreseen_in(level.scene, level.script), .knobs = point.knobs};
+    const Planning planning{.knobs = point.knobs};
     const ScalarKind scalar = point.row.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64;
     point.contender = make_contender(point.row.contender, scalar, level.scene, level.scenery, planning);
     point.row.knob = point.contender->header().knob;

@@ -2,12 +2,8 @@
 #include <paperproof/scenery_facts.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <optional>
 #include <stdexcept>
-#include <thread>
 
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
@@ -148,25 +144,6 @@ class Undo {
   Scalar pending_left_;
 };
 
-/// Number of characters that a thread takes at a time. One: threads wait for each other's counter. Many: one of them
-/// ends late.
-constexpr std::size_t taken_at_once = 64;
-
-/// Calls `work(scratch)` in a thread for each scratch; the last one in this thread. Threads lie on the stack, one call
-/// deeper each, so that nothing is allocated for them here.
-template <class Scalar, class Work>
-void work_together(std::span<Scratch<Scalar>> scratches, const Work& work) noexcept {
-  if (scratches.size() == 1) return work(scratches.front());
-  std::optional<std::thread> other;
-  try {
-    other.emplace([&] { work(scratches.front()); });
-  } catch (const std::exception&) {
-    // The system has no thread left. The other threads take all the work.
-  }
-  work_together(scratches.subspan(1), work);
-  if (other) other->join();
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -177,15 +154,13 @@ DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Ve
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
-    : Controller(scenery, character, make_octagon_sweep(sweep, scenery, character), sweep.stages) {}
+    : Controller(scenery, character, make_octagon_sweep(sweep, scenery, character), sweep.search) {}
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                               std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages)
+                               std::unique_ptr<const Technique<Scalar>> technique, PieceSearch search)
     : scenery_(&scenery),
       has_filters_(has_filters(scenery)),
-      may_jump_(stages.jump),
-      may_fall_(stages.gravity),
       character_(character),
       technique_(std::move(technique)),
       sweep_(dynamic_cast<const octagon_sweep::SweepInParts<Scalar>*>(technique_.get())) {
@@ -193,10 +168,12 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
   if (has_filters_ && !technique_->abilities().filter)
     throw std::invalid_argument("the technique " + std::string(technique_->name()) +
                                 " has no filter, and there is a collider with one");
-  if (!stages.sensors && scenery.sensor_pieces().size() > 0)
-    throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
-  if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
-  if (has_one_way_chains(scenery)) one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
+  const bool asks_all = search == PieceSearch::none;
+  if (asks_all) has_filters_ = true;
+  if (asks_all || scenery.sensor_pieces().size() > 0)
+    sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape, search);
+  if (asks_all || has_one_way_chains(scenery))
+    one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape, search);
 }
 
 template <class Scalar>
@@ -212,11 +189,9 @@ template <class Scalar>
                                                                const StepContext<Scalar>& context) const noexcept {
   if (!is_upright(context.up)) [[unlikely]]
     return accepts_turned(state, input, context);
-  const Vec2<Scalar>& gravity = context.gravity;
-  const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
-  return foreseen && context.dt > 0 && context.movers.size() == scenery_->mover_count() &&
+  return context.dt > 0 && context.movers.size() == scenery_->mover_count() &&
          (context.filter == nullptr || technique_->abilities().filter) &&
-         finite(state, input, gravity, context.dt, context.movers);
+         finite(state, input, context.gravity, context.dt, context.movers);
 }
 
 /// With an up that is not (0, 1).
@@ -363,28 +338,6 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
   count_down_coyote(character_, context.dt, state);
   end_step(false, context, scratch, state, report);
   return report.status;
-}
-
-template <class Scalar>
-BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                                         const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
-                                         std::span<StepReport<Scalar>> reports) const noexcept {
-  const std::size_t count = states.size();
-  const auto is_own = [&](const Scratch<Scalar>& scratch) { return is_made_by(technique_, scratch.maker); };
-  if (inputs.size() != count || reports.size() != count || scratches.empty() ||
-      !std::all_of(scratches.begin(), scratches.end(), is_own))
-    return BatchStatus::invalid_input;
-  // Threads without work are not started.
-  const std::size_t shares = std::max<std::size_t>(1, (count + taken_at_once - 1) / taken_at_once);
-  std::atomic<std::size_t> next = 0;
-  work_together(scratches.first(std::min(scratches.size(), shares)), [&](Scratch<Scalar>& scratch) {
-    for (std::size_t first = next.fetch_add(taken_at_once); first < count; first = next.fetch_add(taken_at_once))
-      for (std::size_t i = first; i < std::min(count, first + taken_at_once); ++i) {
-        step(states[i], inputs[i], context, scratch, reports[i]);
-        reports[i].move.keep_own();  // other characters use the scratch next
-      }
-  });
-  return BatchStatus::stepped;
 }
 
 template <class Scalar>

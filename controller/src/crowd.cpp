@@ -55,21 +55,19 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
     : Crowd([&] {
         Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
-        SweepDef def = sweep;
-        def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
         CharacterDef walker = character;
         walker.step_height = 0;  // a path that goes up at once is not swept against the paths of others
-        auto technique = octagon_sweep::make_sweep_in_parts(def, rules.sweep->scenery, walker);
+        auto technique = octagon_sweep::make_sweep_in_parts(sweep, rules.sweep->scenery, walker);
         rules.sweep->sweep = technique.get();
         return Crowd(std::make_unique<const Rules>(std::move(rules)),
-                     Controller<Scalar>(scenery, character, std::move(technique), def.stages));
+                     Controller<Scalar>(scenery, character, std::move(technique), sweep.search));
       }()) {}
 
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                     std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages)
+                     std::unique_ptr<const JointTechnique<Scalar>> technique, PieceSearch search)
     : Crowd(std::make_unique<const Rules>(Rules{.may_ride = true}),
-            Controller<Scalar>(scenery, character, std::move(technique), stages)) {}
+            Controller<Scalar>(scenery, character, std::move(technique), search)) {}
 
 template <class Scalar>
 Crowd<Scalar>::~Crowd() = default;

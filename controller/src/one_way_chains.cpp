@@ -37,8 +37,8 @@ void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& cha
 }  // namespace
 
 template <class Scalar>
-OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape)
-    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery)), surfaces_(scenery, shape) {
+OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search)
+    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery), search), surfaces_(scenery, shape) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {

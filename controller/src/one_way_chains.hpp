@@ -18,7 +18,7 @@ class OneWayChains {
   using Passed = decltype(StepReport<Scalar>::dropped_through);
 
   /// `scenery` must outlive the chains.
-  OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape);
+  OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search);
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
 

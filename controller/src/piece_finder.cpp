@@ -5,9 +5,6 @@
 namespace paperproof {
 namespace {
 
-/// Up to this many boxes are tested one by one: a tree over so few boxes costs more than it saves.
-constexpr std::size_t few_boxes = 8;
-
 /// Margin around the character, as a share of its size, so that rounding hides no piece. It is far larger than the
 /// rounding error, and too small to find pieces beside the way.
 constexpr double reach_share = 1e-5;
@@ -16,7 +13,8 @@ constexpr double reach_share = 1e-5;
 
 template <class Scalar>
 PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                                 std::span<const PieceIndex> pieces) {
+                                 std::span<const PieceIndex> pieces, PieceSearch search)
+    : asks_all_(search == PieceSearch::none) {
   const Box2<double>& box = shape.box();
   const double size = (box.upper - box.lower).maxCoeff();
   look_ahead_ = static_cast<Scalar>(look_ahead_share * size);
@@ -30,8 +28,7 @@ PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const Character
   const auto prepare = [&](Group& group) {
     group.boxes.reserve(group.pieces.size());
     for (const PieceIndex piece : group.pieces) group.boxes.push_back(scenery.box(piece));
-    const BroadPhaseKind kind = group.boxes.size() <= few_boxes ? BroadPhaseKind::all_pairs : BroadPhaseKind::tree;
-    group.phase = make_broad_phase<Scalar>(kind, group.boxes);
+    group.tree.emplace(group.boxes, search);
   };
   prepare(standing_);
   for (MoverIndex mover = 0; mover < of_mover.size(); ++mover) {
@@ -54,7 +51,7 @@ Candidates<Scalar> PieceFinder<Scalar>::make_candidates() const {
 template <class Scalar>
 std::span<const PieceIndex> PieceFinder<Scalar>::Group::query(const Box2<Scalar>& box,
                                                               std::span<PieceIndex> found) const noexcept {
-  const std::size_t count = phase->query(box, found);
+  const std::size_t count = tree->query(box, found);
   for (PieceIndex& piece : found.first(count)) piece = pieces[piece];
   return found.first(count);
 }
@@ -77,7 +74,7 @@ std::span<const PieceIndex> PieceFinder<Scalar>::near_standing(std::span<const P
   Box2<Scalar> positions{path.front().position, path.front().position};
   for (const PathPoint<Scalar>& corner : path.subspan(1))
     positions = positions.merged({corner.position, corner.position});
-  if (positions.lower == positions.upper || candidates.quiet.contains(positions)) return {};
+  if (!asks_all_ && (positions.lower == positions.upper || candidates.quiet.contains(positions))) return {};
   if (!candidates.valid || !candidates.box.contains(positions)) {
     const Vec2<Scalar> way = path.back().position - path.front().position;
     candidates.box = positions_ahead(positions, way, look_ahead_);

@@ -1,26 +1,27 @@
 /// Pieces that a character's way may touch.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
+#include "broad_phase/tree.hpp"
+
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace paperproof {
 
 /// Candidates are collected at most this far ahead of a motion, in multiples of the character's larger extent. Zero:
-/// every step asks the broad phase. Large: a fast step tests pieces that it never meets.
+/// every step asks the tree. Large: a fast step tests pieces that it never meets.
 inline constexpr double look_ahead_share = 2;
 
 /// The positions for which candidates are collected when a character in `box` goes by `way` in a step [m].
 /// @param most how far ahead at most [m].
 template <class Scalar>
 [[nodiscard]] Box2<Scalar> positions_ahead(const Box2<Scalar>& box, const Vec2<Scalar>& way, Scalar most) noexcept {
-  // Number of further steps like the present one. None: every step asks the broad phase. Many: every step tests pieces
+  // Number of further steps like the present one. None: every step asks the tree. Many: every step tests pieces
   // that it never meets.
   constexpr int steps_ahead = 8;
   // The box also grows by this fraction of `most` on every side: for small turns.
@@ -30,14 +31,15 @@ template <class Scalar>
   return box.merged({box.lower + ahead, box.upper + ahead}).inflated(most / sides);
 }
 
-/// Finds the pieces near a path, among given pieces of a scenery. It has one broad phase for the standing pieces, whose
+/// Finds the pieces near a path, among given pieces of a scenery. It has one tree for the standing pieces, whose
 /// answer is kept for the next steps, and one for each mover. Immutable; shareable between threads; a search never
 /// allocates.
 template <class Scalar>
 class PieceFinder {
  public:
   /// @param pieces ascending.
-  PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape, std::span<const PieceIndex> pieces);
+  PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape, std::span<const PieceIndex> pieces,
+              PieceSearch search);
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const;
 
@@ -76,8 +78,8 @@ class PieceFinder {
   struct Group {
     MoverIndex mover = no_mover;
     std::vector<PieceIndex> pieces;
-    std::vector<Box2<Scalar>> boxes;                  ///< Of the pieces, at offset zero,
-    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< and the broad phase over them.
+    std::vector<Box2<Scalar>> boxes;                ///< Of the pieces, at offset zero,
+    std::optional<broad_phase::Tree<Scalar>> tree;  ///< and the tree over them.
 
     [[nodiscard]] std::span<const PieceIndex> query(const Box2<Scalar>& box,
                                                     std::span<PieceIndex> found) const noexcept;
@@ -89,6 +91,7 @@ class PieceFinder {
 
   Box2<Scalar> reach_;  ///< Around the character at the origin, and a little more [m].
   Scalar look_ahead_;   ///< [m]
+  bool asks_all_;       ///< Also on a way that is known to be quiet.
   Group standing_;
   std::vector<Group> moving_;  ///< One for each mover that has such pieces.
 };

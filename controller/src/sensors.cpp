@@ -86,8 +86,8 @@ std::vector<PieceIndex> all_of(PieceRange range) {
 }  // namespace
 
 template <class Scalar>
-Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape)
-    : scenery_(&scenery), finder_(scenery, shape, all_of(scenery.sensor_pieces())) {
+Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search)
+    : scenery_(&scenery), finder_(scenery, shape, all_of(scenery.sensor_pieces()), search) {
   const Vec2<Scalar> lower = shape.box().lower.cast<Scalar>();
   const Vec2<Scalar> upper = shape.box().upper.cast<Scalar>();
   for (const Vec2d& corner : shape.hull()) outline_.push_back(corner.cast<Scalar>());

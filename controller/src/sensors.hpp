@@ -26,7 +26,7 @@ class Sensors {
   using Events = decltype(StepReport<Scalar>::sensors);
 
   /// `scenery` must outlive the sensors.
-  Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape);
+  Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::tree);
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
 

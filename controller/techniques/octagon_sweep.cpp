@@ -9,7 +9,7 @@ namespace {
 template <class Scalar>
 std::unique_ptr<Technique<Scalar>> make(const TechniqueDef& def, const Scenery<Scalar>& scenery,
                                         const CharacterDef& character) {
-  return make_octagon_sweep(SweepDef{def.broad_phase, def.stages, def.sweep_iterations}, scenery, character);
+  return make_octagon_sweep(SweepDef{def.search, def.sweep_iterations}, scenery, character);
 }
 
 }  // namespace

@@ -107,18 +107,17 @@ Controller<Scalar> make_controller(const Scenery<Scalar>& scenery, const Charact
                                    const TechniqueDef& def) {
   CharacterDef with_reach = character;
   with_reach.wall_reach = def.article.unit;
-  return Controller<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.stages);
+  return Controller<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
 }
 
 template <class Scalar>
 Crowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& def) {
-  if (def.name == "octagon_sweep")
-    return Crowd<Scalar>(scenery, character, SweepDef{def.broad_phase, def.stages, def.sweep_iterations});
+  if (def.name == "octagon_sweep") return Crowd<Scalar>(scenery, character, SweepDef{def.search, def.sweep_iterations});
   std::unique_ptr<const Technique<Scalar>> made = make_technique(def, scenery, character);
   const auto* joint = dynamic_cast<const JointTechnique<Scalar>*>(made.get());
   require(joint != nullptr, "a crowd does not move by " + std::string(def.name) + ", which knows one character");
   static_cast<void>(made.release());
-  return Crowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.stages);
+  return Crowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.search);
 }
 
 #define PAPERPROOF_INSTANTIATE(Scalar)                                                                           \

@@ -302,10 +302,8 @@ OtherWay in_two_threads(const RandomRun& run, Random&, OtherWay) {
   }};
 }
 
-OtherWay by_another_broad_phase(const RandomRun& run, Random& random, OtherWay) {
-  constexpr std::array all{BroadPhaseKind::all_pairs, BroadPhaseKind::tree, BroadPhaseKind::buckets};
-  const BroadPhaseKind kind = all[static_cast<std::size_t>(random.integer(0, 2))];
-  return {.step = controller_of(run.scene.scenery, run.scene.character, {.broad_phase = kind})};
+OtherWay with_nothing_left_out(const RandomRun& run, Random&, OtherWay) {
+  return {.step = controller_of(run.scene.scenery, run.scene.character, {.search = PieceSearch::none})};
 }
 
 /// Several characters climb none, and among movers their own law of crushes holds.
@@ -342,7 +340,7 @@ constexpr std::array equalities{
     Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, without_stairs},
     Equality{"restored_as_gone_on", as_it_is, restored_each_step},
     Equality{"in_two_threads", as_it_is, in_two_threads},
-    Equality{"by_another_broad_phase", as_it_is, by_another_broad_phase},
+    Equality{"with_nothing_left_out", as_it_is, with_nothing_left_out},
     Equality{"as_one_of_many", on_plain_ground, one_of_many, false, 0, 0, standing_kinds},
     Equality{"with_its_shape_elsewhere", as_it_is, said_otherwise, false, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_level", put_in_order, edited_level, true, 3e-4, rounding},

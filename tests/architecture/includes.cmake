@@ -4,10 +4,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|broad_phase|character|plan|report_vector|technique|joint_technique|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
+set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report_vector|technique|joint_technique|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
-# The techniques use the core as anybody would, but for one of its parts.
-set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pixel_tiles|number_in)[.]hpp>|\"geometry/overlap_time[.]hpp\"")
+# The techniques use the core as anybody would, but for two of its parts.
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|broad_phase/tree)[.]hpp\"")
 # The twin's headers have the adapter's folder in their names, and are not the adapter's.
 file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
 list(JOIN adapter_headers ">|<" adapter_headers)

@@ -97,9 +97,9 @@ TEST_F(Command, check_says_who_will_run_and_why_the_others_do_not) {
 
 TEST_F(Command, says_what_a_scene_does_not_need) {
   const std::string plan = runs("plan article_bullet").out;
-  EXPECT_TRUE(begins(plan, "article_bullet\n  broad phase  all_pairs: 1 piece"));
-  EXPECT_TRUE(holds(plan, "without      jump: "));
-  EXPECT_FALSE(holds(place.run("plan article_bullet --input random:1").out, "without      jump: "));
+  EXPECT_TRUE(begins(plan, "article_bullet\n  looks at     pieces whose boxes meet the step's, of 1 piece\n"));
+  EXPECT_TRUE(holds(plan, "\n  without      sensors: ") && holds(plan, "\n  takes        "));
+  EXPECT_FALSE(holds(runs("plan sensor_gate").out, "\n  without      sensors: "));
 }
 
 TEST_F(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {

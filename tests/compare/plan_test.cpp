@@ -1,9 +1,10 @@
-/// Plans of scenes: what they leave out, and that the runs are the same bits with and without. Random sceneries are
-/// planned in the tests of the controller.
+/// Plans of scenes: what they say the level has no need of, and that the runs are the same bits with and without.
 #include "compare/same_steps.hpp"
 #include "compare/scene_runs.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/scene_plan.hpp"
+
+#include "campaign/shapes.hpp"
 
 #include <algorithm>
 #include <set>
@@ -27,9 +28,8 @@ std::unique_ptr<Contender> contender_or_none(std::string_view name, ScalarKind s
 /// Runs one contender planned and full, and compares every bit of every step. @returns whether it could run.
 bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
                       const Script& script, int steps) {
-  const Foreseen foreseen = foreseen_in(scene, script);
-  const auto planned = contender_or_none(name, scalar, scene, scenery, {.full = false, .foreseen = foreseen});
-  const auto full = contender_or_none(name, scalar, scene, scenery, {.full = true, .foreseen = foreseen});
+  const auto planned = contender_or_none(name, scalar, scene, scenery, {});
+  const auto full = contender_or_none(name, scalar, scene, scenery, {.full = true});
   EXPECT_EQ(planned == nullptr, full == nullptr) << scene.name << " " << name;
   if (!planned || !full) return false;
   InputCursor cursor(scene, script);
@@ -50,44 +50,41 @@ bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& sce
   return true;
 }
 
-std::set<Stage> left_out(const std::string& name) {
-  const Scene scene = built_in(name);
-  const Plan plan = plan_of(Scenery<double>(scene.scenery), Planning{.foreseen = foreseen_in(scene, script_of(scene))});
-  std::set<Stage> stages;
-  for (const Omission& omission : plan.omitted) stages.insert(omission.stage);
+std::set<std::string_view> left_out(const SceneryDef& def) {
+  std::set<std::string_view> stages;
+  for (const Omission& omission : plan_of(Scenery<double>(def), {}).omitted) {
+    EXPECT_GT(omission.reason.size(), 20U) << omission.stage;
+    stages.insert(omission.stage);
+  }
   return stages;
 }
 
-TEST(PlanOfScenes, leaves_out_five_different_sets_of_five_scenes) {
-  using enum Stage;
-  EXPECT_EQ(left_out("article_bullet"), (std::set{movers, one_way, sensors, slopes, jump, gravity}));
-  EXPECT_EQ(left_out("flush_tiles"), (std::set{movers, one_way, sensors, slopes, jump}));
-  EXPECT_EQ(left_out("skier"), (std::set{movers, one_way, sensors, jump}));
-  EXPECT_EQ(left_out("jump_into_wall"), (std::set{movers, one_way, sensors, slopes}));
-  EXPECT_EQ(left_out("rotated_wall"), (std::set{movers, one_way, sensors, jump, gravity}));
-}
-
-TEST(PlanOfScenes, minus_zero_is_a_gravity_and_random_input_may_jump) {
-  Scene scene = built_in("article_bullet");
-  EXPECT_FALSE(foreseen_in(scene, script_of(scene)).gravity);
-  scene.gravity = {0, -0.0};
-  scene.start.velocity = {-0.0, -0.0};
-  EXPECT_TRUE(foreseen_in(scene, script_of(scene)).gravity);
-  EXPECT_FALSE(foreseen_in(scene, script_of(scene)).jump);
-  EXPECT_TRUE(foreseen_in(scene, random_script(scene, 1, 600)).jump);
-  const Scenery<double> scenery(scene.scenery);
-  for (const std::string_view name : contender_names())
-    if (!is_reference(name)) expect_same_bits(name, ScalarKind::binary64, scene, scenery, script_of(scene), 3);
-}
-
-TEST(PlanOfScenes, among_movers_characters_are_slopes_to_each_other) {
-  const Scene scene = built_in("two_on_a_lift");
-  Foreseen foreseen = foreseen_in(scene, script_of(scene));
-  EXPECT_TRUE(foreseen.company);
-  const Scenery<double> scenery(scene.scenery);
-  EXPECT_TRUE(make_plan(scenery, foreseen).stages.slopes);
-  foreseen.company = false;
-  EXPECT_FALSE(make_plan(scenery, foreseen).stages.slopes);
+TEST(LevelPlan, leaves_out_all_but_what_something_in_the_level_needs) {
+  const ColliderDef ground = box(-10, -1, 10, 0);
+  ColliderDef belt = ground;
+  belt.surface_speed = -1;
+  ColliderDef ledge = chain({{0, 2}, {1, 2}});
+  ledge.one_way = Vec2d(0, 1);
+  ColliderDef sensor = polygon({{0, 0}, {2, 0}, {2, 1}});  // slopes of solids alone count
+  sensor.sensor = true;
+  ColliderDef ghost = ground;
+  ghost.filter.group = -1;
+  const std::set<std::string_view> all{"filters", "slopes", "movers", "one_way", "sensors"};
+  EXPECT_EQ(left_out({{ground}}), all);
+  const std::vector<std::pair<std::string_view, ColliderDef>> needs{{"movers", box(20, 0, 21, 1, 0)},
+                                                                    {"movers", belt},
+                                                                    {"one_way", ledge},
+                                                                    {"sensors", sensor},
+                                                                    {"filters", ghost},
+                                                                    {"slopes", polygon({{0, 0}, {2, 0}, {2, 1}})},
+                                                                    {"slopes", chain({{0, 2}, {1, 2 + 0x1p-51}})},
+                                                                    {"slopes", circle({0, 5}, 1)}};
+  for (const auto& [stage, collider] : needs) {
+    std::set<std::string_view> others = all;
+    others.erase(stage);
+    EXPECT_EQ(left_out({{ground, collider}}), others) << stage;
+  }
+  EXPECT_TRUE(plan_of(Scenery<double>(SceneryDef{{ground}}), {.full = true}).omitted.empty());
 }
 
 TEST(PlanOfScenes, planned_and_full_give_the_same_bits_on_every_registered_scene) {

@@ -19,7 +19,7 @@ Report hostile_report() {
   scene.rows[0].findings = {hostile_text};
   ReportRun& run = scene.runs[0];
   run.header.ids[2] = hostile_text;
-  run.header.plan = Plan{.omitted = {{Stage::movers, hostile_text}}};
+  run.header.plan = LevelPlan{.omitted = {{"movers", hostile_text}}};
   run.events = {{1, ReportEvent::Kind::note, hostile_text}};
   Report report = report_of(scene);
   report.scenes.push_back(walk_of(3));

@@ -81,14 +81,6 @@ enum class StepStatus : std::uint8_t {
   return true;
 }
 
-/// Outcome of a call that steps many characters.
-enum class BatchStatus : std::uint8_t {
-  stepped,  ///< Each character was stepped, or refused in a report of its own.
-  /// Refused: the spans do not have one entry for each character, there is no scratch memory, or another controller
-  /// made some of it. Nothing changed at all.
-  invalid_input,
-};
-
 /// The report of one step. `move` is valid unless the status is `invalid_input`.
 template <class Scalar = double>
 struct StepReport {
@@ -120,13 +112,12 @@ template <class Scalar = double>
 class Controller {
  public:
   /// Moves by `octagon_sweep`. `scenery` must outlive the controller.
-  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`, and if `sweep.stages` leaves out sensors
-  /// although the scenery has some.
+  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
   /// Moves by another technique, made for the same scenery and character.
-  /// @param stages of the controller: members that belong to the technique have no effect here.
+  /// @param search of what belongs to the controller: sensors, and the one-way chains that are dropped through.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-             std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages = {});
+             std::unique_ptr<const Technique<Scalar>> technique, PieceSearch search = PieceSearch::tree);
 
   /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
   /// nothing else carries over. Never allocates, never throws.
@@ -144,21 +135,6 @@ class Controller {
   /// @param displacement in the step [m]; relative to what carries the character.
   StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
-
-  /// One step of many characters that do not block each other. Each character moves as by `step`, with the same bits
-  /// for any number of scratches. If `step` would refuse a character, its report says so, and the other characters are
-  /// stepped.
-  ///
-  /// One thread for each scratch, the calling one included: with a single scratch no thread is made. A thread takes
-  /// some ten microseconds to start, as long as the steps of a hundred characters. If the system cannot start a thread,
-  /// the other threads do its share. Allocates nothing but what `std::thread` needs, and never throws.
-  ///
-  /// A report keeps only what fits into its inline storage or its reserved memory; the rest is left out, and the vector
-  /// has `overflowed()`. A single step keeps this rest in its scratch, but here the scratch is used again at once.
-  /// @param inputs one for each state, as `reports`. @param scratches at least one, each made by this controller.
-  BatchStatus step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                       const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
-                       std::span<StepReport<Scalar>> reports) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
   // only the movers, the filter and up of the context. No question is answered by a controller that does not move by
@@ -265,14 +241,12 @@ class Controller {
   }
 
   const Scenery<Scalar>* scenery_;
-  bool has_filters_;  ///< Some collider is not there for every character.
-  bool may_jump_;     ///< Jumps were not left out,
-  bool may_fall_;     ///< nor was gravity.
+  bool has_filters_;  ///< Some collider is not there for every character, or all are asked anyway.
   CharacterDef character_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Has no other owner: scratch memory refers to it.
   const octagon_sweep::SweepInParts<Scalar>* sweep_;     ///< The same, if it is `octagon_sweep`; else null.
-  std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
-  std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.
+  std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none,
+  std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< and is not asked all the same.
 };
 
 extern template class Controller<float>;

@@ -119,7 +119,7 @@ class Crowd {
   Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
   /// Moves by a technique that moves all characters in one call. @throws as `Controller`.
   Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-        std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages = {});
+        std::unique_ptr<const JointTechnique<Scalar>> technique, PieceSearch search = PieceSearch::tree);
   ~Crowd();
   Crowd(Crowd&&) noexcept;
   Crowd& operator=(Crowd&&) noexcept;

@@ -1,8 +1,6 @@
 /// The technique of the controller: the whole octagon is swept, so that nothing slips between two of its points.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
-#include <paperproof/plan.hpp>
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
@@ -10,16 +8,23 @@
 
 namespace paperproof {
 
-/// Choices for `octagon_sweep`. `make_plan` chooses the broad phase and the stages for a scenery.
+/// How a step finds the pieces that it looks at. It changes the cost of a step, and never its bits.
+enum class PieceSearch : std::uint8_t {
+  tree,        ///< A packed tree of boxes finds those that are near.
+  one_by_one,  ///< The box of each is compared. There is nothing to build: for scenery that is made for a few steps.
+  /// The slow, honest twin of the others. Each step looks at every piece that stands and of each mover that it comes
+  /// near to, and asks for sensors, one-way chains and filters, whether the scenery has any or not.
+  none,
+};
+
+/// Choices for `octagon_sweep`.
 struct SweepDef {
-  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
-  Stages stages{};
+  PieceSearch search = PieceSearch::tree;
   int iterations = 12;  ///< Impacts per step before the rest of the displacement is dropped; from 1 to 60.
 };
 
 /// Builds it for one scenery and one character. `scenery` must outlive it.
-/// @throws std::invalid_argument for iterations out of range, or stages that leave out what the scenery needs;
-/// InvalidCharacter for an impossible character.
+/// @throws std::invalid_argument for iterations out of range; InvalidCharacter for an impossible character.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef& def, const Scenery<Scalar>& scenery,
                                                                     const CharacterDef& character);

@@ -1,7 +1,6 @@
 /// Everything of the controller.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
 #include <paperproof/contact_changes.hpp>
 #include <paperproof/controller.hpp>
@@ -10,7 +9,6 @@
 #include <paperproof/level.hpp>
 #include <paperproof/local_controller.hpp>
 #include <paperproof/octagon_sweep.hpp>
-#include <paperproof/plan.hpp>
 #include <paperproof/report_vector.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/scenery.hpp>

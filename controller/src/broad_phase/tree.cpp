@@ -13,6 +13,9 @@ namespace {
 
 constexpr float most = std::numeric_limits<float>::max();
 
+/// Up to this many boxes, a test of each costs no more than a search: 1.7 ns for each against 45 ns.
+constexpr std::size_t few = 16;
+
 /// A float not above a number, and a float not below it. They are a few times further away than the nearest such float,
 /// because finding the nearest takes as long as the rest of a small query.
 [[gnu::always_inline]] inline float rounded_down(double value) noexcept {
@@ -30,7 +33,6 @@ template <class Scalar>
 /// Sorts the ten or so pieces that a query finds. The place of a piece is the number of smaller pieces, so the
 /// comparison needs no branch.
 void sort_few(std::span<PieceIndex> pieces) noexcept {
-  constexpr std::size_t few = 16;
   if (pieces.size() > few) return std::sort(pieces.begin(), pieces.end());
   std::array<PieceIndex, few> given;
   given.fill(std::numeric_limits<PieceIndex>::max());
@@ -46,12 +48,15 @@ void sort_few(std::span<PieceIndex> pieces) noexcept {
 }  // namespace
 
 template <class Scalar>
-Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes) : boxes_(boxes), order_(hilbert_order(boxes)) {
+Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes, PieceSearch search)
+    : boxes_(boxes), finds_all_(search == PieceSearch::none) {
+  if (search != PieceSearch::tree || boxes.size() <= few) return;
+  order_ = hilbert_order(boxes);
   std::vector<Box2<float>> below;
   below.reserve(boxes.size());
   for (const PieceIndex piece : order_) below.push_back(rounded_outwards(boxes[piece]));
   nodes_.reserve(boxes.size() / (fan - 1) + most_levels);
-  while (!below.empty() && (levels_.empty() || below.size() > 1)) add_level(below);
+  while (below.size() > 1) add_level(below);
   nodes_.shrink_to_fit();
 }
 
@@ -95,8 +100,19 @@ template <class Scalar>
 }
 
 template <class Scalar>
+std::size_t Tree<Scalar>::query_each(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (!finds_all_ && !boxes_[i].overlaps(query)) continue;
+    if (count < found.size()) found[count] = static_cast<PieceIndex>(i);
+    ++count;
+  }
+  return count;
+}
+
+template <class Scalar>
 std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
-  if (levels_.empty()) return 0;
+  if (levels_.empty()) return query_each(query, found);
   struct Place {
     std::size_t level;
     std::size_t node;  ///< Of its level.

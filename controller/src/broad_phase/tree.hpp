@@ -1,9 +1,11 @@
-/// The broad phase for many boxes.
+/// Which boxes meet a box.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
+#include <paperproof/octagon_sweep.hpp>
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace paperproof::broad_phase {
 
@@ -14,13 +16,20 @@ namespace paperproof::broad_phase {
 ///
 /// The place of a node determines its children, so a node stores only its boxes, in `float`, rounded outwards. A box
 /// that a query finds this way is tested again with its given coordinates.
+///
+/// Immutable after construction; may be shared between threads; a query never allocates.
 template <class Scalar>
-class Tree final : public BroadPhase<Scalar> {
+class Tree {
  public:
-  explicit Tree(std::span<const Box2<Scalar>> boxes);
+  /// @param boxes finite; they must outlive the tree and stay as they are.
+  /// @param search `one_by_one`: nothing is built, as for boxes so few that a tree costs more than it saves. `none`: a
+  ///   query gives all boxes, wherever they are.
+  explicit Tree(std::span<const Box2<Scalar>> boxes, PieceSearch search = PieceSearch::tree);
 
-  [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept override;
-  [[nodiscard]] std::size_t size() const noexcept override { return boxes_.size(); }
+  /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
+  /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
+  ///   again with more room.
+  [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept;
 
  private:
   static constexpr std::size_t fan = 16;
@@ -36,13 +45,18 @@ class Tree final : public BroadPhase<Scalar> {
     Each upper_y;
   };
 
+  [[nodiscard]] std::size_t query_each(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept;
   [[nodiscard]] static unsigned met_by(const Node& node, const Box2<float>& box) noexcept;
   void add_level(std::vector<Box2<float>>& boxes);
 
   std::span<const Box2<Scalar>> boxes_;
+  bool finds_all_;
   std::vector<PieceIndex> order_;  ///< Along the curve.
   std::vector<Node> nodes_;        ///< Level by level: nodes of boxes, nodes of these nodes, …, the root.
   FixedVector<std::uint32_t, most_levels> levels_;  ///< The first node of each.
 };
+
+extern template class Tree<float>;
+extern template class Tree<double>;
 
 }  // namespace paperproof::broad_phase

@@ -76,7 +76,7 @@ class NearScenery {
  private:
   struct Built {
     Built(const SceneryDef& def, const CharacterDef& character)
-        : scenery(def), controller(scenery, character, {.broad_phase = BroadPhaseKind::all_pairs}) {}
+        : scenery(def), controller(scenery, character, {.search = PieceSearch::one_by_one}) {}
 
     Scenery<double> scenery;
     Controller<double> controller;

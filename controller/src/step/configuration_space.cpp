@@ -69,7 +69,7 @@ struct ConfigurationSpace<Scalar>::CoverSearch {
 
 template <class Scalar>
 ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                                               const BroadPhase<Scalar>& broad_phase,
+                                               const broad_phase::Tree<Scalar>& tree,
                                                const MoverPhases<Scalar>& mover_phases)
     : scenery_(scenery), surfaces_(scenery, shape) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
@@ -92,15 +92,9 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
   shared_offsets_.shrink_to_fit();
   own_axes_.shrink_to_fit();
   if (lanes_ == 8)
-    build_covered<8>(broad_phase, mover_phases);
+    build_covered<8>(tree, mover_phases);
   else
-    build_covered<max_shared>(broad_phase, mover_phases);
-}
-
-template <class Scalar>
-bool ConfigurationSpace<Scalar>::has_own_axes() const noexcept {
-  const auto blocking = std::span(info_).first(scenery_.sensor_pieces().first);
-  return std::any_of(blocking.begin(), blocking.end(), [](const ObstacleInfo& info) { return info.own_count > 0; });
+    build_covered<max_shared>(tree, mover_phases);
 }
 
 template <class Scalar>
@@ -305,7 +299,7 @@ Box2<Scalar> ConfigurationSpace<Scalar>::around(PieceIndex piece) const noexcept
 /// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
 template <class Scalar>
 template <std::size_t Lanes>
-void ConfigurationSpace<Scalar>::build_covered(const BroadPhase<Scalar>& broad_phase,
+void ConfigurationSpace<Scalar>::build_covered(const broad_phase::Tree<Scalar>& tree,
                                                const MoverPhases<Scalar>& mover_phases) {
   const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
   CoverSearch search;
@@ -320,7 +314,7 @@ void ConfigurationSpace<Scalar>::build_covered(const BroadPhase<Scalar>& broad_p
       const Vec2<Scalar> stride = scenery_.box(piece).lower - scenery_.box(piece > 0 ? piece - 1 : piece).lower;
       const Vec2<Scalar> ahead = (stride * pieces_ahead).cwiseMax(-2 * reach).cwiseMin(2 * reach);
       asked = wanted.merged({wanted.lower + ahead, wanted.upper + ahead});
-      count = broad_phase.query(asked, found);
+      count = tree.query(asked, found);
     }
     return {found.data(), count};
   };

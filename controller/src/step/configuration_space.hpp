@@ -20,7 +20,6 @@
 #include "one_way_surfaces.hpp"
 #include "step/mover_phases.hpp"
 
-#include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/tolerances.hpp>
@@ -92,8 +91,8 @@ class ConfigurationSpace {
   static constexpr std::size_t max_axes = 64;  ///< Of one piece: shared ones, and those of at most 32 edges.
 
   /// `scenery` must outlive it.
-  /// @param broad_phase over what stands still, asked once for the neighbours of every piece.
-  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const BroadPhase<Scalar>& broad_phase,
+  /// @param tree over what stands still, asked once for the neighbours of every piece.
+  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const broad_phase::Tree<Scalar>& tree,
                      const MoverPhases<Scalar>& mover_phases);
 
   [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return scenery_; }
@@ -152,8 +151,6 @@ class ConfigurationSpace {
   [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle<Scalar>& near) noexcept {
     return axis_along(near.normal.template cast<double>());
   }
-  /// Some piece that blocks has an axis of its own.
-  [[nodiscard]] bool has_own_axes() const noexcept;
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return lanes_ + info_[piece].own_count; }
   [[nodiscard, gnu::always_inline]] inline Vec2<Scalar> normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < lanes_) return {shared_x_[axis], shared_y_[axis]};
@@ -268,7 +265,7 @@ class ConfigurationSpace {
   void build_obstacle(PieceIndex piece);
   void build_own_axes(PieceIndex piece, ObstacleInfo& info);
   template <std::size_t Lanes>
-  void build_covered(const BroadPhase<Scalar>& broad_phase, const MoverPhases<Scalar>& mover_phases);
+  void build_covered(const broad_phase::Tree<Scalar>& tree, const MoverPhases<Scalar>& mover_phases);
   template <std::size_t Lanes, class Neighbours>
   void build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours, CoverSearch& search);
   template <std::size_t Lanes>

@@ -1,21 +1,21 @@
 /// Which pieces of a mover are near a box.
 #pragma once
 
-#include <paperproof/broad_phase.hpp>
+#include "broad_phase/tree.hpp"
+
 #include <paperproof/scenery.hpp>
 
-#include <memory>
 #include <span>
 #include <vector>
 
 namespace paperproof::octagon_sweep {
 
-/// A broad phase for each mover, over its pieces at offset zero: a mover keeps its shape, so it is the box that is
+/// A tree for each mover, over its pieces at offset zero: a mover keeps its shape, so it is the box that is
 /// shifted. Immutable after construction; may be shared between threads.
 template <class Scalar>
 class MoverPhases {
  public:
-  MoverPhases(BroadPhaseKind kind, const Scenery<Scalar>& scenery);
+  MoverPhases(PieceSearch search, const Scenery<Scalar>& scenery);
 
   [[nodiscard]] MoverIndex size() const noexcept { return static_cast<MoverIndex>(movers_.size()); }
 
@@ -32,7 +32,7 @@ class MoverPhases {
   struct Mover {
     Box2<Scalar> whole;
     PieceIndex first = 0;
-    std::unique_ptr<const BroadPhase<Scalar>> phase;
+    broad_phase::Tree<Scalar> tree;
   };
   std::vector<Mover> movers_;
 };

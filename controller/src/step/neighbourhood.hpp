@@ -21,9 +21,9 @@ class Neighbourhood {
  public:
   /// @param look_ahead how far ahead of a motion candidates are collected at most [m].
   /// @param filter null: all colliders are there.
-  Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
+  Neighbourhood(const ConfigurationSpace<Scalar>& space, const broad_phase::Tree<Scalar>& tree, Scalar look_ahead,
                 const ColliderFilter* filter, Scratch<Scalar>& scratch) noexcept
-      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), filter_(filter), scratch_(scratch) {
+      : space_(space), tree_(tree), look_ahead_(look_ahead), filter_(filter), scratch_(scratch) {
     if (filter != nullptr || scratch.solids.filtered) [[unlikely]]
       forget_others();
   }
@@ -71,7 +71,7 @@ class Neighbourhood {
   }
 
   const ConfigurationSpace<Scalar>& space_;
-  const BroadPhase<Scalar>& broad_phase_;
+  const broad_phase::Tree<Scalar>& tree_;
   Scalar look_ahead_;
   const ColliderFilter* filter_;
   Scratch<Scalar>& scratch_;
@@ -86,7 +86,7 @@ std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& bo
     // one are not needed.
     const bool goes_on = !known.valid || known.box.overlaps(box);
     known.box = positions_ahead(box, goes_on ? displacement : Vec2<Scalar>(Vec2<Scalar>::Zero()), look_ahead_);
-    known.count = broad_phase_.query(space_.touched_from(known.box), known.pieces);
+    known.count = tree_.query(space_.touched_from(known.box), known.pieces);
     if (filter_ != nullptr) [[unlikely]]
       leave_out_filtered();
     known.valid = true;

@@ -32,38 +32,22 @@ Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character
       .iterations = def.iterations};
 }
 
-void refuse_omission(bool unsafe, const char* stage, const char* reason) {
-  if (unsafe) throw std::invalid_argument("stages: " + std::string(stage) + " cannot be left out: " + reason);
-}
-
-template <class Scalar>
-void check(const Stages& stages, const Scenery<Scalar>& scenery, const ConfigurationSpace<Scalar>& space) {
-  refuse_omission(!stages.movers && scenery.mover_count() > 0, "movers", "something moves");
-  refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
-  refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-way chain");
-  refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
-                  "there is a circle, or an edge that is parallel to no side of the character or of its box");
-}
-
 template <class Scalar>
 class OctagonSweep final : public SweepInParts<Scalar> {
  public:
   OctagonSweep(const SweepDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
-      : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
-        mover_phases_(def.broad_phase, scenery),
-        // Every piece asks for its neighbours once, which would take all_pairs the square of their number.
+      : tree_(scenery.static_boxes(), def.search),
+        mover_phases_(def.search, scenery),
+        // Every piece asks for its neighbours once: without a tree that takes the square of their number.
         space_(scenery, character.shape,
-               def.broad_phase == BroadPhaseKind::all_pairs
-                   ? *make_broad_phase<Scalar>(BroadPhaseKind::tree, scenery.static_boxes())
-                   : *broad_phase_,
+               def.search == PieceSearch::tree ? tree_
+                                               : *std::make_unique<broad_phase::Tree<Scalar>>(scenery.static_boxes()),
                mover_phases_),
         settings_(settings_for<Scalar>(def, character)),
         touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
         has_conveyors_(has_conveyors(scenery)),
         solve_(solver_for<Scalar>(space_.lanes(), false)),
-        solve_turned_(solver_for<Scalar>(space_.lanes(), true)) {
-    check(def.stages, scenery, space_);
-  }
+        solve_turned_(solver_for<Scalar>(space_.lanes(), true)) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "octagon_sweep"; }
   [[nodiscard]] Abilities abilities() const noexcept override { return {.filter = true, .up = true}; }
@@ -86,7 +70,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
-    const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, request.filter, scratch);
+    const Neighbourhood<Scalar> neighbourhood(space_, tree_, settings_.look_ahead, request.filter, scratch);
     const bool rides = request.ride.ground != Ride<Scalar>::none;
     MoversInStep<Scalar> movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
     if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();
@@ -117,9 +101,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   template <class Question>
   [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
                          const Question& question) const noexcept {
-    Surroundings<Scalar> around{space_,        {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch},
-                                mover_phases_, at.movers,
-                                at.filter,     at.up};
+    Surroundings<Scalar> around{
+        space_, {space_, tree_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter, at.up};
     const auto answer = space_.lanes() == 8 ? question(around, std::integral_constant<std::size_t, 8>{})
                                             : question(around, std::integral_constant<std::size_t, 12>{});
     around.neighbourhood.forget();  // a wide question would make the next steps slow
@@ -161,7 +144,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     return false;
   }
 
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  broad_phase::Tree<Scalar> tree_;
   MoverPhases<Scalar> mover_phases_;
   ConfigurationSpace<Scalar> space_;
   Settings<Scalar> settings_;

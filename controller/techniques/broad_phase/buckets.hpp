@@ -3,6 +3,8 @@
 
 #include <paperproof/broad_phase.hpp>
 
+#include <vector>
+
 namespace paperproof::broad_phase {
 
 /// A grid of uniform square cells. Each cell that some box meets has its entries in one bucket of a hash table, so that
@@ -21,7 +23,6 @@ class Buckets final : public BroadPhase<Scalar> {
   explicit Buckets(std::span<const Box2<Scalar>> boxes);
 
   [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept override;
-  [[nodiscard]] std::size_t size() const noexcept override { return boxes_.size(); }
 
  private:
   struct Cell {

@@ -1,4 +1,4 @@
-#include "broad_phase/buckets.hpp"
+#include "techniques/broad_phase/buckets.hpp"
 
 #include <bit>
 #include <cmath>
