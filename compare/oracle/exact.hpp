@@ -14,8 +14,8 @@
 /// unlimited integers (all doubles scaled by one power of two) where that bound leaves it open.
 #pragma once
 
+#include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "records/vertex_way.hpp"
 
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <cstdint>
 #include <span>

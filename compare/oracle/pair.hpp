@@ -4,7 +4,7 @@
 #include "oracle/exact.hpp"
 #include "oracle/number.hpp"
 
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
 

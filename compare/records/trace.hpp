@@ -8,8 +8,8 @@
 #include <paperproof/character.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/octagon_sweep.hpp>
+#include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
 
 #include <optional>
 #include <string>

@@ -59,7 +59,7 @@ class CrowdContender final : public Contender {
 
  private:
   OwnScenery<Scalar> scenery_;
-  Crowd<Scalar> crowd_;
+  TechniqueCrowd<Scalar> crowd_;
   CrowdScratch scratch_;
   Sides sides_;
   MoverRecord<Scalar> movers_;

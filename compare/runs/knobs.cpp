@@ -124,7 +124,7 @@ void check_knob(const KnobSetting& setting, std::string_view contender) {
   turn_knobs(std::span(&setting, 1), def);
   const Scenery<double> scenery = a_square();
   try {
-    static_cast<void>(make_technique(def, scenery, CharacterDef{}));
+    static_cast<void>(make_controller(scenery, CharacterDef{}, def));
   } catch (const NotExpressible&) {
     // Another level may do.
   }

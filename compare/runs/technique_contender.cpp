@@ -44,14 +44,14 @@ class TechniqueContender final : public Contender {
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
 
-  [[nodiscard]] std::size_t memory_bytes() const override { return controller_.technique().memory_bytes(); }
+  [[nodiscard]] std::size_t memory_bytes() const override { return controller_.memory_bytes(); }
 
   void place(const Pose& pose, std::size_t) override { state_ = state_at<Scalar>(pose); }
   void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = velocity.cast<Scalar>(); }
 
  private:
   OwnScenery<Scalar> scenery_;
-  Controller<Scalar> controller_;
+  TechniqueController<Scalar> controller_;
   Scratch<Scalar> scratch_;
   Sides sides_;
   MoverRecord<Scalar> movers_;

@@ -148,28 +148,22 @@ class Undo {
 
 template <class Scalar>
 DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
-                                         Scalar dt, CharacterState<Scalar>& state) noexcept {
-  return wanted_velocity(character, gravity, input, dt, false, state);
+                                         Scalar dt, CharacterState<Scalar>& state, bool wall_ahead) noexcept {
+  return wanted_velocity(character, gravity, input, dt, wall_ahead, state);
 }
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
-    : Controller(scenery, character, make_octagon_sweep(sweep, scenery, character), sweep.search) {}
+    : Controller(scenery, character, octagon_sweep::make_sweep_in_parts(sweep, scenery, character), sweep.search) {}
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                               std::unique_ptr<const Technique<Scalar>> technique, PieceSearch search)
+                               std::shared_ptr<const octagon_sweep::SweepInParts<Scalar>> sweep, PieceSearch search)
     : scenery_(&scenery),
-      has_filters_(has_filters(scenery)),
+      has_filters_(search == PieceSearch::none || has_filters(scenery)),
       character_(character),
-      technique_(std::move(technique)),
-      sweep_(dynamic_cast<const octagon_sweep::SweepInParts<Scalar>*>(technique_.get())) {
-  character_.validate();
-  if (has_filters_ && !technique_->abilities().filter)
-    throw std::invalid_argument("the technique " + std::string(technique_->name()) +
-                                " has no filter, and there is a collider with one");
+      sweep_(std::move(sweep)) {
   const bool asks_all = search == PieceSearch::none;
-  if (asks_all) has_filters_ = true;
   if (asks_all || scenery.sensor_pieces().size() > 0)
     sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape, search);
   if (asks_all || has_one_way_chains(scenery))
@@ -177,10 +171,11 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
 }
 
 template <class Scalar>
-Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
+Scratch<Scalar> Controller<Scalar>::make_scratch() const {
+  Scratch<Scalar> scratch = sweep_->make_scratch();
   if (sensors_) scratch.sensors = sensors_->make_candidates();
   if (one_way_) scratch.one_way = one_way_->make_candidates();
-  scratch.maker = technique_;
+  scratch.maker = sweep_;
   return scratch;
 }
 
@@ -190,7 +185,6 @@ template <class Scalar>
   if (!is_upright(context.up)) [[unlikely]]
     return accepts_turned(state, input, context);
   return context.dt > 0 && context.movers.size() == scenery_->mover_count() &&
-         (context.filter == nullptr || technique_->abilities().filter) &&
          finite(state, input, context.gravity, context.dt, context.movers);
 }
 
@@ -212,16 +206,16 @@ template <class Scalar>
   const Scalar reach = static_cast<Scalar>(character_.wall_reach);
   const UpFrame<Scalar> up = context.up;
   const Vec2<Scalar> there = up.in_world({move < 0 ? -reach : reach, 0});
-  MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context);
+  StepRequest request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context);
   request.up = up;
   request.crushed = false;
   request.crushers = {};
-  technique_->move(request, scratch, tried);
+  sweep_->move_part(octagon_sweep::Part::whole, request, scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::request_of(
+[[gnu::always_inline]] inline octagon_sweep::StepRequest<Scalar> Controller<Scalar>::request_of(
     const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers, const Vec2<Scalar>& displacement,
     const Vec2<Scalar>& velocity, Scalar steered, bool drop, bool jumps,
     const StepContext<Scalar>& context) const noexcept {
@@ -230,7 +224,6 @@ template <class Scalar>
           .velocity = {velocity.x(), velocity.y()},
           .steered = steered,
           .last_free = state.last_free,
-          .technique_memory = state.technique_memory,
           .has_last_free = state.has_last_free,
           .grounded = state.grounded,
           .crushed = state.crushed,
@@ -244,7 +237,7 @@ template <class Scalar>
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(
+[[gnu::always_inline]] inline octagon_sweep::StepRequest<Scalar> Controller<Scalar>::begin_step(
     const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
   // A carried character steers, jumps and falls relative to its ground.
@@ -260,7 +253,7 @@ template <class Scalar>
 
 /// The same for a character that is not upright. Kept out of most steps.
 template <class Scalar>
-[[gnu::cold, gnu::noinline]] MoveRequest<Scalar> Controller<Scalar>::begin_turned_step(
+[[gnu::cold, gnu::noinline]] octagon_sweep::StepRequest<Scalar> Controller<Scalar>::begin_turned_step(
     const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
@@ -272,7 +265,7 @@ template <class Scalar>
   const Vec2<Scalar> velocity = up.in_world(seen);
   report.requested = velocity * dt;
   report.steered = steered * dt;
-  MoveRequest<Scalar> request =
+  StepRequest request =
       request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
   request.up = up;
   return request;
@@ -295,8 +288,9 @@ template <class Scalar>
                                                      StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
-  if (!is_made_by(technique_, scratch.maker) || !accepts(state, input, context))
+  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
+  using enum octagon_sweep::Part;
   const Undo<Scalar> before(state);
   bool wall_ahead = false;
   const bool may_press = input.jump || state.jump_pending;
@@ -304,10 +298,11 @@ template <class Scalar>
     wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   if (is_upright(context.up)) [[likely]]
-    technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
+    sweep_->move_part(whole, begin_step(state.crushers, input, context, wall_ahead, state, report), scratch,
+                      report.move);
   else
-    technique_->move(begin_turned_step(state.crushers, input, context, wall_ahead, state, report), scratch,
-                     report.move);
+    sweep_->move_part(whole, begin_turned_step(state.crushers, input, context, wall_ahead, state, report), scratch,
+                      report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
@@ -324,14 +319,14 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
   report.sensors.clear();
   report.dropped_through.clear();
   const Vec2<Scalar> velocity = displacement / context.dt;
-  if (!is_made_by(technique_, scratch.maker) || !accepts(state, {}, context) ||
+  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
       !FiniteCheck<Scalar>().add(displacement).add(velocity).passed())
     return report.status = StepStatus::invalid_input;
   report.requested = displacement;
   report.steered = 0;
-  MoveRequest<Scalar> request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context);
+  StepRequest request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context);
   request.up = context.up;
-  technique_->move(request, scratch, report.move);
+  sweep_->move_part(octagon_sweep::Part::whole, request, scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -343,9 +338,20 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
 template <class Scalar>
 bool Controller<Scalar>::can_answer(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                     const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
-  return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
-         in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == scenery_->mover_count() &&
-         accepts(context.up) && (context.movers.empty() || finite(context.movers, Scalar(1)));
+  return is_made_by(sweep_, scratch.maker) && in_range(position) && in_range(Vec2<Scalar>(position + displacement)) &&
+         context.movers.size() == scenery_->mover_count() && accepts(context.up) &&
+         (context.movers.empty() || finite(context.movers, Scalar(1)));
+}
+
+template <class Scalar>
+octagon_sweep::StepRequest<Scalar> Controller<Scalar>::question(const Vec2<Scalar>& position,
+                                                                const Vec2<Scalar>& displacement,
+                                                                const StepContext<Scalar>& context) const noexcept {
+  return {.position = position,
+          .displacement = displacement,
+          .movers = context.movers,
+          .filter = filter_of(context),
+          .up = context.up};
 }
 
 template <class Scalar>
@@ -377,7 +383,7 @@ std::size_t Controller<Scalar>::contacts_at(const Vec2<Scalar>& position, Scalar
 template <class Scalar>
 bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, const Input& input,
                                         const StepContext<Scalar>& context, CharacterState<Scalar>& state,
-                                        MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
+                                        StepRequest& request, StepReport<Scalar>& report) const noexcept {
   if (!accepts(before, input, context)) return false;
   state = before;
   request = is_upright(context.up) ? begin_step(before.crushers, input, context, false, state, report)
@@ -393,9 +399,9 @@ void Controller<Scalar>::end_together(const Input& input, const StepContext<Scal
 }
 
 template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,
-                                                 CharacterState<float>&) noexcept;
+                                                 CharacterState<float>&, bool) noexcept;
 template DesiredVelocity<double> desired_velocity(const CharacterDef&, const Vec2<double>&, const Input&, double,
-                                                  CharacterState<double>&) noexcept;
+                                                  CharacterState<double>&, bool) noexcept;
 template class Controller<float>;
 template class Controller<double>;
 

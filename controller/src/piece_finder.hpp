@@ -3,8 +3,9 @@
 
 #include "broad_phase/tree.hpp"
 
+#include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
+#include <paperproof/scratch.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,5 @@
 #include "techniques/registry.hpp"
 
-#include <paperproof/joint_technique.hpp>
 #include <paperproof/number_in.hpp>
 #include <paperproof/scenery_facts.hpp>
 #include <paperproof/tolerances.hpp>
@@ -20,6 +19,10 @@ void require(bool holds, const std::string& what) {
 constexpr double max_raster_pixels_per_metre = 1000;
 /// Larger, and one type of tile takes half of the memory that a level may.
 constexpr int max_pixels_per_tile = 4096;
+
+constexpr std::string_view sweep_name = "octagon_sweep";
+
+SweepDef sweep_of(const TechniqueDef& def) { return {def.search, def.sweep_iterations}; }
 
 /// @tparam Scalar in which the unit has to be a positive number too.
 template <class Scalar>
@@ -94,6 +97,7 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
   validate<Scalar>(def.article);
   const TechniqueEntry* entry = find_technique(def.name);
   require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
+  require(entry->make_double != nullptr, "technique: " + std::string(def.name) + " is the controller itself");
   if (!entry->knows_movers && (has_moving_solids(scenery) || has_conveyors(scenery)))
     throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
   if (!entry->knows_circles && has_circles(scenery))
@@ -103,28 +107,33 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
 }
 
 template <class Scalar>
-Controller<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                   const TechniqueDef& def) {
+TechniqueController<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                                            const TechniqueDef& def) {
   CharacterDef with_reach = character;
   with_reach.wall_reach = def.article.unit;
-  return Controller<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
+  if (def.name != sweep_name)
+    return TechniqueController<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
+  validate<Scalar>(def.article);
+  return TechniqueController<Scalar>(Controller<Scalar>(scenery, with_reach, sweep_of(def)));
 }
 
 template <class Scalar>
-Crowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& def) {
-  if (def.name == "octagon_sweep") return Crowd<Scalar>(scenery, character, SweepDef{def.search, def.sweep_iterations});
+TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                                  const TechniqueDef& def) {
+  if (def.name == sweep_name) return TechniqueCrowd<Scalar>(Crowd<Scalar>(scenery, character, sweep_of(def)));
   std::unique_ptr<const Technique<Scalar>> made = make_technique(def, scenery, character);
   const auto* joint = dynamic_cast<const JointTechnique<Scalar>*>(made.get());
   require(joint != nullptr, "a crowd does not move by " + std::string(def.name) + ", which knows one character");
   static_cast<void>(made.release());
-  return Crowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.search);
+  return TechniqueCrowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.search);
 }
 
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                           \
-  template std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef&, const Scenery<Scalar>&,        \
-                                                             const CharacterDef&);                               \
-  template Controller<Scalar> make_controller(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&); \
-  template Crowd<Scalar> make_crowd(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&)
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
+  template std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef&, const Scenery<Scalar>&, \
+                                                             const CharacterDef&);                        \
+  template TechniqueController<Scalar> make_controller(const Scenery<Scalar>&, const CharacterDef&,       \
+                                                       const TechniqueDef&);                              \
+  template TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&)
 PAPERPROOF_INSTANTIATE(float);
 PAPERPROOF_INSTANTIATE(double);
 #undef PAPERPROOF_INSTANTIATE

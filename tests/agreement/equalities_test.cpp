@@ -128,7 +128,7 @@ struct World {
       : scenery(def), controller(make_controller(scenery, character, technique)) {}
 
   Scenery<double> scenery;
-  Controller<double> controller;
+  TechniqueController<double> controller;
   Scratch<double> scratch = controller.make_scratch();
 };
 

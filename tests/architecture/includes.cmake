@@ -4,10 +4,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report_vector|technique|joint_technique|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
+set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report|report_vector|scratch|step_context|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
-# The techniques use the core as anybody would, but for two of its parts.
-set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|broad_phase/tree)[.]hpp\"")
+# The techniques use the core as anybody would, but for its search of boxes, and what surrounds a move in each step.
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|broad_phase/tree|one_way_chains|sensors|step_parts)[.]hpp\"")
 # The twin's headers have the adapter's folder in their names, and are not the adapter's.
 file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
 list(JOIN adapter_headers ">|<" adapter_headers)
@@ -17,7 +17,7 @@ set(may_include_twin "${may_include_box2d_adapter}|<paperproof/box2d/[a-z_0-9]+[
 set(may_include_compare "<.*>|\"box2d_adapter/(twin/src/fixtures|src/float_geometry)[.]hpp\"")
 # The oracle judges the controller, and so does the continuous reference: of it, they may know the values that all speak
 # of, and no geometry.
-set(may_include_oracle "${standard}|<boost/.*>|<paperproof/(types|scenery|character|technique)[.]hpp>")
+set(may_include_oracle "${standard}|<boost/.*>|<paperproof/(types|scenery|character|report)[.]hpp>")
 
 set(seen 0)
 set(refused "")

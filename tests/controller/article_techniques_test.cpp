@@ -105,6 +105,7 @@ TYPED_TEST(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way
 TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
   const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
   for (const std::string_view kind : technique_names()) {
+    if (kind == "octagon_sweep") continue;  // is the controller itself
     SCOPED_TRACE(kind);
     Rig<double> rig(kind, corner);
     EXPECT_EQ(rig.technique->name(), kind);
@@ -131,10 +132,12 @@ TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
   for (const double bad : {0.0, -1.0, 1001.0, nan})
     cases.push_back({{.raster_pixels_per_metre = bad}, "raster_pixels_per_metre:"});
   for (const int bad : {0, -4, 4097}) cases.push_back({{.pixels_per_tile = bad}, "pixels_per_tile:"});
+  const Scenery<double> square(SceneryDef{{rectangle(0, 0, 1, 1)}});
   for (const std::string_view kind : technique_names()) {
     SCOPED_TRACE(kind);
     const auto message = [&](const ArticleKnobs& knobs) {
-      return refusal_by<std::invalid_argument>([&] { Rig<double>(kind, {rectangle(0, 0, 1, 1)}, knobs); });
+      return refusal_by<std::invalid_argument>(
+          [&] { static_cast<void>(make_controller(square, CharacterDef{}, {.name = kind, .article = knobs})); });
     };
     EXPECT_EQ(message({}), "");
     for (const auto& [bad, begins] : cases) EXPECT_EQ(message(bad).substr(0, begins.size()), begins);

@@ -139,7 +139,7 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
 TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
   Stepper<double> stepper({circle({0, 0}, 5)});
   const auto overlaps = [&](double x, double y) -> bool {
-    return stepper.controller.overlaps({x, y}, {{0, 0}, frame}, stepper.scratch) == std::size_t{1};
+    return stepper.sweep().overlaps({x, y}, {{0, 0}, frame}, stepper.scratch) == std::size_t{1};
   };
   EXPECT_FALSE(overlaps(0, 5 + half_height));
   EXPECT_TRUE(overlaps(0, std::nextafter(5 + half_height, 0.0)));
@@ -155,17 +155,17 @@ TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
 TEST(QuestionsAboutACircle, are_answered_with_points_and_normals_by_formula) {
   Stepper<double> stepper({circle({4, 0}, 1), circle({0, 50}, 2)});
   const StepContext<double> context{{0, 0}, frame};
-  const auto hit = stepper.controller.cast({0, 0}, {8, 0}, context, stepper.scratch);
+  const auto hit = stepper.sweep().cast({0, 0}, {8, 0}, context, stepper.scratch);
   ASSERT_TRUE(hit.has_value());
   EXPECT_EQ(hit->normal, Vec2d(-1, 0));
   EXPECT_NEAR((hit->point - Vec2d(3, 0)).norm(), 0, 1e-12);
-  const auto near = stepper.controller.nearest({2, 0}, 1, context, stepper.scratch);
+  const auto near = stepper.sweep().nearest({2, 0}, 1, context, stepper.scratch);
   ASSERT_TRUE(near.has_value());
   EXPECT_NEAR((near->point - Vec2d(3, 0)).norm(), 0, 1e-14);
   // A corner is nearest: along the line through the centre.
   std::array<Contact<double>, 4> found;
   const Vec2d at = Vec2d(4 + 0.9, 0.9) - Vec2d(-foot, -half_height);
-  ASSERT_EQ(stepper.controller.contacts_at(at, 1, context, stepper.scratch, found), 1U);
+  ASSERT_EQ(stepper.sweep().contacts_at(at, 1, context, stepper.scratch, found), 1U);
   EXPECT_NEAR(found[0].separation, 0.9 * std::sqrt(2.0) - 1, 1e-14);
   EXPECT_NEAR((found[0].normal - Vec2d(1, 1).normalized()).norm(), 0, 1e-15);
 }

@@ -59,8 +59,8 @@ TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
   const Vec2d before = standing.state.position;
   standing.step();
   EXPECT_EQ(standing.state.position, before);
-  EXPECT_EQ(standing.controller.overlaps({0, 0}, {.filter = &nothing}, standing.scratch), 0U);
-  EXPECT_EQ(standing.controller.overlaps({0, 0}, {}, standing.scratch), 1U);
+  EXPECT_EQ(standing.sweep().overlaps({0, 0}, {.filter = &nothing}, standing.scratch), 0U);
+  EXPECT_EQ(standing.sweep().overlaps({0, 0}, {}, standing.scratch), 1U);
 }
 
 TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
@@ -73,7 +73,7 @@ TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
   Stepper<double> flyer(many);
   ColliderFilter light;
   light.mask = 1;
-  flyer.controller.move(flyer.state, {6, 0}, {{}, 1, {}, &light}, flyer.scratch, flyer.report);
+  flyer.sweep().move(flyer.state, {6, 0}, {{}, 1, {}, &light}, flyer.scratch, flyer.report);
   EXPECT_EQ(flyer.report.sensors.size(), 2U);
   EXPECT_FALSE(flyer.report.sensors.overflowed());
 }
@@ -89,8 +89,8 @@ TEST(Filter, that_a_technique_does_not_have_is_refused) {
 }
 
 StepStatus move(Stepper<double>& stepper, const Vec2d& displacement, double dt = frame) {
-  return stepper.controller.move(stepper.state, displacement, {{0, -99}, dt, stepper.movers}, stepper.scratch,
-                                 stepper.report);
+  return stepper.sweep().move(stepper.state, displacement, {{0, -99}, dt, stepper.movers}, stepper.scratch,
+                              stepper.report);
 }
 
 TEST(Move, goes_by_its_displacement_and_slides) {
@@ -150,7 +150,7 @@ TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
 // What it finds: see query_test.
 TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   const Stepper<double> asked({ground});
-  const Controller<>& controller = asked.controller;
+  const Controller<>& controller = asked.sweep();
   Scratch<> own = controller.make_scratch();
   Scratch<> foreign = Stepper<double>({ground}).scratch;
   const std::vector<MoverMotion<>> one(1);  // but the scenery has no mover

@@ -162,8 +162,7 @@ TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
   idle.steps(60, {.move = 0});
   EXPECT_FALSE(idle.state.wall_right) << "nothing was wanted to the right";
   std::array<Contact<double>, 4> found;
-  const std::size_t count =
-      idle.controller.contacts_at(idle.state.position, touch, {.dt = idle.dt}, idle.scratch, found);
+  const std::size_t count = idle.sweep().contacts_at(idle.state.position, touch, {.dt = idle.dt}, idle.scratch, found);
   EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact<double>::side), 0);
 }
 

@@ -25,7 +25,7 @@ template <class Scalar>
 struct Walk {
   test::Random random{seed};
   Scenery<Scalar> scenery;
-  Controller<Scalar> controller;
+  TechniqueController<Scalar> controller;
 
   Walk(Terrain family, std::string_view kind)
       : scenery(test::random_terrain(family, random, {0, 0})),

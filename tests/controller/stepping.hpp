@@ -22,7 +22,7 @@ using test::same_bits;
 template <class Scalar>
 struct Stepper {
   std::unique_ptr<const Scenery<Scalar>> scenery;  ///< Stays where it is when the stepper is moved.
-  Controller<Scalar> controller;
+  TechniqueController<Scalar> controller;
   Scratch<Scalar> scratch;
   CharacterState<Scalar> state;
   StepReport<Scalar> report;
@@ -39,6 +39,8 @@ struct Stepper {
   Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character, std::string_view kind)
       : Stepper(std::move(colliders), character, TechniqueDef{.name = kind}) {}
 
+  /// For what only `octagon_sweep` does.
+  [[nodiscard]] const Controller<Scalar>& sweep() const { return *controller.sweep(); }
   Stepper& at(double x, double y) {
     state.position = Vec2d{x, y}.cast<Scalar>();
     return *this;

@@ -4,7 +4,7 @@
 #include "campaign/shapes.hpp"
 #include "controller/states.hpp"
 
-#include <paperproof/crowd.hpp>
+#include <paperproof/techniques.hpp>
 
 #include <memory>
 #include <vector>
@@ -21,7 +21,7 @@ inline constexpr double rest_gap = 5e-7;
 
 struct Together {
   std::unique_ptr<const Scenery<double>> scenery;
-  Crowd<double> crowd;
+  TechniqueCrowd<double> crowd;
   CrowdScratch scratch;
   CrowdReport<double> report;
   std::vector<CharacterState<double>> states;

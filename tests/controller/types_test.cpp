@@ -1,5 +1,5 @@
 /// The values that every part shares.
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <gtest/gtest.h>
 

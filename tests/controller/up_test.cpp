@@ -31,9 +31,9 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
   for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{std::nan(""), 1}, Vec2d{0, std::nan("")},
                           Vec2d{HUGE_VAL, 0}, Vec2d{1, 1}, Vec2d{0, 1 + 1e-14}}) {
     EXPECT_EQ(step_with(stepper, up), StepStatus::invalid_input) << up.transpose();
-    EXPECT_EQ(stepper.controller.move(stepper.state, {1, 0}, standing_with(up), stepper.scratch, stepper.report),
+    EXPECT_EQ(stepper.sweep().move(stepper.state, {1, 0}, standing_with(up), stepper.scratch, stepper.report),
               StepStatus::invalid_input);
-    EXPECT_FALSE(stepper.controller.cast({0, 3}, {0, -9}, {.up = up}, stepper.scratch));
+    EXPECT_FALSE(stepper.sweep().cast({0, 3}, {0, -9}, {.up = up}, stepper.scratch));
     EXPECT_EQ(stepper.state, before);
   }
   for (int i = 0; i < 1000; ++i)
@@ -54,7 +54,7 @@ TEST(Up, decides_how_fast_a_fall_may_be) {
 TEST(Up, decides_the_sides_of_questions) {
   Stepper<double> stepper({rectangle(-9, -1, 9, 0)});
   const auto side_below = [&](const Vec2d& up) {
-    return stepper.controller.nearest({0, 1}, 2, {.up = up}, stepper.scratch)->side;
+    return stepper.sweep().nearest({0, 1}, 2, {.up = up}, stepper.scratch)->side;
   };
   EXPECT_EQ(side_below({0, 1}), Side::bottom);
   EXPECT_EQ(side_below({0, -1}), Side::top);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <paperproof/crowd.hpp>
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 /// Which contacts begin in a step, which go on, and which have ended.
 #pragma once
 
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <algorithm>
 #include <cstdint>

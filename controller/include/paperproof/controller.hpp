@@ -3,6 +3,10 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/octagon_sweep.hpp>
+#include <paperproof/report.hpp>
+#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
+#include <paperproof/tolerances.hpp>
 
 #include <array>
 #include <memory>
@@ -19,27 +23,6 @@ struct DesiredVelocity {
   Scalar steered = 0;
 };
 
-/// The surroundings of a step. All characters of a step share them.
-template <class Scalar = double>
-struct StepContext {
-  Vec2<Scalar> gravity{Vec2<Scalar>::Zero()};  ///< [m/s²]
-  Scalar dt = 0;                               ///< Duration of the step, above zero [s].
-  /// One for each mover of the scenery, within +-2e6 m.
-  std::span<const MoverMotion<Scalar>> movers{};
-  /// The filter of the characters. If it is null, a default filter is used. A step is as if the colliders that the
-  /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
-  /// `octagon_sweep` alone filters; with another technique a filter is invalid input.
-  const ColliderFilter* filter = nullptr;
-  /// Up of the characters: any unit vector, which may differ from step to step. It decides what is horizontal (a
-  /// positive `Input::move` goes along (up.y, -up.x)), where a jump goes, what `max_fall_speed` limits, which surfaces
-  /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
-  /// world: turn it as well. The flags of a state are those that its last step saw. The shape does not turn, and
-  /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
-  /// from 1 by more than the rounding of `Scalar`; and any other than (0, 1) with another technique than
-  /// `octagon_sweep`.
-  Vec2<Scalar> up{0, 1};
-};
-
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
 /// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move *
 /// walk_speed`; on the ground a climb that is not steeper than walkable ground slows with it; a jump that is allowed
@@ -47,59 +30,19 @@ struct StepContext {
 /// step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
+/// @param wall_ahead there is a wall to jump against, whatever the last step touched: see
+///   `CharacterDef::no_jump_toward_wall`.
 template <class Scalar>
 [[nodiscard]] DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
-                                                       const Input& input, Scalar dt,
-                                                       CharacterState<Scalar>& state) noexcept;
-
-enum class StepStatus : std::uint8_t {
-  moved,
-  dropped,       ///< See MoveStatus.
-  stuck,         ///< See MoveStatus.
-  crushed,       ///< See MoveStatus.
-  out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
-  refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
-  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
-  /// that differs from the scenery's, a filter or an up that the technique does not read (see `Abilities`), an up that
-  /// is no unit vector, scratch memory that another controller made. Nothing changed at all.
-  invalid_input,
-};
-
-/// Whether a step was refused: nothing moved.
-[[nodiscard]] inline bool is_refused(StepStatus status) noexcept {
-  switch (status) {
-    case StepStatus::moved:
-    case StepStatus::dropped:
-    case StepStatus::stuck:
-    case StepStatus::crushed:
-      return false;
-    case StepStatus::out_of_range:
-    case StepStatus::refused:
-    case StepStatus::invalid_input:
-      break;
-  }
-  return true;
-}
-
-/// The report of one step. `move` is valid unless the status is `invalid_input`.
-template <class Scalar = double>
-struct StepReport {
-  StepStatus status = StepStatus::moved;
-  Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
-  Scalar steered = 0;  ///< The part of `requested` across up that this step's steering added [m].
-  MoveResult<Scalar> move;
-  /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
-  /// `overflowed()`.
-  FixedVector<SensorEvent<Scalar>, 32> sensors;
-  /// One-way chains that the character passed against their normal, or missed by less than a micrometre, in a step
-  /// whose input asked to drop. Each chain is listed once, in the order of the indices.
-  FixedVector<ColliderIndex, 32> dropped_through;
-};
+                                                       const Input& input, Scalar dt, CharacterState<Scalar>& state,
+                                                       bool wall_ahead = false) noexcept;
 
 namespace octagon_sweep {
 template <class Scalar>
 class SweepInParts;
-}
+template <class Scalar>
+struct StepRequest;
+}  // namespace octagon_sweep
 template <class Scalar>
 class Sensors;
 template <class Scalar>
@@ -107,17 +50,13 @@ class OneWayChains;
 template <class Scalar>
 class Crowd;
 
-/// Steps characters of one kind through one scenery. Const and shareable between threads.
+/// Steps characters of one kind through one scenery, by `octagon_sweep`. Const and shareable between threads.
 template <class Scalar = double>
 class Controller {
  public:
-  /// Moves by `octagon_sweep`. `scenery` must outlive the controller.
-  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`.
+  /// `scenery` must outlive the controller.
+  /// @throws InvalidCharacter for an impossible character, std::invalid_argument for iterations out of range.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
-  /// Moves by another technique, made for the same scenery and character.
-  /// @param search of what belongs to the controller: sensors, and the one-way chains that are dropped through.
-  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-             std::unique_ptr<const Technique<Scalar>> technique, PieceSearch search = PieceSearch::tree);
 
   /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
   /// nothing else carries over. Never allocates, never throws.
@@ -137,9 +76,8 @@ class Controller {
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
-  // only the movers, the filter and up of the context. No question is answered by a controller that does not move by
-  // `octagon_sweep`, with a scratch of another controller, with another number of movers than the scenery's, or about
-  // numbers that are out of range.
+  // only the movers, the filter and up of the context. No question is answered with a scratch of another controller,
+  // with another number of movers than the scenery's, or about numbers that are out of range.
 
   /// The first contact of a straight displacement, if there is one: where the character would touch, with the exact
   /// normal and the time of impact as a fraction of the displacement. Movers move at the same time, as in a step; for
@@ -175,11 +113,15 @@ class Controller {
     return found[0];
   }
 
-  [[nodiscard]] Scratch<Scalar> make_scratch() const { return completed(technique_->make_scratch()); }
+  [[nodiscard]] Scratch<Scalar> make_scratch() const;
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
-  [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
  private:
+  using StepRequest = octagon_sweep::StepRequest<Scalar>;
+
+  /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
+  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+             std::shared_ptr<const octagon_sweep::SweepInParts<Scalar>> sweep, PieceSearch search);
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
                              const StepContext<Scalar>& context) const noexcept;
   [[nodiscard]] bool accepts_turned(const CharacterState<Scalar>& state, const Input& input,
@@ -190,24 +132,19 @@ class Controller {
                                     const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
   /// Whether a step or a question may have this up.
-  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept {
-    return is_upright(up) || (is_unit(up) && technique_->abilities().up);
-  }
+  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept { return is_upright(up) || is_unit(up); }
   /// Without up, which is (0, 1) if nothing else is said.
   /// @param crushers of the state as it was; must outlive the request, as `context`.
-  [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
-                                               const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
-                                               Scalar steered, bool drop, bool jumps,
-                                               const StepContext<Scalar>& context) const noexcept;
+  [[nodiscard]] StepRequest request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
+                                       const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity, Scalar steered,
+                                       bool drop, bool jumps, const StepContext<Scalar>& context) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
-  [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,
-                                               const StepContext<Scalar>& context, bool wall_ahead,
-                                               CharacterState<Scalar>& state,
-                                               StepReport<Scalar>& report) const noexcept;
-  [[nodiscard]] MoveRequest<Scalar> begin_turned_step(const Crushers<Scalar>& crushers, const Input& input,
-                                                      const StepContext<Scalar>& context, bool wall_ahead,
-                                                      CharacterState<Scalar>& state,
-                                                      StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] StepRequest begin_step(const Crushers<Scalar>& crushers, const Input& input,
+                                       const StepContext<Scalar>& context, bool wall_ahead,
+                                       CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] StepRequest begin_turned_step(const Crushers<Scalar>& crushers, const Input& input,
+                                              const StepContext<Scalar>& context, bool wall_ahead,
+                                              CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                 StepReport<Scalar>& report) const noexcept;
@@ -216,35 +153,25 @@ class Controller {
     static constexpr ColliderFilter usual{};
     return context.filter == nullptr && has_filters_ ? &usual : context.filter;
   }
-  /// A technique's scratch, with room for the rest of a step added, and marked with its maker.
-  [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const;
-
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
   /// @param before must outlive the request. @return false if the input is not accepted.
   friend class Crowd<Scalar>;
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const StepContext<Scalar>& context,
-                      CharacterState<Scalar>& state, MoveRequest<Scalar>& request,
-                      StepReport<Scalar>& report) const noexcept;
+                      CharacterState<Scalar>& state, StepRequest& request, StepReport<Scalar>& report) const noexcept;
   void end_together(const Input& input, const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
   /// Whether a question about a position can be answered.
   [[nodiscard]] bool can_answer(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                 const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] MoveRequest<Scalar> question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                                             const StepContext<Scalar>& context) const noexcept {
-    return {.position = position,
-            .displacement = displacement,
-            .movers = context.movers,
-            .filter = filter_of(context),
-            .up = context.up};
-  }
+  [[nodiscard]] StepRequest question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                     const StepContext<Scalar>& context) const noexcept;
 
   const Scenery<Scalar>* scenery_;
   bool has_filters_;  ///< Some collider is not there for every character, or all are asked anyway.
   CharacterDef character_;
-  std::shared_ptr<const Technique<Scalar>> technique_;   ///< Has no other owner: scratch memory refers to it.
-  const octagon_sweep::SweepInParts<Scalar>* sweep_;     ///< The same, if it is `octagon_sweep`; else null.
+  /// Scratch memory refers to it.
+  std::shared_ptr<const octagon_sweep::SweepInParts<Scalar>> sweep_;
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none,
   std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< and is not asked all the same.
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace paperproof {
@@ -43,6 +44,12 @@ struct CrowdMember {
     });
     if (!known) met.push_back(contact);
   }
+  /// Contacts are not found in the order of their times.
+  void sort_contacts() noexcept {
+    std::sort(met.begin(), met.end(), [](const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
+      return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
+    });
+  }
 };
 
 template <class Scalar = double>
@@ -62,9 +69,6 @@ struct CrowdReport {
   }
 };
 
-template <class Scalar>
-class JointTechnique;
-
 /// Memory of a step, one per thread and crowd. It carries nothing from step to step.
 struct CrowdScratch {
   std::size_t most_characters = 0;
@@ -74,7 +78,7 @@ struct CrowdScratch {
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 ///
-/// **By `octagon_sweep`.** All characters move at once, and impacts are handled in the order of their times (Mirtich
+/// All characters move at once, and impacts are handled in the order of their times (Mirtich
 /// 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems", without the impulses):
 /// 1. Each character gets the path that `Controller` would give it. A character that has no impact with another keeps
 ///    this path, bit for bit.
@@ -101,25 +105,11 @@ struct CrowdScratch {
 ///
 /// Cost: n²/2 box tests for n characters, then n for each new path; meant for up to a few hundred. One character avoids
 /// at most 12 others in a step. The crowd keeps a copy of the scenery, with 12 more colliders for these characters.
-///
-/// **By `discrete`**, which guarantees nothing: one joint solve moves all characters, as bodies of the same mass. It
-/// tests only the beginning and the expected end of the step. Each character has a box around these two positions;
-/// characters with overlapping boxes form an island. In each island, characters that are expected to overlap at the end
-/// are pushed apart in order of time of impact, each by half of the overlap, and both go on with the mean of their
-/// velocities along the normal. This is repeated `iterations` times, with all pieces nearby. So characters push each
-/// other, also into and through solids; a fast one passes another; and stacks sink into themselves. A character that is
-/// alone moves as by `Controller`, bit for bit. A character that lands on another stands on it, and is not carried
-/// along. A character that a mover would push through a standing solid stays where it was, crushed, and blocks the
-/// others. If on average more than 256 bodies are near each character, the bodies beyond this number are ignored, and
-/// every character is `dropped`. Cost: sorting boxes, a little more than n.
 template <class Scalar = double>
 class Crowd {
  public:
-  /// Moves by `octagon_sweep`. `scenery` must outlive the crowd. @throws as `Controller`.
+  /// `scenery` must outlive the crowd. @throws as `Controller`.
   Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
-  /// Moves by a technique that moves all characters in one call. @throws as `Controller`.
-  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-        std::unique_ptr<const JointTechnique<Scalar>> technique, PieceSearch search = PieceSearch::tree);
   ~Crowd();
   Crowd(Crowd&&) noexcept;
   Crowd& operator=(Crowd&&) noexcept;

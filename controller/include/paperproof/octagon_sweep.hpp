@@ -1,10 +1,8 @@
-/// The technique of the controller: the whole octagon is swept, so that nothing slips between two of its points.
+/// Choices for `octagon_sweep`, the controller's own way to move: the whole octagon is swept, so that nothing slips
+/// between two of its points.
 #pragma once
 
-#include <paperproof/technique.hpp>
-#include <paperproof/tolerances.hpp>
-
-#include <memory>
+#include <cstdint>
 
 namespace paperproof {
 
@@ -17,16 +15,9 @@ enum class PieceSearch : std::uint8_t {
   none,
 };
 
-/// Choices for `octagon_sweep`.
 struct SweepDef {
   PieceSearch search = PieceSearch::tree;
   int iterations = 12;  ///< Impacts per step before the rest of the displacement is dropped; from 1 to 60.
 };
-
-/// Builds it for one scenery and one character. `scenery` must outlive it.
-/// @throws std::invalid_argument for iterations out of range; InvalidCharacter for an impossible character.
-template <class Scalar>
-[[nodiscard]] std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef& def, const Scenery<Scalar>& scenery,
-                                                                    const CharacterDef& character);
 
 }  // namespace paperproof

@@ -9,10 +9,12 @@
 #include <paperproof/level.hpp>
 #include <paperproof/local_controller.hpp>
 #include <paperproof/octagon_sweep.hpp>
+#include <paperproof/report.hpp>
 #include <paperproof/report_vector.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
+#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
 #include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>
 #include <paperproof/up_frame.hpp>

@@ -76,7 +76,7 @@ struct Member {
   bool holds_position = false;     ///< For the rest of the step. It has no obstacles, and is one.
   bool follows_ground = false;     ///< It was on the ground and does not jump: its path follows the ground down.
   bool ground_taken = false;       ///< Another character is where it would follow the ground down to: it does not.
-  Scalar leaves_ground_above = 0;  ///< See `MoveRequest`.
+  Scalar leaves_ground_above = 0;  ///< See `StepRequest`.
   bool drops = false;              ///< One-way chains do not hold it in this step.
   bool dropped = false;            ///< Its step was cut short.
   bool starts_stuck = false;       ///< It began inside scenery, and there was no way out.
@@ -86,9 +86,9 @@ struct Member {
 /// Memory for a step of a crowd.
 template <class Scalar>
 struct CrowdMemory final : OwnMemory {
-  std::vector<CharacterState<Scalar>> states;  ///< Those handed to the step, as they will be.
-  std::vector<MoveRequest<Scalar>> requests;   ///< What each character wants.
-  Scratch<Scalar> scratch;                     ///< Of the technique.
+  std::vector<CharacterState<Scalar>> states;                ///< Those handed to the step, as they will be.
+  std::vector<octagon_sweep::StepRequest<Scalar>> requests;  ///< What each character wants.
+  Scratch<Scalar> scratch;                                   ///< Of the technique.
   // The rest is for `octagon_sweep`.
   std::vector<Member<Scalar>> members;
   std::vector<PairImpact<Scalar>> impacts;
@@ -107,7 +107,7 @@ struct CrowdStep {
   Vec2<Scalar> gravity;  ///< [m/s²]
   Scalar dt;             ///< [s]
   std::span<const MoverMotion<Scalar>> movers;
-  const ColliderFilter* filter;  ///< See `MoveRequest`.
+  const ColliderFilter* filter;  ///< See `StepRequest`.
   UpFrame<Scalar> up;
 
   /// What a character has done up to now.

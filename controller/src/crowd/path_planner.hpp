@@ -88,7 +88,7 @@ class PathPlanner {
                              Moment<Scalar>& at) noexcept {
     path.clear();
     set_motions({}, at.time, until);
-    MoveRequest<Scalar> request = request_at(member, at, until);
+    octagon_sweep::StepRequest<Scalar> request = request_at(member, at, until);
     request.displacement = request.velocity = V::Zero();
     request.ride = {};
     move_part(octagon_sweep::Part::stay, request);
@@ -160,8 +160,8 @@ class PathPlanner {
     }
   }
 
-  [[nodiscard]] MoveRequest<Scalar> request_at(const Member<Scalar>& member, const Moment<Scalar>& at,
-                                               Scalar end) noexcept {
+  [[nodiscard]] octagon_sweep::StepRequest<Scalar> request_at(const Member<Scalar>& member, const Moment<Scalar>& at,
+                                                              Scalar end) noexcept {
     const Scalar duration = step_.dt * (end - at.time);
     return {.position = at.state.position,
             .displacement = at.own_velocity * duration,
@@ -183,7 +183,7 @@ class PathPlanner {
 
   [[nodiscard]] bool plan_part(const Member<Scalar>& member, Scalar end, MoveResult<Scalar>& path,
                                Moment<Scalar>& at) noexcept {
-    const MoveRequest<Scalar> request = request_at(member, at, end);
+    const octagon_sweep::StepRequest<Scalar> request = request_at(member, at, end);
     if (!(request.dt > 0)) return false;
     move_part(at.time > 0 ? octagon_sweep::Part::rest : octagon_sweep::Part::whole, request);
     if (step_.memory.part.status == MoveStatus::out_of_range) return false;
@@ -191,7 +191,7 @@ class PathPlanner {
     return true;
   }
 
-  void move_part(octagon_sweep::Part part, const MoveRequest<Scalar>& request) noexcept {
+  void move_part(octagon_sweep::Part part, const octagon_sweep::StepRequest<Scalar>& request) noexcept {
     step_.rules.sweep->move_part(part, request, step_.memory.scratch, step_.memory.part);
   }
 

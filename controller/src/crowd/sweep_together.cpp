@@ -37,7 +37,7 @@ class SweepTogether {
 
   /// The path that a character would take if it were alone. False where it would leave the range.
   [[nodiscard]] bool plan_alone(CharacterIndex i) noexcept {
-    const MoveRequest<Scalar>& request = step_.memory.requests[i];
+    const octagon_sweep::StepRequest<Scalar>& request = step_.memory.requests[i];
     Member<Scalar>& member = step_.members[i];
     member.now.time = 0;
     member.now.state = step_.memory.states[i];

@@ -3,7 +3,7 @@
 
 #include "crowd/pair_space.hpp"
 
-#include <paperproof/technique.hpp>
+#include <paperproof/report.hpp>
 
 #include <algorithm>
 #include <limits>

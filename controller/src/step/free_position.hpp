@@ -4,7 +4,7 @@
 
 #include "step/configuration_space.hpp"
 
-#include <paperproof/technique.hpp>
+#include <paperproof/step_context.hpp>
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 #include "step/configuration_space.hpp"
 #include "step/step_memory.hpp"
 
-#include <paperproof/technique.hpp>
+#include <paperproof/scratch.hpp>
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>

@@ -49,9 +49,6 @@ class OctagonSweep final : public SweepInParts<Scalar> {
         solve_(solver_for<Scalar>(space_.lanes(), false)),
         solve_turned_(solver_for<Scalar>(space_.lanes(), true)) {}
 
-  [[nodiscard]] std::string_view name() const noexcept override { return "octagon_sweep"; }
-  [[nodiscard]] Abilities abilities() const noexcept override { return {.filter = true, .up = true}; }
-
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
     scratch.solids.pieces = PieceBuffer(space_.scenery().sensor_pieces().first);
@@ -59,12 +56,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     return scratch;
   }
 
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override {
-    move_part(Part::whole, request, scratch, result);
-  }
-
-  void move_part(Part part, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+  void move_part(Part part, const StepRequest<Scalar>& request, Scratch<Scalar>& scratch,
                  MoveResult<Scalar>& result) const noexcept override {
     result.clear();
     if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
@@ -78,19 +70,19 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     solve(space_, settings_, neighbourhood, movers, part, request, result);
   }
 
-  [[nodiscard]] std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
+  [[nodiscard]] std::optional<Contact<Scalar>> cast(const StepRequest<Scalar>& at,
                                                     Scratch<Scalar>& scratch) const noexcept override {
     return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
       return octagon_sweep::cast<lanes>(around, at.position, at.displacement);
     });
   }
-  [[nodiscard]] std::size_t overlaps(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
+  [[nodiscard]] std::size_t overlaps(const StepRequest<Scalar>& at, Scratch<Scalar>& scratch,
                                      std::span<ColliderIndex> found) const noexcept override {
     return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
       return octagon_sweep::overlaps<lanes>(around, at.position, found);
     });
   }
-  [[nodiscard]] std::size_t contacts_at(const MoveRequest<Scalar>& at, Scalar within, Scratch<Scalar>& scratch,
+  [[nodiscard]] std::size_t contacts_at(const StepRequest<Scalar>& at, Scalar within, Scratch<Scalar>& scratch,
                                         std::span<Contact<Scalar>> found) const noexcept override {
     return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
       return octagon_sweep::contacts_at<lanes>(around, at.position, within, found);
@@ -99,7 +91,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
 
  private:
   template <class Question>
-  [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
+  [[nodiscard]] auto ask(const StepRequest<Scalar>& at, Scratch<Scalar>& scratch,
                          const Question& question) const noexcept {
     Surroundings<Scalar> around{
         space_, {space_, tree_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter, at.up};
@@ -108,7 +100,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     around.neighbourhood.forget();  // a wide question would make the next steps slow
     return answer;
   }
-  [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
+  [[nodiscard]] static bool in_range(const StepRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.
     const auto within = [](Scalar value) { return std::abs(value) <= range; };
@@ -117,7 +109,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
            within(request.position.y() + request.displacement.y());
   }
 
-  static void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+  static void refuse(const StepRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
     result.status = MoveStatus::out_of_range;
     result.position = request.position;
     result.velocity = request.velocity + request.ride.velocity;
@@ -128,7 +120,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
 
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
   /// its displacement is long, and the snap.
-  [[nodiscard]] bool comes_near_a_mover(const MoveRequest<Scalar>& request) const noexcept {
+  [[nodiscard]] bool comes_near_a_mover(const StepRequest<Scalar>& request) const noexcept {
     if (request.ride.ground != Ride<Scalar>::none || request.crushed) return true;
     const Vec2<Scalar>& at = request.position;
     const Scalar reach =
@@ -167,19 +159,10 @@ std::unique_ptr<SweepInParts<Scalar>> octagon_sweep::make_sweep_in_parts(const S
   return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character);
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef& def, const Scenery<Scalar>& scenery,
-                                                      const CharacterDef& character) {
-  return octagon_sweep::make_sweep_in_parts(def, scenery, character);
-}
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
-  template std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef&, const Scenery<Scalar>&, \
-                                                                 const CharacterDef&);                    \
-  template std::unique_ptr<octagon_sweep::SweepInParts<Scalar>> octagon_sweep::make_sweep_in_parts(       \
-      const SweepDef&, const Scenery<Scalar>&, const CharacterDef&)
-PAPERPROOF_INSTANTIATE(float);
-PAPERPROOF_INSTANTIATE(double);
-#undef PAPERPROOF_INSTANTIATE
+template std::unique_ptr<SweepInParts<float>> octagon_sweep::make_sweep_in_parts(const SweepDef&, const Scenery<float>&,
+                                                                                 const CharacterDef&);
+template std::unique_ptr<SweepInParts<double>> octagon_sweep::make_sweep_in_parts(const SweepDef&,
+                                                                                  const Scenery<double>&,
+                                                                                  const CharacterDef&);
 
 }  // namespace paperproof

@@ -14,7 +14,7 @@ namespace {
 template <std::size_t Lanes, template <class> class Up, class Scalar>
 void solve(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
            const Neighbourhood<Scalar>& neighbourhood, MoversInStep<Scalar>& movers, Part part,
-           const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+           const StepRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
   StepSolver<Lanes, Scalar, Up<Scalar>>{space, settings, neighbourhood, movers, request.up, result}.solve(part,
                                                                                                           request);
 }

@@ -8,7 +8,7 @@ namespace paperproof::octagon_sweep {
 
 template <class Scalar>
 using Solve = void (*)(const ConfigurationSpace<Scalar>&, const Settings<Scalar>&, const Neighbourhood<Scalar>&,
-                       MoversInStep<Scalar>&, Part, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
+                       MoversInStep<Scalar>&, Part, const StepRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
 
 /// @param lanes of the configuration space: 8 or 12. @param is_turned whether the character's up is not (0, 1).
 template <class Scalar>

@@ -132,7 +132,7 @@ void StepSolver<Lanes, Scalar, Up>::crush(PieceIndex piece, Scalar since) noexce
 /// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
 /// if the list is full, its side is not known. True if there is a mover that was not ignored yet.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::ignore_overlapping_movers(const StepRequest<Scalar>& request) noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (mover_of(piece) == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
@@ -160,7 +160,7 @@ bool StepSolver<Lanes, Scalar, Up>::ignore_overlapping_movers(const MoveRequest<
 /// Leaves the movers that overlap, as any solid, to the side from which the character came. False if there is no way
 /// out.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::leaves_overlapping_movers(const StepRequest<Scalar>& request) noexcept {
   if (moving_.side_lost) return false;
   moving_.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   const std::optional<V> out = find_way_out(request);
@@ -254,7 +254,7 @@ void StepSolver<Lanes, Scalar, Up>::wait(bool may_move) noexcept {
 
 /// The whole step of `Part::stay`.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::stay_in_place(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar, Up>::stay_in_place(const StepRequest<Scalar>& request) noexcept {
   push_corner(0);
   ignore_overlapping_movers(request);
   wait(false);

@@ -4,8 +4,9 @@
 #include "step/half_planes.hpp"
 #include "step/narrow_phase.hpp"
 
+#include <paperproof/report.hpp>
 #include <paperproof/scenery_facts.hpp>
-#include <paperproof/technique.hpp>
+#include <paperproof/scratch.hpp>
 
 #include <algorithm>
 #include <span>

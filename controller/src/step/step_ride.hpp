@@ -88,7 +88,7 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::carrier_her
 
 /// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
 template <std::size_t Lanes, class Scalar, class Up>
-Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::begin_ride(const StepRequest<Scalar>& request) noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 4;
   const bool riding = request.ride.ground != Ride<Scalar>::none;
   const bool at_rest = up_.across_of(request.velocity) == 0 && up_.up_of(request.velocity) <= 0;

@@ -7,7 +7,7 @@
 namespace paperproof::octagon_sweep {
 
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar, Up>::solve(Part part, const StepRequest<Scalar>& request) noexcept {
   position_ = request.position;
   velocity_ = request.velocity;
   start_ = position_;
@@ -98,7 +98,7 @@ void StepSolver<Lanes, Scalar, Up>::ignore_filtered(const ColliderFilter& filter
 
 /// Reads this step's steering, its length, and whether it begins as a walk on the ground.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::begin_motion(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar, Up>::begin_motion(const StepRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
   dt_ = request.dt;
   leaves_ground_above_ = request.leaves_ground_above;

@@ -23,7 +23,6 @@
 #include "step/one_way.hpp"
 #include "step/response.hpp"
 
-#include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
@@ -118,7 +117,7 @@ class StepSolver {
     memory_.clear();
   }
 
-  void solve(Part part, const MoveRequest<Scalar>& request) noexcept;
+  void solve(Part part, const StepRequest<Scalar>& request) noexcept;
 
  private:
   using V = Vec2<Scalar>;
@@ -180,8 +179,8 @@ class StepSolver {
 
   // step_start.hpp
   /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
-  [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] std::optional<V> find_way_out(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(Part part, const StepRequest<Scalar>& request) noexcept;
+  [[nodiscard]] std::optional<V> find_way_out(const StepRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(FreePositionQuery<Scalar> query, Scalar whole) noexcept;
   [[nodiscard]] std::span<PieceIndex> pieces_for(const FreePositionQuery<Scalar>& query, Scalar radius) noexcept;
   template <class Condition>
@@ -196,7 +195,7 @@ class StepSolver {
   void restore_gaps_to_movers() noexcept;
 
   // step_solve.hpp
-  void begin_motion(const MoveRequest<Scalar>& request) noexcept;
+  void begin_motion(const StepRequest<Scalar>& request) noexcept;
   [[gnu::cold, gnu::noinline]] void ignore_filtered(const ColliderFilter& filter) noexcept;
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
@@ -227,9 +226,9 @@ class StepSolver {
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar side, Scalar down, Scalar lean) noexcept;
   bool step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept;
   [[nodiscard]] bool climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept;
-  [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
+  [[gnu::cold, gnu::noinline]] void climb_stairs(const StepRequest<Scalar>& request, const V& wanted,
                                                  Scalar speed) noexcept;
-  [[gnu::cold, gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::cold, gnu::noinline]] void follow_ground_down(const StepRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool hardly_leaves(const TouchedSurface<Scalar>& ground) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] Scalar falls_away_below_rider() const noexcept;
 
@@ -244,7 +243,7 @@ class StepSolver {
   [[nodiscard]] V velocity_with(MoverIndex mover, PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const StepRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
   [[nodiscard]] bool falls_away(const V& ground) const noexcept {
     return up_.up_of(ground) < -settings_.max_fall_speed;
@@ -319,14 +318,14 @@ class StepSolver {
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
   [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;
   void crush(PieceIndex piece, Scalar since) noexcept;
-  bool ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] bool leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
+  bool ignore_overlapping_movers(const StepRequest<Scalar>& request) noexcept;
+  [[nodiscard]] bool leaves_overlapping_movers(const StepRequest<Scalar>& request) noexcept;
   [[nodiscard]] V displacement_of(ColliderIndex collider) const noexcept;
   void remember(const Crusher<Scalar>& now) noexcept;
   void hand_on_crushers() noexcept;
   [[gnu::cold, gnu::noinline]] void find_movers_that_still_overlap() noexcept;
   [[gnu::cold, gnu::noinline]] void wait(bool may_move) noexcept;
-  [[gnu::cold, gnu::noinline]] void stay_in_place(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::cold, gnu::noinline]] void stay_in_place(const StepRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const PieceInfo* pieces_;
@@ -349,7 +348,7 @@ class StepSolver {
   Scalar latest_impact_ = 0;  ///< See `Reported`.
   Scalar fall_ = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Scalar steered_ = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
-  Scalar leaves_ground_above_ = 0;  ///< See `MoveRequest`.
+  Scalar leaves_ground_above_ = 0;  ///< See `StepRequest`.
   bool drops_ = false;              ///< One-way segments do not block in this step.
   bool certify_ = false;            ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs_ = false;             ///< The step began on ground, with no more upward speed than climbing gives.

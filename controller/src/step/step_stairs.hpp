@@ -99,7 +99,7 @@ bool StepSolver<Lanes, Scalar, Up>::climb_by(Scalar rise, Scalar sideways, Scala
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
+void StepSolver<Lanes, Scalar, Up>::climb_stairs(const StepRequest<Scalar>& request, const V& wanted,
                                                  Scalar speed) noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
@@ -148,7 +148,7 @@ bool StepSolver<Lanes, Scalar, Up>::hardly_leaves(const TouchedSurface<Scalar>& 
 /// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
 /// such a seam the walk is above its ground by up to `touch` more than before.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const StepRequest<Scalar>& request) noexcept {
   constexpr Scalar bend = 4 * Tolerances<Scalar>{}.touch;  // straight down: enough on ground as steep as 60 degrees
   if (is_passed_through()) return;                         // a crushed character does not move
   const V left_ground = moving_.ride.velocity;             // of the ground that was walked on

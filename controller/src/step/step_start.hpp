@@ -12,7 +12,7 @@ namespace paperproof::octagon_sweep {
 inline constexpr int restore_rounds = 16;
 
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const StepRequest<Scalar>& request) noexcept {
   if (request.has_last_free) moving_.last_free = request.last_free;
   if (request.crushed && ignore_overlapping_movers(request) && part == Part::whole &&
       leaves_overlapping_movers(request))
@@ -45,7 +45,7 @@ bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const MoveRequest<S
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
 template <std::size_t Lanes, class Scalar, class Up>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(const StepRequest<Scalar>& request) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const Scalar whole = reach_of_solids_inside();
   FreePositionQuery<Scalar> query{.from = position_,

@@ -3,10 +3,9 @@
 
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
-#include <paperproof/controller.hpp>
-#include <paperproof/crowd.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
+#include <paperproof/technique_controller.hpp>
 
 #include <map>
 #include <memory>
@@ -91,8 +90,8 @@ using TechniqueMaker = std::unique_ptr<Technique<Scalar>> (*)(const TechniqueDef
 /// How a technique is known.
 struct TechniqueEntry {
   std::string_view name;
-  TechniqueMaker<float> make_float;
-  TechniqueMaker<double> make_double;
+  TechniqueMaker<float> make_float = nullptr;    ///< Null: it is `octagon_sweep`,
+  TechniqueMaker<double> make_double = nullptr;  ///< which the core makes.
   std::vector<Knob> knobs{};
   bool knows_movers = false;   ///< False: scenery that moves or conveys is refused.
   bool knows_circles = false;  ///< False: scenery with circles is refused.
@@ -123,9 +122,9 @@ template <template <class> class Made>
 bool register_technique(TechniqueEntry entry);
 
 /// Builds a technique for one scenery and one character. `scenery` must outlive it.
-/// @throws std::invalid_argument for a name that is not known, a knob out of range, or a sprite of another size than
-/// the character; InvalidCharacter for an impossible character; NotExpressible where the technique cannot express the
-/// scenery.
+/// @throws std::invalid_argument for `octagon_sweep` and for a name that is not known, a knob out of range, or a sprite
+/// of another size than the character; InvalidCharacter for an impossible character; NotExpressible where the technique
+/// cannot express the scenery.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
                                                                 const CharacterDef& character);
@@ -133,13 +132,13 @@ template <class Scalar>
 /// A controller that moves by the technique. Its `CharacterDef::wall_reach` is one unit.
 /// @throws as `make_technique`.
 template <class Scalar>
-[[nodiscard]] Controller<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                                 const TechniqueDef& def);
+[[nodiscard]] TechniqueController<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                                                          const TechniqueDef& def);
 
 /// A crowd that moves by the technique.
 /// @throws as `make_technique`, and std::invalid_argument for a technique that knows one character.
 template <class Scalar>
-[[nodiscard]] Crowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                       const TechniqueDef& def);
+[[nodiscard]] TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                                                const TechniqueDef& def);
 
 }  // namespace paperproof

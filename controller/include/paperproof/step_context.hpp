@@ -1,0 +1,54 @@
+/// What all characters of a step share.
+#pragma once
+
+#include <paperproof/scenery.hpp>
+#include <paperproof/up_frame.hpp>
+
+#include <span>
+
+namespace paperproof {
+
+/// Which colliders are there for a character in one step: those that collide by the filters, and by a predicate.
+///
+/// A predicate does not take seams away. Of two tiles that abut, the sides between them stay covered if one is left
+/// out: the character is stopped at half the usual gap there. Chains that are one surface stay one. Give such colliders
+/// different filters instead: see `ColliderDef::filter`.
+struct ColliderFilter : Filter {
+  /// If set, it is asked for each collider that collides by the filters: false if the collider is not there. During a
+  /// step it must give the same answers, and between steps it may change them. It must not throw. It may be called from
+  /// any thread that steps.
+  bool (*is_there)(ColliderIndex collider, const void* user) = nullptr;
+  const void* user = nullptr;       ///< Handed to `is_there`.
+  ColliderIndex end = no_collider;  ///< A `Crowd` sets it: its own colliders begin here.
+
+  template <class Scalar>
+  [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
+    return (*this)(collider, scenery.collider(collider).filter);
+  }
+  /// @param other that of the collider.
+  [[nodiscard]] bool operator()(ColliderIndex collider, const Filter& other) const noexcept {
+    if (collider >= end) return true;
+    return collide(*this, other) && (is_there == nullptr || is_there(collider, user));
+  }
+};
+
+/// The surroundings of a step. All characters of a step share them.
+template <class Scalar = double>
+struct StepContext {
+  Vec2<Scalar> gravity{Vec2<Scalar>::Zero()};  ///< [m/s²]
+  Scalar dt = 0;                               ///< Duration of the step, above zero [s].
+  /// One for each mover of the scenery, within +-2e6 m.
+  std::span<const MoverMotion<Scalar>> movers{};
+  /// The filter of the characters. If it is null, a default filter is used. A step is as if the colliders that the
+  /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
+  const ColliderFilter* filter = nullptr;
+  /// Up of the characters: any unit vector, which may differ from step to step. It decides what is horizontal (a
+  /// positive `Input::move` goes along (up.y, -up.x)), where a jump goes, what `max_fall_speed` limits, which surfaces
+  /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
+  /// world: turn it as well. The flags of a state are those that its last step saw. The shape does not turn, and
+  /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
+  /// from 1 by more than the rounding of `Scalar`.
+  Vec2<Scalar> up{0, 1};
+};
+
+}  // namespace paperproof
