@@ -109,11 +109,11 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
 template <class Scalar>
 TechniqueController<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                             const TechniqueDef& def) {
+  validate<Scalar>(def.article);
   CharacterDef with_reach = character;
   with_reach.wall_reach = def.article.unit;
   if (def.name != sweep_name)
     return TechniqueController<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
-  validate<Scalar>(def.article);
   return TechniqueController<Scalar>(Controller<Scalar>(scenery, with_reach, sweep_of(def)));
 }
 
