@@ -495,6 +495,34 @@ TEST(Hero, sees_a_long_chain_that_was_dug_in_place_at_any_vertex) {
   }
 }
 
+/// A game makes a fixture anew on its body, with the shape that it has changed.
+TEST(Hero, sees_a_circle_that_was_made_smaller_or_larger_in_place) {
+  for (const auto& [before, after] : {std::pair{0.5F, 0.25F}, {0.25F, 0.5F}}) {
+    Game game({.position = {0, half_height + static_cast<double>(before) + 1e-6}});
+    b2CircleShape circle;
+    circle.m_radius = before;
+    b2Fixture& fixture = game.add(b2_staticBody, {0, 0}, circle);
+    game.run(5);
+    ASSERT_TRUE(game.hero.grounded());
+    circle.m_radius = after;
+    b2Body* ground = fixture.GetBody();
+    ground->DestroyFixture(&fixture);
+    ground->CreateFixture(&circle, 0);
+    game.run(30);
+    EXPECT_NEAR(game.feet(), after, 1e-4) << before;
+  }
+}
+
+TEST(Hero, that_is_launched_out_of_a_jump_is_not_slowed_by_the_button) {
+  OnFloor game({.character = {.jump_cut = 0.2}});
+  game.run(5);
+  game.run(3, {.jump = true});
+  ASSERT_FALSE(game.hero.grounded());
+  game.hero.place({0, 3}, {0, 10});
+  game.go({.jump = false});
+  EXPECT_NEAR(game.hero.velocity().y(), 10 - 10 * frame, 1e-9);
+}
+
 /// The hero rides the second part of a chain that was cut to what is near.
 TEST(Hero, is_carried_by_a_chain_that_is_a_conveyor_and_rides_on_after_it_was_restored) {
   Game game({.position = {0, half_height + 1e-6}, .surface_of = [](b2Fixture&) { return Surface{.speed = 1.5}; }});

@@ -251,6 +251,23 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   EXPECT_THROW(Stepper<double>({}, {.walk_speed = -1}), InvalidCharacter);
 }
 
+/// The wall is 0.3 m away. A press stays pending, so each reach begins anew.
+TEST(Jumps, toward_a_wall_are_refused_as_far_away_as_the_character_says) {
+  const Scenery<double> scenery(SceneryDef{{box(-9, -1, 9, 0), box(half_width + 0.3, 0, 9, 4)}});
+  for (const auto& [reach, jumped] : {std::pair{0.29, true}, {0.31, false}}) {
+    const Controller<double> controller(scenery, {.no_jump_toward_wall = true, .wall_reach = reach});
+    Scratch<double> scratch = controller.make_scratch();
+    StepReport<double> report;
+    CharacterState<double> state;
+    state.position = {0, half_height + 1e-6};
+    const StepContext<double> context{{0, -10}, 1.0 / 60};
+    controller.step(state, {}, context, scratch, report);
+    ASSERT_TRUE(state.grounded);
+    controller.step(state, jumping(1), context, scratch, report);
+    EXPECT_EQ(state.jumping, jumped) << reach;
+  }
+}
+
 TEST(Refusals, spare_a_wish_that_float_cannot_hold_as_it_is_limited_to_one) {
   Stepper<float> wild({box(-9, -9, 9, 0)});
   Stepper<float> full({box(-9, -9, 9, 0)});
