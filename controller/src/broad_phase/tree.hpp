@@ -2,6 +2,7 @@
 #pragma once
 
 #include <paperproof/octagon_sweep.hpp>
+#include <paperproof/types.hpp>
 
 #include <array>
 #include <span>
