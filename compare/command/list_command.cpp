@@ -105,9 +105,12 @@ int check_command(const std::vector<std::string>& scenes) {
 
 int plan_command(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
   for (const std::string& name : scenes)
-    for (const Scene& scene : load_scenes(name))
-      print_out(describe_plan(scene) +
-                describe_saving(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)) + '\n');
+    for (const Scene& scene : load_scenes(name)) {
+      const Scenery<double> scenery(scene.scenery);
+      print_out(describe_plan(scene, scenery));  // before the saving is measured, which may take long
+      const Script script = seed ? random_script(scene, *seed, scene.steps) : script_of(scene);
+      print_out(describe_saving(scene, scenery, script) + '\n');
+    }
   return 0;
 }
 

@@ -84,9 +84,8 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
     if (member != nullptr) plan.measured.*member = needed;
     if (!needed) plan.omitted.push_back({metric, reason});
   };
-  const auto pulls = [](double gravity) {
-    return gravity != 0 || std::signbit(gravity);
-  };  // minus zero gives other bits
+  // Minus zero pulls, too: it gives other bits.
+  const auto pulls = [](double gravity) { return gravity != 0 || std::signbit(gravity); };
   leave_out(pulls(scene.gravity.x()) || pulls(scene.gravity.y()), &Measured::rest, "rest jitter",
             "without gravity nothing presses the character onto anything, so nothing rests");
   leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), nullptr, "one-way violations",
@@ -98,8 +97,7 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   return plan;
 }
 
-std::string describe_plan(const Scene& scene) {
-  const Scenery<double> scenery(scene.scenery);
+std::string describe_plan(const Scene& scene, const Scenery<double>& scenery) {
   const LevelPlan plan = plan_of(scenery, {});
   const std::size_t pieces = scenery.pieces().size();
   std::string out = scene.name + "\n";
@@ -113,8 +111,7 @@ std::string describe_plan(const Scene& scene) {
   return out;
 }
 
-std::string describe_saving(const Scene& scene, const Script& script) {
-  const Scenery<double> scenery(scene.scenery);
+std::string describe_saving(const Scene& scene, const Scenery<double>& scenery, const Script& script) {
   const Planned planned = make_planned(false, scene, scenery);
   const Planned full = make_planned(true, scene, scenery);
   const std::array runs{TimedRun{planned.contender.get(), {}}, TimedRun{full.contender.get(), {}}};

@@ -28,13 +28,13 @@ struct MetricPlan {
 };
 [[nodiscard]] MetricPlan metrics_for(const Scene& scene, const Planning& planning);
 
-/// Several lines for `paperproof plan`: how near pieces are found, what is left out and why that is safe, and which
-/// metrics are. Does not measure.
-[[nodiscard]] std::string describe_plan(const Scene& scene);
+/// Several lines for `paperproof plan`: what the level has no need of, why that is safe, and which metrics the scene
+/// does not need. Nothing is measured.
+[[nodiscard]] std::string describe_plan(const Scene& scene, const Scenery<double>& scenery);
 
 /// One line for `paperproof plan`: time of a step and memory of `octagon_sweep`, as planned and with nothing left out.
 /// Both run the same steps, by turns: see `measure_costs`. Not for tests: machines are shared.
 /// @throws std::logic_error where the two do not end at the same position.
-[[nodiscard]] std::string describe_saving(const Scene& scene, const Script& script);
+[[nodiscard]] std::string describe_saving(const Scene& scene, const Scenery<double>& scenery, const Script& script);
 
 }  // namespace paperproof::compare

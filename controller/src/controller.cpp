@@ -292,10 +292,8 @@ template <class Scalar>
     return report.status = StepStatus::invalid_input;
   using enum octagon_sweep::Part;
   const Undo<Scalar> before(state);
-  bool wall_ahead = false;
-  const bool may_press = input.jump || state.jump_pending;
-  if (character_.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0)
-    wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
+  const bool wall_ahead =
+      asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   if (is_upright(context.up)) [[likely]]
     sweep_->move_part(whole, begin_step(state.crushers, input, context, wall_ahead, state, report), scratch,

@@ -82,6 +82,14 @@ template <class Maker>
   return StepStatus::moved;
 }
 
+/// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.
+template <class Scalar>
+[[nodiscard]] bool asks_for_wall(const CharacterDef& character, const Input& input,
+                                 const CharacterState<Scalar>& state) noexcept {
+  const bool may_press = input.jump || state.jump_pending;
+  return character.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0;
+}
+
 template <class Scalar>
 [[nodiscard]] bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
   return std::any_of(move.contacts.begin(), move.contacts.end(),

@@ -10,8 +10,19 @@
 #include <vector>
 
 namespace paperproof {
+namespace {
 
 using namespace step_parts;
+
+/// Of a step of a crowd that moves by a joint technique.
+template <class Scalar>
+struct JointMemory final : OwnMemory {
+  std::vector<CharacterState<Scalar>> states;  ///< Those handed to the step, as they will be.
+  std::vector<MoveRequest<Scalar>> requests;   ///< What each character wants.
+  Scratch<Scalar> scratch;
+};
+
+}  // namespace
 
 template <class Scalar>
 struct TechniqueController<Scalar>::Driver {
@@ -48,6 +59,19 @@ struct TechniqueController<Scalar>::Driver {
            finite(state, input, context.gravity, context.dt, context.movers);
   }
 
+  [[nodiscard]] static MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state,
+                                                      const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
+                                                      bool drop, const StepContext<Scalar>& context) noexcept {
+    return {.position = state.position,
+            .displacement = displacement,
+            .velocity = velocity,
+            .technique_memory = state.technique_memory,
+            .drop = drop,
+            .movers = context.movers,
+            .dt = context.dt,
+            .ride = state.ride};
+  }
+
   /// Turns the intent into a request.
   [[nodiscard]] MoveRequest<Scalar> begin(const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
                                           CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
@@ -55,14 +79,7 @@ struct TechniqueController<Scalar>::Driver {
     const auto [velocity, steered] = desired_velocity(character, context.gravity, input, context.dt, state, wall_ahead);
     report.requested = velocity * context.dt;
     report.steered = steered * context.dt;
-    return {.position = state.position,
-            .displacement = report.requested,
-            .velocity = velocity,
-            .technique_memory = state.technique_memory,
-            .drop = input.drop,
-            .movers = context.movers,
-            .dt = context.dt,
-            .ride = state.ride};
+    return request_of(state, report.requested, velocity, input.drop, context);
   }
 
   /// Tries a move towards the wall that `move` (not zero) points to, without making it.
@@ -71,14 +88,7 @@ struct TechniqueController<Scalar>::Driver {
                                     MoveResult<Scalar>& tried) const noexcept {
     const auto reach = static_cast<Scalar>(character.wall_reach);
     const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
-    technique->move({.position = state.position,
-                     .displacement = there,
-                     .velocity = there / context.dt,
-                     .technique_memory = state.technique_memory,
-                     .movers = context.movers,
-                     .dt = context.dt,
-                     .ride = state.ride},
-                    scratch, tried);
+    technique->move(request_of(state, there, there / context.dt, false, context), scratch, tried);
     return touches(tried, move < 0 ? Side::left : Side::right);
   }
 
@@ -109,11 +119,6 @@ Scratch<Scalar> TechniqueController<Scalar>::make_scratch() const {
 }
 
 template <class Scalar>
-const CharacterDef& TechniqueController<Scalar>::character() const noexcept {
-  return sweep_ ? sweep_->character() : driver_->character;
-}
-
-template <class Scalar>
 std::size_t TechniqueController<Scalar>::memory_bytes() const noexcept {
   return sweep_ ? 0 : driver_->technique->memory_bytes();
 }
@@ -128,9 +133,7 @@ StepStatus TechniqueController<Scalar>::step(CharacterState<Scalar>& state, cons
   if (!is_made_by(driver_, scratch.maker) || !driver_->accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
   const CharacterState<Scalar> before = state;
-  const CharacterDef& character = driver_->character;
-  const bool may_press = input.jump || state.jump_pending;
-  const bool wall_ahead = character.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0 &&
+  const bool wall_ahead = asks_for_wall(driver_->character, input, state) &&
                           driver_->has_wall_ahead(state, *input.move, context, scratch, report.move);
   driver_->technique->move(driver_->begin(input, context, wall_ahead, state, report), scratch, report.move);
   report.status = status_of(report.move.status);
@@ -140,18 +143,6 @@ StepStatus TechniqueController<Scalar>::step(CharacterState<Scalar>& state, cons
     driver_->end(input.drop, context, scratch, state, report);
   return report.status;
 }
-
-namespace {
-
-/// Of a step of a crowd that moves by a joint technique.
-template <class Scalar>
-struct JointMemory final : OwnMemory {
-  std::vector<CharacterState<Scalar>> states;  ///< Those handed to the step, as they will be.
-  std::vector<MoveRequest<Scalar>> requests;   ///< What each character wants.
-  Scratch<Scalar> scratch;
-};
-
-}  // namespace
 
 template <class Scalar>
 TechniqueCrowd<Scalar>::TechniqueCrowd(Crowd<Scalar> sweep) : sweep_(std::move(sweep)) {}

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <set>
 
 namespace paperproof::test {
 namespace {
@@ -32,13 +31,6 @@ TEST_P(Campaign, breaks_only_what_is_known_and_open) {
   for (const std::string& missing : uncovered(family, all)) ADD_FAILURE() << missing;
 }
 
-std::set<std::string> families_of(const std::string& kind) {
-  std::set<std::string> names;
-  for (const Family& family : compare::families())
-    if (family.kind == kind) names.insert(family.name);
-  return names;
-}
-
 /// All; under sanitizers every fourth, and the first of each kind.
 std::vector<Family> families_to_run() {
   const std::vector<Family>& all = compare::families();
@@ -56,13 +48,15 @@ TEST(KnownAndOpen, names_families_and_clauses_that_there_are) {
     SCOPED_TRACE(entry.dump());
     const std::string runs = entry.at("runs");
     EXPECT_TRUE(compare::clause_named(entry.at("clause").get<std::string>()));
-    EXPECT_FALSE(families_of(runs).empty());
+    EXPECT_EQ(compare::families_named(runs).front()->kind, runs);
     EXPECT_GT(entry.at("steps_of_one_run"), 0);
     EXPECT_GT(entry.at("steps_in_a_million"), 0);
     EXPECT_FALSE(entry.at("because").empty());
     const nlohmann::json shares = entry.value("families", nlohmann::json::object());
-    for (const auto& [name, share] : shares.items())
-      EXPECT_TRUE(families_of(runs).contains(name) && share > 0) << name;
+    for (const auto& [name, share] : shares.items()) {
+      EXPECT_EQ(compare::families_named(runs + "/" + name).size(), 1U);
+      EXPECT_GT(share, 0) << name;
+    }
   }
 }
 

@@ -29,7 +29,7 @@ struct Player : Stepper<double> {
   }
   /// The last step met ground that is walked on.
   [[nodiscard]] bool landed() const {
-    const double least_up = controller.character().walkable_cosine<double>();
+    const double least_up = sweep().character().walkable_cosine<double>();
     return state.grounded || std::any_of(report.move.contacts.begin(), report.move.contacts.end(),
                                          [&](const Contact<double>& met) { return met.normal.y() >= least_up; });
   }

@@ -2,7 +2,6 @@
 #include "situations/situation.hpp"
 
 #include "campaign/campaign.hpp"
-#include "campaign/campaign.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
 #include "scenes/load.hpp"

@@ -30,8 +30,7 @@ struct DesiredVelocity {
 /// step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
-/// @param wall_ahead there is a wall to jump against, whatever the last step touched: see
-///   `CharacterDef::no_jump_toward_wall`.
+/// @param wall_ahead a wall is within `CharacterDef::wall_reach` on the side of the move: see `no_jump_toward_wall`.
 template <class Scalar>
 [[nodiscard]] DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
                                                        const Input& input, Scalar dt, CharacterState<Scalar>& state,

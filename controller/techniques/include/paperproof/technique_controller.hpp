@@ -29,7 +29,6 @@ class TechniqueController {
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const;
-  [[nodiscard]] const CharacterDef& character() const noexcept;
   /// The controller that moves by `octagon_sweep`. Null: another technique does.
   [[nodiscard]] const Controller<Scalar>* sweep() const noexcept { return sweep_ ? &*sweep_ : nullptr; }
   /// Size of the technique's own copy of the level [bytes].
@@ -39,7 +38,7 @@ class TechniqueController {
   template <class>
   friend class TechniqueCrowd;
 
-  /// What is around the moves of a technique in each step.
+  /// A step without its move: intent and request before it, sensors and state after it.
   struct Driver;
 
   std::optional<Controller<Scalar>> sweep_;
