@@ -13,9 +13,9 @@ void require_number(const Vec2d& value, const char* words) {
 }
 
 /// The box around a shape, across up and along it.
-Box2<double> seen_by(const UpFrame<double>& frame, const CharacterShape& shape) {
+Box2 seen_by(const UpFrame& frame, const CharacterShape& shape) {
   const Vec2d first = frame.seen(shape.points()[0]);
-  Box2<double> box{first, first};
+  Box2 box{first, first};
   for (const Vec2d& point : shape.points()) box = box.merged({frame.seen(point), frame.seen(point)});
   return box;
 }
@@ -67,20 +67,20 @@ Hero& Hero::operator=(Hero&&) noexcept = default;
 
 StepStatus Hero::step(const Input& input, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, [&](const StepContext& context, const LocalController::Find& find) {
     return hero.controller.step(hero.state, input, context, find, hero.report);
   });
 }
 
 StepStatus Hero::move(const Vec2d& displacement, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, [&](const StepContext& context, const LocalController::Find& find) {
     return hero.controller.move(hero.state, displacement, context, find, hero.report);
   });
 }
 
-const CharacterState<double>& Hero::state() const noexcept { return impl_->state; }
-const StepReport<double>& Hero::report() const noexcept { return impl_->report; }
+const CharacterState& Hero::state() const noexcept { return impl_->state; }
+const StepReport& Hero::report() const noexcept { return impl_->report; }
 std::span<const HeroContact> Hero::contacts() const noexcept { return impl_->contacts; }
 std::span<const HeroSensorEvent> Hero::sensors() const noexcept { return impl_->sensors; }
 std::span<b2Fixture* const> Hero::crushed_by() const noexcept { return impl_->crushed_by; }
@@ -89,7 +89,7 @@ b2Body& Hero::body() const noexcept { return *impl_->body; }
 b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept { return impl_->fixtures.fixture_of(collider); }
 
 b2Fixture* Hero::ground() const noexcept {
-  const Ground<double>& ground = state().ground;
+  const Ground& ground = state().ground;
   return ground.state == GroundState::air ? nullptr : fixture_of(ground.collider);
 }
 std::span<b2Fixture* const> Hero::inside() const noexcept { return impl_->inside; }
@@ -113,7 +113,7 @@ void Hero::knock_back(const Vec2d& velocity) {
 
 void Hero::set_velocity(const Vec2d& velocity) {
   require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
-  CharacterState<double>& state = impl_->state;
+  CharacterState& state = impl_->state;
   if ((velocity - state.ride.velocity).dot(up_of(impl_->gravity())) > 0) knock_back({0, 0});
   state.velocity = velocity;
 }
@@ -123,9 +123,9 @@ bool Hero::change(const CharacterDef& character) {
   (void)character_polygon(character.shape.hull());
   Impl& hero = *impl_;
   require(!hero.world->IsLocked(), "a hero cannot change during a step of the world");
-  const UpFrame<double> frame(up_of(hero.gravity()));
-  const Box2<double> old_box = seen_by(frame, hero.def.character.shape);
-  const Box2<double> box = seen_by(frame, character.shape);
+  const UpFrame frame(up_of(hero.gravity()));
+  const Box2 old_box = seen_by(frame, hero.def.character.shape);
+  const Box2 box = seen_by(frame, character.shape);
   const double across = (old_box.lower.x() + old_box.upper.x() - box.lower.x() - box.upper.x()) / 2;
   const Vec2d by = frame.in_world({across, old_box.lower.y() - box.lower.y()});
   const Vec2d position = hero.state.position + by;
@@ -144,7 +144,7 @@ void Hero::shift_origin(const Vec2d& new_origin) {
   require(!hero.world->IsLocked(), "the origin cannot be shifted during a step of the world");
   hero.state.position -= new_origin;
   hero.state.last_free -= new_origin;
-  for (Crusher<double>& crusher : hero.state.crushers) crusher.last_free -= new_origin;
+  for (Crusher& crusher : hero.state.crushers) crusher.last_free -= new_origin;
   hero.fixtures.shift_origin(new_origin);
   hero.body->SetTransform(rounded(hero.state.position), 0);
 }
@@ -164,7 +164,7 @@ HeroSave Hero::save() const {
                 .is_bullet = hero.body->IsBullet(),
                 .struck = hero.struck,
                 .reach = hero.controller.reach()};
-  for (const Crusher<double>& crusher : hero.state.crushers)
+  for (const Crusher& crusher : hero.state.crushers)
     save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
   return save;
 }

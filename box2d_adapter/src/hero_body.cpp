@@ -124,7 +124,7 @@ Vec2d Hero::Impl::strike(const Vec2d& own_velocity, const Vec2d& body_velocity, 
   const Vec2d up = up_of(gravity());
   const Vec2d wanted = own_velocity + up * std::max(0.0, (report.requested / dt - own_velocity).dot(up));
   Vec2d result = Vec2d::Zero();
-  for (const Contact<double>& contact : report.move.contacts) {
+  for (const Contact& contact : report.move.contacts) {
     const b2Fixture& other = *fixtures.fixture_of(contact.collider);
     if (other.GetBody()->GetType() != b2_dynamicBody || is_of_hero(other)) continue;
     const double unseen = (wanted - body_velocity).dot(-contact.normal);
@@ -141,7 +141,7 @@ Vec2d Hero::Impl::strike(const Vec2d& own_velocity, const Vec2d& body_velocity, 
 Vec2d Hero::Impl::place_for_body() const {
   const b2Fixture& own = *body->GetFixtureList();
   Vec2d place = state.position;
-  for (const Contact<double>& contact : report.move.contacts) {
+  for (const Contact& contact : report.move.contacts) {
     const b2Fixture& other = *fixtures.fixture_of(contact.collider);
     const bool is_felt = other.GetBody()->GetType() == b2_dynamicBody || other.GetType() == b2Shape::e_circle;
     if (!is_felt || is_of_hero(other)) continue;

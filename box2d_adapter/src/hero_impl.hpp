@@ -47,12 +47,12 @@ struct Hero::Impl {
   void change(const CharacterDef& character);
 
   // hero_step.cpp
-  using Go = std::function<StepStatus(const StepContext<double>& context, const LocalController::Find& find)>;
+  using Go = std::function<StepStatus(const StepContext& context, const LocalController::Find& find)>;
   StepStatus advance(double dt, const Go& go);
-  std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
-                                      const StepContext<double>& context);
-  std::pair<double, bool> limit_speed(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
-  [[nodiscard]] bool is_freed(const CharacterState<double>& before);
+  std::optional<double> limit_squeeze(const CharacterState& before, const Vec2d& body_velocity,
+                                      const StepContext& context);
+  std::pair<double, bool> limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt);
+  [[nodiscard]] bool is_freed(const CharacterState& before);
   std::optional<double> end_sooner(double least, double most);
   [[nodiscard]] LocalController::Find found_again();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
@@ -77,9 +77,9 @@ struct Hero::Impl {
   NearFixtures fixtures;
   LocalController controller;
   LocalController other_controller;  ///< Asks what the hero overlaps, beside its step.
-  CharacterState<double> state;
+  CharacterState state;
   Vec2d struck{Vec2d::Zero()};  ///< See `strike`.
-  StepReport<double> report;
+  StepReport report;
   std::vector<HeroContact> contacts;
   std::vector<HeroContact> contacts_before;
   std::vector<HeroContact> contacts_now;

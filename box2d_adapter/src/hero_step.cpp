@@ -32,13 +32,13 @@ bool exists(b2World& world, const b2Fixture* fixture) {
 StepStatus Hero::Impl::advance(double dt, const Go& go) {
   if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
     return StepStatus::invalid_input;
-  const CharacterState<double> before = state;
+  const CharacterState before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
   const Vec2d up = up_of(gravity());
   fixtures.begin_step(def, up, dt, state, contacts);
   take_impacts();
   const Vec2d own_velocity = state.velocity;
-  const StepContext<double> context{.gravity = gravity(), .dt = dt, .up = up};
+  const StepContext context{.gravity = gravity(), .dt = dt, .up = up};
   const StepStatus status = go(context, [this](const auto& box, auto& found) { fixtures.find(box, found); });
   if (is_refused(status)) {
     state = before;
@@ -72,7 +72,7 @@ double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double shar
   teleport(state, position);
   state.last_free = position;
   state.has_last_free = true;
-  MoveResult<double>& move = report.move;
+  MoveResult& move = report.move;
   const double before = move.path[corner - 1].fraction;
   const double when = before + share * (move.path[corner].fraction - before);
   while (move.path.size() > corner) move.path.pop_back();
@@ -90,15 +90,14 @@ double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double shar
 /// Moving bodies take the hero along, but give it no more than their own speed, or that to which Box2D brought the
 /// hero's body.
 /// @return the largest speed that the hero may have [m/s], and whether such a body pushed it.
-std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState<double>& before, const Vec2d& body_velocity,
-                                                double dt) {
+std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt) {
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
   const Vec2d middle = before.position + def.character.shape.box().middle();
   bool is_pushed = before.crushed;
-  for (const Crusher<double>& crusher : before.crushers)
+  for (const Crusher& crusher : before.crushers)
     if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
       most = std::max(most, way_of(middle, fixtures.motion_of(*fixture)) / dt);
-  for (const Contact<double>& contact : report.move.contacts) {
+  for (const Contact& contact : report.move.contacts) {
     b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
     const b2Body& other = *fixture.GetBody();
     if (other.GetType() == b2_staticBody) continue;
@@ -120,8 +119,8 @@ std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState<double>& be
 /// under a press that is hardly in it, it would leave at any speed. It then ends where it is free first on its way. If
 /// that is far away, it waits, and they crush it.
 /// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
-std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
-                                                const StepContext<double>& context) {
+std::optional<double> Hero::Impl::limit_squeeze(const CharacterState& before, const Vec2d& body_velocity,
+                                                const StepContext& context) {
   const auto [speed, is_pushed] = limit_speed(before, body_velocity, context.dt);
   double most = speed * context.dt + most_squeezed;
   if (!is_pushed) most += def.character.step_height + def.character.snap;
@@ -134,7 +133,7 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
 
 /// Whether the step may have freed the hero from bodies that move: where it began, or where they turned. Out of what
 /// stands it goes, however far that is; so it does out of bodies in which it was placed.
-bool Hero::Impl::is_freed(const CharacterState<double>& before) {
+bool Hero::Impl::is_freed(const CharacterState& before) {
   if (!before.has_last_free) return false;
   std::array<ColliderIndex, 16> found{};
   const std::size_t count =
@@ -189,21 +188,21 @@ void Hero::Impl::note_sensors_at(const Vec2d& position, bool at_end, double frac
       found.resize(count);
     for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }
-  const auto report_missing = [&](const auto& from, const auto& in, SensorEvent<double>::Change change) {
+  const auto report_missing = [&](const auto& from, const auto& in, SensorEvent::Change change) {
     for (b2Fixture* sensor : from)
       if (std::find(in.begin(), in.end(), sensor) == in.end() && (fixtures.is_near(sensor) || exists(*world, sensor)))
         sensors.push_back({sensor, change, fraction});
   };
-  report_missing(inside, now, SensorEvent<double>::Change::exit);
-  report_missing(now, inside, SensorEvent<double>::Change::enter);
+  report_missing(inside, now, SensorEvent::Change::exit);
+  report_missing(now, inside, SensorEvent::Change::enter);
   inside = std::move(now);
 }
 
 void Hero::Impl::note_sensors() {
-  for (const SensorEvent<double>& event : report.sensors) {
+  for (const SensorEvent& event : report.sensors) {
     b2Fixture* sensor = fixtures.fixture_of(event.sensor);
     sensors.push_back({sensor, event.change, event.fraction});
-    if (event.change == SensorEvent<double>::Change::enter)
+    if (event.change == SensorEvent::Change::enter)
       inside.push_back(sensor);
     else
       std::erase(inside, sensor);
@@ -214,7 +213,7 @@ void Hero::Impl::note_contacts() {
   std::erase_if(contacts, [](const HeroContact& contact) { return contact.change == HeroContact::Change::removed; });
   contacts_before.swap(contacts);
   contacts_now.clear();
-  for (const Contact<double>& contact : report.move.contacts)
+  for (const Contact& contact : report.move.contacts)
     contacts_now.push_back({fixtures.fixture_of(contact.collider), HeroContact::Change::added, contact});
   contacts.clear();
   for_each_change<HeroContact>(

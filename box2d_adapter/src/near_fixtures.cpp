@@ -47,7 +47,7 @@ class Collector : public b2QueryCallback {
 };
 
 /// Not smaller than the box in double.
-b2AABB rounded_outwards(const Box2<double>& box) {
+b2AABB rounded_outwards(const Box2& box) {
   const auto slack = [](double value) { return 1e-3 + std::abs(value) * 1e-6; };
   b2AABB result;
   result.lowerBound = rounded(Vec2d(box.lower - Vec2d(slack(box.lower.x()), slack(box.lower.y()))));
@@ -129,12 +129,12 @@ bool overlap_across(const Vec2d& direction, std::span<const Vec2d> some, std::sp
 
 /// The runs of segments of a chain that are near a box. Of a one-way chain those before and behind the box, too: they
 /// tell on which side a character is.
-std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chain) {
+std::vector<ColliderDef> cut_to(const Box2& box, const ColliderDef& chain) {
   const std::array corners{box.lower, Vec2d(box.upper.x(), box.lower.y()), box.upper,
                            Vec2d(box.lower.x(), box.upper.y())};
   const auto is_near = [&](std::span<const Vec2d> segment) {
     if (chain.one_way) return overlap_across(*chain.one_way, corners, segment);
-    return box.overlaps(Box2<double>::around(segment));
+    return box.overlaps(Box2::around(segment));
   };
   std::vector<ColliderDef> runs;
   bool goes_on = false;
@@ -189,7 +189,7 @@ bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
          one_way == other.one_way && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
 }
 
-void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state,
+void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState& state,
                               std::span<const HeroContact> contacts) {
   def_ = &def;
   up_ = up;
@@ -206,7 +206,7 @@ void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, co
 }
 
 /// @param known as it was seen last, or as another fixture at its address was. Its chain and front are renewed.
-NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Box2<double>& box) const {
+NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Box2& box) const {
   const b2Body& body = *fixture.GetBody();
   Seen result{.body = &body,
               .shape = fixture.GetShape(),
@@ -263,7 +263,7 @@ std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Kn
   return Vec2d(turn * *known.front);
 }
 
-void NearFixtures::search(const Box2<double>& box) {
+void NearFixtures::search(const Box2& box) {
   ++searches_;
   hits_.clear();
   near_.clear();
@@ -346,7 +346,7 @@ void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const
     if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, mover, motion});
 }
 
-void NearFixtures::find(const Box2<double>& box, std::vector<NearCollider>& found) {
+void NearFixtures::find(const Box2& box, std::vector<NearCollider>& found) {
   search(box);
   find_again(found);
 }

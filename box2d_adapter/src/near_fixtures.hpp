@@ -54,10 +54,10 @@ class NearFixtures {
   /// @param up the side from which ledges block.
   /// @param dt for the motion of a body that was not near in the last step.
   /// @param state of the hero, when the step begins. @param contacts of the step before.
-  void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state,
+  void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState& state,
                   std::span<const HeroContact> contacts);
   /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
-  void find(const Box2<double>& box, std::vector<NearCollider>& found);
+  void find(const Box2& box, std::vector<NearCollider>& found);
   /// The same as the last `find` found.
   void find_again(std::vector<NearCollider>& found) const;
   /// The sensors alone that the last `find` found, as if they were solid.
@@ -96,7 +96,7 @@ class NearFixtures {
     bool sensor = false;
     Surface surface;
     std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks.
-    Box2<double> cut;                ///< To which a long chain is cut; else always the same.
+    Box2 cut;                        ///< To which a long chain is cut; else always the same.
     bool operator==(const Seen& other) const noexcept;
   };
   struct Part {
@@ -120,9 +120,9 @@ class NearFixtures {
     Known* known;
   };
 
-  void search(const Box2<double>& box);
+  void search(const Box2& box);
   void add(const Near& near, std::vector<NearCollider>& found) const;
-  [[nodiscard]] Seen seen(b2Fixture& fixture, Known& known, const Box2<double>& box) const;
+  [[nodiscard]] Seen seen(b2Fixture& fixture, Known& known, const Box2& box) const;
   [[nodiscard]] std::optional<Vec2d> one_way_of(const b2Fixture& fixture, const Known& known) const;
   void define(Known& known);
   [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;

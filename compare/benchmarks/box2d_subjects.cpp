@@ -51,7 +51,7 @@ class RecordedBox2d final : public Subject {
  private:
   const Workload& workload_;
   box2d::ReferenceWorld world_;
-  CharacterState<double> state_;
+  CharacterState state_;
 };
 
 class BareBox2d final : public Subject {

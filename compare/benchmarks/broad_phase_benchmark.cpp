@@ -25,14 +25,14 @@ struct Tiles {
     }
   }
   double side;  ///< [m]
-  std::vector<Box2<double>> boxes;
+  std::vector<Box2> boxes;
 };
 
 /// The article's character, a quarter of its height around it.
-std::vector<Box2<double>> random_queries(double side) {
+std::vector<Box2> random_queries(double side) {
   std::mt19937_64 random(query_seed);
   std::uniform_real_distribution<double> place(0, side);
-  std::vector<Box2<double>> queries;
+  std::vector<Box2> queries;
   for (int i = 0; i < 1024; ++i) {
     const Vec2d centre{place(random), place(random)};
     const Vec2d half{20.0 / 64 + 10.0 / 32, 40.0 / 64 + 10.0 / 32};
@@ -43,8 +43,8 @@ std::vector<Box2<double>> random_queries(double side) {
 
 void broad_phase_benchmark(benchmark::State& state, BroadPhaseKind kind, std::size_t count) {
   const Tiles tiles(count);
-  const auto broad_phase = make_broad_phase<double>(kind, tiles.boxes);
-  const std::vector<Box2<double>> queries = random_queries(tiles.side);
+  const auto broad_phase = make_broad_phase(kind, tiles.boxes);
+  const std::vector<Box2> queries = random_queries(tiles.side);
   std::vector<PieceIndex> found(count);
   std::size_t next = 0;
   std::size_t total = 0;

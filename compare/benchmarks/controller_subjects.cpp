@@ -7,7 +7,6 @@
 namespace paperproof::benchmarks {
 namespace {
 
-template <class Scalar>
 class ControllerSubject final : public Subject {
  public:
   ControllerSubject(const Workload& workload, const SweepDef& technique)
@@ -20,25 +19,25 @@ class ControllerSubject final : public Subject {
 
   void restart() override {
     state_ = {};
-    state_.position = workload_.scene.start.position.cast<Scalar>();
-    state_.velocity = workload_.scene.start.velocity.cast<Scalar>();
+    state_.position = workload_.scene.start.position;
+    state_.velocity = workload_.scene.start.velocity;
   }
 
   void run() override {
-    const Vec2<Scalar> gravity = workload_.scene.gravity.cast<Scalar>();
-    const auto dt = static_cast<Scalar>(workload_.scene.dt);
+    const Vec2d gravity = workload_.scene.gravity;
+    const auto dt = workload_.scene.dt;
     for (const Input& input : workload_.inputs) controller_.step(state_, input, {gravity, dt}, scratch_, report_);
   }
 
-  [[nodiscard]] Vec2d position() const override { return state_.position.template cast<double>(); }
+  [[nodiscard]] Vec2d position() const override { return state_.position; }
 
  private:
   const Workload& workload_;
-  Scenery<Scalar> scenery_;
-  Controller<Scalar> controller_;
-  Scratch<Scalar> scratch_;
-  CharacterState<Scalar> state_;
-  StepReport<Scalar> report_;
+  Scenery scenery_;
+  Controller controller_;
+  Scratch scratch_;
+  CharacterState state_;
+  StepReport report_;
 };
 
 class ContenderSubject final : public Subject {
@@ -64,13 +63,9 @@ class ContenderSubject final : public Subject {
 
 }  // namespace
 
-template <class Scalar>
 std::unique_ptr<Subject> make_controller(const Workload& workload, const SweepDef& technique) {
-  return std::make_unique<ControllerSubject<Scalar>>(workload, technique);
+  return std::make_unique<ControllerSubject>(workload, technique);
 }
-
-template std::unique_ptr<Subject> make_controller<float>(const Workload&, const SweepDef&);
-template std::unique_ptr<Subject> make_controller<double>(const Workload&, const SweepDef&);
 
 std::unique_ptr<Subject> make_contender(const Workload& workload, std::string_view kind) {
   return std::make_unique<ContenderSubject>(workload, kind);

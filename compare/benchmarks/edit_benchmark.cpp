@@ -42,9 +42,9 @@ void step(benchmark::State& state, double height) {
   paperproof::Level edited(level.scenery);
   const ColliderDef tile = tile_above(level, height);
   LevelController controller(edited, {});
-  CharacterState<double> character;
+  CharacterState character;
   character.position = level.start();
-  StepReport<double> report;
+  StepReport report;
   ColliderIndex id = no_collider;
   for ([[maybe_unused]] auto _ : state) {
     if (height > 0 && !edited.remove(id)) id = edited.add(tile);

@@ -1,5 +1,5 @@
-// Times the controller beside Box2D, as planned beside full, its set-up, its edits, and the broad phases. Takes the options of
-// Google Benchmark:
+// Times the controller beside Box2D, as planned beside full, its set-up, its edits, and the broad phases. Takes the
+// options of Google Benchmark:
 //   --benchmark_filter=table            the table of controller/README.md; table.py writes it, and its picture
 //   --benchmark_filter=step/tiles       some of them
 //   --benchmark_out=FILE.json           keep the figures

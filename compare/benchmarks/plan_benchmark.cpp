@@ -14,8 +14,8 @@ namespace paperproof::benchmarks {
 namespace {
 
 void plan_benchmark(benchmark::State& state, const Workload& workload) {
-  const auto planned = make_controller<double>(workload);
-  const auto full = make_controller<double>(workload, {.search = PieceSearch::none});
+  const auto planned = make_controller(workload);
+  const auto full = make_controller(workload, {.search = PieceSearch::none});
   timed_pass(*full);
   timed_pass(*planned);
   if (planned->position() != full->position())

@@ -65,14 +65,13 @@ class Parts {
   double bytes_ = 0;  ///< Per piece.
 };
 
-template <class Scalar>
 void set_up(benchmark::State& state) {
   const Level level = make_level(state.range(0));
   Parts parts(state);
   for ([[maybe_unused]] auto _ : state) {
-    const auto scenery = parts.measured("scenery", [&] { return std::make_unique<Scenery<Scalar>>(level.scenery); });
+    const auto scenery = parts.measured("scenery", [&] { return std::make_unique<Scenery>(level.scenery); });
     const auto controller =
-        parts.measured("controller", [&] { return std::make_unique<Controller<Scalar>>(*scenery, CharacterDef{}); });
+        parts.measured("controller", [&] { return std::make_unique<Controller>(*scenery, CharacterDef{}); });
     const auto scratch = parts.measured("scratch", [&] { return controller->make_scratch(); });
     parts.end_round();
   }
@@ -100,8 +99,7 @@ void register_for_sizes(const char* name, void (*body)(benchmark::State&)) {
 }  // namespace
 
 void register_setup_benchmarks() {
-  register_for_sizes("table/setup/octagon_sweep", set_up<double>);
-  register_for_sizes("table/setup/octagon_sweep_float", set_up<float>);
+  register_for_sizes("table/setup/octagon_sweep", set_up);
   register_for_sizes("table/setup/box2d", set_up_box2d);
 }
 

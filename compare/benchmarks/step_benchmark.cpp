@@ -47,8 +47,7 @@ std::vector<NamedSubject> all_subjects() {
   for (const std::string_view kind : technique_names())
     if (kind != "octagon_sweep")
       all.push_back({std::string(kind), [kind](const Workload& w) { return make_contender(w, kind); }});
-  all.push_back({"octagon_sweep", [](const Workload& w) { return make_controller<double>(w); }});
-  all.push_back({"octagon_sweep_float", [](const Workload& w) { return make_controller<float>(w); }});
+  all.push_back({"octagon_sweep", [](const Workload& w) { return make_controller(w); }});
   const auto add_box2d = [&all](const std::string& name, Box2dScenery scenery) {
     all.push_back({name + "_bare", [scenery](const Workload& w) { return make_bare_box2d(w, scenery); }});
     all.push_back({name + "_recorded", [scenery](const Workload& w) { return make_recorded_box2d(w, scenery); }});

@@ -21,7 +21,6 @@ class Subject {
 };
 
 /// The controller alone, by default with octagon_sweep and every stage: intent, gravity, move and contacts.
-template <class Scalar>
 [[nodiscard]] std::unique_ptr<Subject> make_controller(const Workload& workload, const SweepDef& technique = {});
 
 /// The controller with any technique and the knobs that `paperproof compare` gives it; one virtual call more.

@@ -16,14 +16,12 @@ import sys
 ROWS = [
     *[(f"one character, {n} pieces", f"pieces/{p}", "paperproof", f"pieces/{p}", "box2d", "ns", 0)
       for n, p in (("100", 100), ("10,000", 10_000), ("1,000,000", 1_000_000))],
-    ("one character, 10,000 pieces, float", "pieces/10000", "paperproof_float", "pieces/10000", "box2d", "ns", 0),
     ("one character among 10,000 sensors", "sensors/10000", "paperproof", "sensors/10000", "box2d", "ns", 0),
     *[(f"10,000 characters, each, {words}", f"characters/{how}", "paperproof", f"characters/{how}", "box2d", "ns", 0)
       for words, how in (("own scratch", "own_scratch"), ("one scratch", "shared_scratch"))],
     ("a start inside, 1,000,000 pieces", "start_inside/surface", "paperproof", "start_inside/surface", "box2d", "ns", 0),
     ("a start deep inside", "start_inside/deep", "paperproof", "start_inside/deep", "box2d", "ns", 0),
     ("set-up of 1,000,000 pieces", "setup/octagon_sweep/1000000", "all_ms", "setup/box2d/1000000", "all_ms", "ms", 0),
-    ("set-up, float", "setup/octagon_sweep_float/1000000", "all_ms", "setup/box2d/1000000", "all_ms", "ms", 0),
     ("memory for each piece", "setup/octagon_sweep/1000000", "all_bytes", "setup/box2d/1000000", "all_bytes", "B", 0),
 ]
 

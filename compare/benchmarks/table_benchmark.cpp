@@ -46,43 +46,42 @@ void report(benchmark::State& state, const Least& paperproof, const Least& box2d
 }
 
 /// One character with the controller alone.
-template <class Scalar>
 class Walk {
  public:
   Walk(const Level& level, const std::vector<Input>& inputs)
-      : inputs_(inputs), start_(level.start().cast<Scalar>()), scenery_(level.scenery) {}
+      : inputs_(inputs), start_(level.start()), scenery_(level.scenery) {}
 
   /// @param look called after each step with its report.
   template <class Look>
   void run(const Look& look) {
-    CharacterState<Scalar> character;
+    CharacterState character;
     character.position = start_;
     for (const Input& input : inputs_) {
-      controller_.step(character, input, {{0, Scalar(gravity_y)}, Scalar(frame)}, scratch_, report_);
+      controller_.step(character, input, {{0, gravity_y}, frame}, scratch_, report_);
       look(report_);
     }
   }
   void run() {
-    run([](const StepReport<Scalar>&) {});
+    run([](const StepReport&) {});
   }
 
  private:
   const std::vector<Input>& inputs_;
-  Vec2<Scalar> start_;
-  Scenery<Scalar> scenery_;
-  Controller<Scalar> controller_{scenery_, CharacterDef{}};
-  Scratch<Scalar> scratch_ = controller_.make_scratch();
-  StepReport<Scalar> report_;
+  Vec2d start_;
+  Scenery scenery_;
+  Controller controller_{scenery_, CharacterDef{}};
+  Scratch scratch_ = controller_.make_scratch();
+  StepReport report_;
 };
 
 /// One character with Box2D alone, given the velocities that the controller wanted.
 class Box2dWalk {
  public:
-  Box2dWalk(const Level& level, Walk<double>& walk)
+  Box2dWalk(const Level& level, Walk& walk)
       : start_(box2d::rounded(level.start())),
         world_(make_box2d_level(level)),
         body_(add_box2d_character(*world_, CharacterDef{}, level.start())) {
-    walk.run([&](const StepReport<double>& step) { velocities_.push_back(box2d::rounded(step.requested / frame)); });
+    walk.run([&](const StepReport& step) { velocities_.push_back(box2d::rounded(step.requested / frame)); });
   }
   void run() {
     body_.SetEnabled(false);  // drops its contacts
@@ -103,19 +102,15 @@ class Box2dWalk {
 
 void one_character(benchmark::State& state, const Level& level) {
   const std::vector<Input> inputs = random_walk(1, walked_steps);
-  Walk<double> walk(level, inputs);
-  Walk<float> walk_in_float(level, inputs);
+  Walk walk(level, inputs);
   Box2dWalk box2d_walk(level, walk);
   Least paperproof;
-  Least in_float;
   Least box2d;
   for ([[maybe_unused]] auto _ : state) {
     paperproof.note(nanoseconds_of([&] { walk.run(); }));
-    in_float.note(nanoseconds_of([&] { walk_in_float.run(); }));
     box2d.note(nanoseconds_of([&] { box2d_walk.run(); }));
   }
   report(state, paperproof, box2d, walked_steps);
-  state.counters["paperproof_float"] = in_float.nanoseconds / walked_steps;
 }
 
 /// Above the ground of a section, wherever its hills are, and below its platforms.
@@ -129,7 +124,7 @@ class Characters {
  public:
   Characters(const Level& level, std::size_t scratches) : scenery_(level.scenery) {
     std::mt19937_64 random(1);
-    for (CharacterState<double>& state : states) state.position = place_above_ground(level, random);
+    for (CharacterState& state : states) state.position = place_above_ground(level, random);
     for (std::size_t i = 0; i < scratches; ++i) scratches_.push_back(controller_.make_scratch());
   }
   /// What all of them want in the next frame.
@@ -143,13 +138,13 @@ class Characters {
       controller_.step(states[i], inputs_[i], {{0, gravity_y}, frame}, scratches_[i % scratches_.size()], report_);
   }
 
-  std::vector<CharacterState<double>> states = std::vector<CharacterState<double>>(many);
+  std::vector<CharacterState> states = std::vector<CharacterState>(many);
 
  private:
-  Scenery<double> scenery_;
-  Controller<double> controller_{scenery_, CharacterDef{}};
-  std::vector<Scratch<double>> scratches_;
-  StepReport<double> report_;
+  Scenery scenery_;
+  Controller controller_{scenery_, CharacterDef{}};
+  std::vector<Scratch> scratches_;
+  StepReport report_;
   std::vector<Input> walk_ = random_walk(1, walked_steps);
   std::vector<Input> inputs_ = std::vector<Input>(many);
   std::size_t frame_ = 0;
@@ -159,7 +154,7 @@ class Characters {
 class Box2dCharacters {
  public:
   Box2dCharacters(const Level& level, const Characters& characters) : world_(make_box2d_level(level)) {
-    for (const CharacterState<double>& state : characters.states)
+    for (const CharacterState& state : characters.states)
       bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, state.position));
   }
   void follow(const Characters& characters) {
@@ -204,10 +199,10 @@ double median(std::vector<double> values) {
 /// @param depth of the character's feet below the ground [m]. @param expected what becomes of such a start.
 void start_inside(benchmark::State& state, double depth, StepStatus expected) {
   const Level level = make_level(pieces_of_large);
-  const Scenery<double> scenery(level.scenery);
-  const Controller<double> controller(scenery, CharacterDef{});
-  Scratch<double> scratch = controller.make_scratch();
-  StepReport<double> report;
+  const Scenery scenery(level.scenery);
+  const Controller controller(scenery, CharacterDef{});
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
   const std::unique_ptr<b2World> world = make_box2d_level(level);
   b2Body& body = add_box2d_character(*world, CharacterDef{}, level.start());
   std::mt19937_64 random(1);
@@ -215,7 +210,7 @@ void start_inside(benchmark::State& state, double depth, StepStatus expected) {
   std::vector<double> box2d;
   for ([[maybe_unused]] auto _ : state) {
     const int section = static_cast<int>(random() % static_cast<std::uint64_t>(level.sections));
-    CharacterState<double> character;
+    CharacterState character;
     character.position = level.start(section) + Vec2d(0.75, -depth - 0.02);
     body.SetTransform(box2d::rounded(character.position), 0);
     body.SetLinearVelocity({0, static_cast<float>(gravity_y * frame)});

@@ -11,7 +11,7 @@ namespace paperproof::benchmarks {
 ///   1,000,000 pieces that no cache holds: a tenth of a metre below the surface, or deep in the ground.
 ///
 /// The controller and Box2D take turns at the same steps. Box2D is given the velocities, and reads no contact.
-/// Counters, in nanoseconds, each the fastest pass: `paperproof`, `paperproof_float` where it was timed, `box2d`;
+/// Counters, in nanoseconds, each the fastest pass: `paperproof`, `box2d`;
 /// `ratio`: how many times faster than Box2D. For a start the median of all starts, and `paperproof_most` the slowest.
 void register_table_benchmarks();
 

@@ -16,7 +16,7 @@ struct Workload {
   std::string name;
   compare::Scene scene;
   std::vector<Input> inputs;  ///< One per step.
-  Scenery<double> scenery;
+  Scenery scenery;
 };
 
 /// A level of SuperTux, where its data is installed; and 10,000 tiles of 1 m with the character at rest, walking,

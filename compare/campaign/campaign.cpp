@@ -82,14 +82,14 @@ class JudgedRun {
 
   [[nodiscard]] bool is_crushed_from_afar(const TraceStep& record) const {
     return std::any_of(record.crushed.begin(), record.crushed.end(), [&](ColliderIndex collider) {
-      const MoverMotion<double>& motion = record.movers[scene_.scenery.colliders[collider].mover];
+      const MoverMotion& motion = record.movers[scene_.scenery.colliders[collider].mover];
       return (motion.to - motion.from).norm() > far_crush;
     });
   }
 
   const RandomRun& run_;
   Scene scene_;
-  Scenery<double> scenery_;
+  Scenery scenery_;
   Script script_;
   Lane lane_;
   InputCursor cursor_;

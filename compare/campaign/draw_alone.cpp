@@ -20,7 +20,7 @@ void press_and_drop(Random& random, Input& input) {
 
 /// Any up, or one along or across a side of the scenery: there walls are exactly upright and ground is exactly level,
 /// but for rounding.
-Vec2d any_up(const Scenery<double>& scenery, Random& random) {
+Vec2d any_up(const Scenery& scenery, Random& random) {
   const Vec2d up = towards(random.angle());
   if (!random.chance(0.4)) return up;
   const int last = static_cast<int>(scenery.pieces().size()) - 1;
@@ -65,7 +65,7 @@ RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns) {
   run.may_begin_inside = random.chance(0.1);
   const double gravity = random.chance(0.9) ? 30 : random.log_between(1, 1e6);
   scene.gravity = {0, -gravity};
-  std::optional<Scenery<double>> sides;
+  std::optional<Scenery> sides;
   if (up_turns) sides.emplace(scene.scenery);
   Vec2d up{0, 1};
   if (up_turns) up = any_up(*sides, random);

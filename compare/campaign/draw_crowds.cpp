@@ -23,7 +23,7 @@ struct Fates {
 class CrowdDraw {
  public:
   CrowdDraw(Random& random, RandomRun& run) : random_(random), run_(run), scene_(run.scene) {
-    const Box2<double> box = scene_.character.shape.box();
+    const Box2 box = scene_.character.shape.box();
     extent_ = box.upper - box.lower;
   }
 

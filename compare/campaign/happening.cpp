@@ -16,14 +16,14 @@ template <class IsSo>
 bool has_contact(const Moment& m, const IsSo& is_so) {
   const Vec2d up = up_in(m.record, m.header);
   return std::any_of(m.record.contacts.begin(), m.record.contacts.end(),
-                     [&](const Contact<double>& contact) { return is_so(contact.normal.dot(up)); });
+                     [&](const Contact& contact) { return is_so(contact.normal.dot(up)); });
 }
 
-double walkable(const Moment& m) { return m.header.character.walkable_cosine<double>(); }
+double walkable(const Moment& m) { return m.header.character.walkable_cosine(); }
 constexpr double upright = 1e-12;  ///< Of a wall: how far its normal is from level at most.
 
 bool meets_what_moves(const Moment& m) {
-  return std::any_of(m.record.contacts.begin(), m.record.contacts.end(), [&](const Contact<double>& contact) {
+  return std::any_of(m.record.contacts.begin(), m.record.contacts.end(), [&](const Contact& contact) {
     return m.header.scenery.colliders[contact.collider].mover != no_mover;
   });
 }

@@ -72,7 +72,7 @@ class AskedByScene {
 
 /// Whether two records say the same of the world, which has one state in a step.
 bool is_one_world(const TraceStep& a, const TraceStep& b) {
-  const auto same_motion = [](const MoverMotion<double>& one, const MoverMotion<double>& other) {
+  const auto same_motion = [](const MoverMotion& one, const MoverMotion& other) {
     return one.from == other.from && one.to == other.to;
   };
   const auto same_way = [](const VertexWay& one, const VertexWay& other) {
@@ -124,7 +124,7 @@ void check_header(const TraceHeader& header, const std::string& path) {
   if (header.substeps > 1 && !header.guarantees.empty())
     throw InputError(path + ": /substeps: expected 1 of who guarantees something");
   try {
-    const Scenery<double> scenery(header.scenery);
+    const Scenery scenery(header.scenery);
   } catch (const std::invalid_argument& reason) {
     throw InputError(fmt::format("{}: /colliders: {}", path, reason.what()));
   }

@@ -25,7 +25,7 @@ std::string parameter_line(const ParameterDef& def) {
 }
 
 /// Why a contender cannot run a scene; empty where it can.
-std::string why_not(std::string_view contender, const Scene& scene, const Scenery<double>& scenery) {
+std::string why_not(std::string_view contender, const Scene& scene, const Scenery& scenery) {
   try {
     static_cast<void>(make_contender(contender, ScalarKind::binary64, scene, scenery));
   } catch (const std::exception& reason) {
@@ -42,7 +42,7 @@ std::string describe_contenders(const Scene& scene) {
   if (preparation && preparation->seconds > longest)
     return fmt::format("  {:<10} about {} until the first step, so that it was not tried who runs\n", "compare",
                        duration_in_words(preparation->seconds));
-  const Scenery<double> scenery(scene.scenery);
+  const Scenery scenery(scene.scenery);
   const Script script = script_of(scene);
   std::string cannot_move;
   try {
@@ -106,7 +106,7 @@ int check_command(const std::vector<std::string>& scenes) {
 int plan_command(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
   for (const std::string& name : scenes)
     for (const Scene& scene : load_scenes(name)) {
-      const Scenery<double> scenery(scene.scenery);
+      const Scenery scenery(scene.scenery);
       print_out(describe_plan(scene, scenery));  // before the saving is measured, which may take long
       const Script script = seed ? random_script(scene, *seed, scene.steps) : script_of(scene);
       print_out(describe_saving(scene, scenery, script) + '\n');

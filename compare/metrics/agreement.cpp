@@ -10,9 +10,9 @@ namespace paperproof::compare {
 namespace {
 
 /// The sides on which every contact is with a collider that is a don't-care, and no ghost.
-std::uint8_t only_excused(const std::vector<Contact<double>>& contacts, const StepJudgement& judged) {
+std::uint8_t only_excused(const std::vector<Contact>& contacts, const StepJudgement& judged) {
   std::uint8_t other = 0;
-  for (const Contact<double>& contact : contacts) {
+  for (const Contact& contact : contacts) {
     const bool ghost = std::find(judged.ghosts.begin(), judged.ghosts.end(),
                                  std::pair(contact.collider, contact.side)) != judged.ghosts.end();
     const std::vector<ColliderIndex>& near = judged.dont_care;

@@ -91,10 +91,10 @@ std::optional<double> AnswerCheck::first_contact(const Watch& watch, const Trace
   std::optional<double> earliest;
   const auto take = [&earliest](double fraction) { earliest = std::min(earliest.value_or(fraction), fraction); };
   const bool any = watch.collider == no_collider;
-  for (const Contact<double>& contact : step.contacts)
+  for (const Contact& contact : step.contacts)
     if (any || contact.collider == watch.collider) take(contact.fraction);
   if (any)
-    for (const CrowdContact<double>& contact : step.met) take(contact.fraction);
+    for (const CrowdContact& contact : step.met) take(contact.fraction);
   return earliest;
 }
 
@@ -126,7 +126,7 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
   const bool always = answer.step == Answer::end;
   const bool until = always || step.step < answer.step;   // the steps asked for are not over
   const bool since = always || step.step >= answer.step;  // they are
-  using Change = SensorEvent<double>::Change;
+  using Change = SensorEvent::Change;
   switch (answer.of) {
     case Of::place:
       if (until) watch.value = place_of(watch, step).dot(answer.along);
@@ -135,7 +135,7 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
       if (until) watch.value = step.velocity.dot(answer.along);
       break;
     case Of::farthest:
-      for (const PathPoint<double>& corner : step.path) watch.largest(corner.position.dot(answer.along));
+      for (const PathPoint& corner : step.path) watch.largest(corner.position.dot(answer.along));
       break;
     case Of::setback:
       if (since) watch.go_back(step);
@@ -174,7 +174,7 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
 }
 
 void AnswerCheck::Watch::go_back(const TraceStep& step) {
-  for (const PathPoint<double>& corner : step.path) {
+  for (const PathPoint& corner : step.path) {
     const double place = corner.position.dot(answer.along);
     peak = seen ? std::max(peak, place) : place;
     largest(peak - place);
@@ -189,8 +189,8 @@ void AnswerCheck::Watch::settle(const TraceStep& step, double reach) {
   value = step.step + 1;
 }
 
-void AnswerCheck::Watch::change(const TraceStep& step, SensorEvent<double>::Change what) {
-  for (const SensorEvent<double>& event : step.sensors)
+void AnswerCheck::Watch::change(const TraceStep& step, SensorEvent::Change what) {
+  for (const SensorEvent& event : step.sensors)
     if (event.change == what && event.sensor == collider) first(step.step + event.fraction);
 }
 

@@ -45,7 +45,7 @@ class AnswerCheck {
     void largest(double at);
     void go_back(const TraceStep& step);
     void settle(const TraceStep& step, double reach);
-    void change(const TraceStep& step, SensorEvent<double>::Change what);
+    void change(const TraceStep& step, SensorEvent::Change what);
   };
   static constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 

@@ -44,7 +44,7 @@ bool Energy::is_pushed(const Character& who, const TraceStep& step, double dt) c
 bool Energy::is_on_foot(const Character& who, const TraceStep& step) const {
   return who.grounded || step.grounded ||
          std::any_of(step.contacts.begin(), step.contacts.end(),
-                     [this](const Contact<double>& contact) { return contact.normal.y() >= least_up_; });
+                     [this](const Contact& contact) { return contact.normal.y() >= least_up_; });
 }
 
 void Energy::add(const TraceStep& step, double dt) {

@@ -17,14 +17,13 @@ std::uint64_t mark(Kind kind, std::uint64_t which = 0, std::uint64_t side = 0) {
 std::vector<std::uint64_t> marks_of(const TraceStep& step) {
   std::vector<std::uint64_t> marks;
   if (step.grounded) marks.push_back(mark(Kind::grounded));
-  for (const Contact<double>& contact : step.contacts)
+  for (const Contact& contact : step.contacts)
     marks.push_back(mark(Kind::touches, contact.collider, static_cast<std::uint64_t>(contact.side)));
-  for (const CrowdContact<double>& contact : step.met)
+  for (const CrowdContact& contact : step.met)
     marks.push_back(mark(Kind::meets, contact.other, static_cast<std::uint64_t>(contact.side)));
   for (const ColliderIndex collider : step.crushed) marks.push_back(mark(Kind::crushed, collider));
-  for (const SensorEvent<double>& event : step.sensors)
-    marks.push_back(
-        mark(event.change == SensorEvent<double>::Change::enter ? Kind::entered : Kind::left, event.sensor));
+  for (const SensorEvent& event : step.sensors)
+    marks.push_back(mark(event.change == SensorEvent::Change::enter ? Kind::entered : Kind::left, event.sensor));
   std::sort(marks.begin(), marks.end());
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
   return marks;

@@ -122,7 +122,7 @@ void Smoothness::add(const TraceStep& step, double dt) {
 
 bool Smoothness::walks_on_level_ground(const TraceStep& step) const {
   return step.grounded && step.requested.x() != 0 &&
-         std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
+         std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact& contact) {
            return contact.normal == Vec2d(0, 1) && stands_[contact.collider];
          });
 }

@@ -15,7 +15,7 @@ namespace {
 /// Cosine of the angle between two normals of one face, as far as Box2D's rounded corners know it.
 constexpr double same_face = 0.9;
 constexpr double ulp_of_float = 0x1p-23;
-using Touch = Contact<double>;
+using Touch = Contact;
 
 bool is_touch(const ExactContact& exact, const Touch& touch) {
   return exact.collider == touch.collider && exact.side == touch.side;
@@ -62,7 +62,7 @@ StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, co
   apart_ = std::max(aside.norm(), (r_.requested - m_.requested).norm());
   double ulp = 0;
   for (const TraceStep* step : {&m_, &r_})
-    for (const PathPoint<double>* end : {&step->path.front(), &step->path.back()})
+    for (const PathPoint* end : {&step->path.front(), &step->path.back()})
       ulp = std::max(ulp, ulp_at(*reference.header, end->position));
   rounding_ = ulps * (ulp + ulp_of_float * r_.requested.norm());
 }
@@ -220,8 +220,8 @@ Vec2d StepLedger::wanted_of_reference(const Touch& touch) const {
 /// From where Box2D was at the time that it reports, to the collider [m].
 double StepLedger::gap_when_reported(const Touch& touch) const {
   const auto next = std::find_if(r_.path.begin() + 1, r_.path.end() - 1,
-                                 [&](const PathPoint<double>& corner) { return corner.fraction >= touch.fraction; });
-  const PathPoint<double>& from = *(next - 1);
+                                 [&](const PathPoint& corner) { return corner.fraction >= touch.fraction; });
+  const PathPoint& from = *(next - 1);
   const double length = next->fraction - from.fraction;
   const double share = length > 0 ? std::clamp((touch.fraction - from.fraction) / length, 0.0, 1.0) : 1;
   return reference_solids_.at(touch.fraction)

@@ -23,7 +23,7 @@ inline constexpr double least_edge = 0.005;
 /// The way of a step that Box2D travels at most [m].
 inline constexpr double longest_way = 2;
 
-[[nodiscard]] inline bool is_ghost(const StepJudgement& judged, const Contact<double>& touch) {
+[[nodiscard]] inline bool is_ghost(const StepJudgement& judged, const Contact& touch) {
   return contains(judged.ghosts, std::pair(touch.collider, touch.side));
 }
 
@@ -61,7 +61,7 @@ class StepLedger {
   [[nodiscard]] double rounding() const noexcept { return rounding_; }
 
  private:
-  using Touch = Contact<double>;
+  using Touch = Contact;
   void match();
   void add_contacts();
   [[nodiscard]] Event of_reference(const Touch& touch, EventKind kind) const;

@@ -21,7 +21,7 @@ constexpr int solver_rounds = 8;
 /// A ghost turns a velocity if it adds more than this along its normal [m/s].
 constexpr double turned = 1e-4;
 
-using Touch = Contact<double>;
+using Touch = Contact;
 
 double width_of(const std::vector<Vec2d>& hull) {
   const auto [left, right] =
@@ -69,7 +69,7 @@ std::vector<MetSurface> StepLedger::near_reference() const {
     });
   };
   const std::vector<Vec2d>& hull = reference_.header->points;
-  for (const PathPoint<double>& corner : r_.path)
+  for (const PathPoint& corner : r_.path)
     for (const NearPart& part :
          reference_solids_.at(corner.fraction).near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
       for (const NearFace& face : part.faces) {

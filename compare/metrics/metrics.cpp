@@ -143,7 +143,7 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
                                          .band = judgement.contact_band,
                                          .by_company = judgement.excused_by_company},
                                         [&](const View& view) { match(view, matches_, breaches); });
-  for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
+  for (const Contact& contact : step.contacts) touched_.insert(contact.collider);
   if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
   if (!step.contacts.empty() || !step.met.empty()) add_first_contact(step, judgement);
 }

@@ -42,7 +42,7 @@ Rest::Rest(const SceneryDef& scenery) {
 
 MoverIndex Rest::carrying(const TraceStep& step) const {
   const auto at_feet = std::find_if(step.contacts.begin(), step.contacts.end(),
-                                    [](const Contact<double>& contact) { return contact.side == Side::bottom; });
+                                    [](const Contact& contact) { return contact.side == Side::bottom; });
   return at_feet == step.contacts.end() ? no_mover : mover_of_[at_feet->collider];
 }
 

@@ -41,7 +41,7 @@ class Rest {
     MoverIndex ground = no_mover;
     std::uint8_t sides = 0;
     Vec2d origin{Vec2d::Zero()};  ///< First measured position: sums of offsets from it do not lose digits.
-    Box2<double> range;
+    Box2 range;
     Vec2d sum{Vec2d::Zero()};
     double squares = 0;
     std::vector<double> xs{};  ///< Offsets of the last steps, oldest first.

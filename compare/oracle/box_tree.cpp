@@ -11,7 +11,7 @@ constexpr std::size_t max_depth = 64;
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box2<double>> boxes, std::vector<std::uint32_t> names)
+BoxTree::BoxTree(std::vector<Box2> boxes, std::vector<std::uint32_t> names)
     : boxes_(std::move(boxes)), names_(std::move(names)), order_(boxes_.size()) {
   if (boxes_.empty()) return;
   std::iota(order_.begin(), order_.end(), 0U);
@@ -21,7 +21,7 @@ BoxTree::BoxTree(std::vector<Box2<double>> boxes, std::vector<std::uint32_t> nam
 }
 
 void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  Box2<double> box = boxes_[order_[first]];
+  Box2 box = boxes_[order_[first]];
   for (std::uint32_t i = first + 1; i < first + count; ++i) box = box.merged(boxes_[order_[i]]);
   nodes_[node].box = box;
   if (count <= leaf_size) {
@@ -31,7 +31,7 @@ void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count
   }
   const bool wide = box.upper.x() - box.lower.x() >= box.upper.y() - box.lower.y();
   const auto centre = [&](std::uint32_t i) {
-    const Box2<double>& b = boxes_[i];
+    const Box2& b = boxes_[i];
     return wide ? b.lower.x() + b.upper.x() : b.lower.y() + b.upper.y();
   };
   const std::uint32_t half = count / 2;
@@ -47,7 +47,7 @@ void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count
   build(left + 1, first + half, count - half);
 }
 
-std::vector<std::uint32_t> BoxTree::meeting(const Box2<double>& box) const {
+std::vector<std::uint32_t> BoxTree::meeting(const Box2& box) const {
   std::vector<std::uint32_t> found;
   if (nodes_.empty()) return found;
   std::array<std::uint32_t, max_depth> waiting{};

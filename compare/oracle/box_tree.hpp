@@ -13,20 +13,20 @@ class BoxTree {
  public:
   BoxTree() = default;
   /// @param names what each box is called in an answer.
-  BoxTree(std::vector<Box2<double>> boxes, std::vector<std::uint32_t> names);
+  BoxTree(std::vector<Box2> boxes, std::vector<std::uint32_t> names);
 
   /// The names of the boxes that meet `box` (closed), ascending.
-  [[nodiscard]] std::vector<std::uint32_t> meeting(const Box2<double>& box) const;
+  [[nodiscard]] std::vector<std::uint32_t> meeting(const Box2& box) const;
 
  private:
   struct Node {
-    Box2<double> box;
+    Box2 box;
     std::uint32_t first = 0;  ///< Leaf: into `order_`. Inner node: the left child; the right one follows it.
     std::uint32_t count = 0;  ///< 0 for an inner node.
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
-  std::vector<Box2<double>> boxes_;
+  std::vector<Box2> boxes_;
   std::vector<std::uint32_t> names_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;

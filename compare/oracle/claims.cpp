@@ -143,7 +143,7 @@ double EndJudge::flight_error() const {
                                  [](const VertexWay& way) { return way.instants.size() > 2; });
   const double waited = waits ? waited_in_part * size : 0;
   double off = 0;
-  for (const PathPoint<double>& corner : step_.path) {
+  for (const PathPoint& corner : step_.path) {
     const double bend = corner.fraction < 1 ? later_.bend() : later_.steered_way(later_.steered());
     off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm() - bend);
   }
@@ -213,7 +213,7 @@ std::vector<ExactImpact> EndJudge::first_below(const ExactScenery& scenery, cons
 /// Whether it is walkable, and goes down no faster than the character may fall.
 bool EndJudge::is_followed(const ExactImpact& impact) const {
   const MoverIndex mover = header_.scenery.colliders[impact.collider].mover;
-  const MoverMotion<double> motion = mover == no_mover ? MoverMotion<double>{} : step_.movers[mover];
+  const MoverMotion motion = mover == no_mover ? MoverMotion{} : step_.movers[mover];
   const double sinks = (motion.from - motion.to).dot(up_) / dt_;
   return impact.exposed && is_walked_on(impact.normal, header_, up_) &&
          sinks <= header_.character.max_fall_speed.value_or(HUGE_VAL);

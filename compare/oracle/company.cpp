@@ -23,23 +23,23 @@ constexpr std::size_t most_ways = 100;
 /// What a time is off along the normal is not told below this [m].
 constexpr double told = 1e-6;
 
-Box2<double> box_of(const std::vector<Vec2d>& points) {
-  Box2<double> box{points.front(), points.front()};
+Box2 box_of(const std::vector<Vec2d>& points) {
+  Box2 box{points.front(), points.front()};
   for (const Vec2d& point : points) box = box.merged({point, point});
   return box;
 }
 
 /// All positions of the way, and of what was requested instead.
-Box2<double> reach_of(const TraceStep& step) {
+Box2 reach_of(const TraceStep& step) {
   const Vec2d start = step.path.front().position;
   const Vec2d wanted = start + step.requested;
-  Box2<double> box = Box2<double>{start, start}.merged({wanted, wanted});
-  for (const PathPoint<double>& corner : step.path) box = box.merged({corner.position, corner.position});
+  Box2 box = Box2{start, start}.merged({wanted, wanted});
+  for (const PathPoint& corner : step.path) box = box.merged({corner.position, corner.position});
   return box;
 }
 
 /// Rounded; where a jump leads from one place to another the first one.
-Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
+Vec2d place_at(const std::vector<PathPoint>& path, double fraction) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     if (fraction > path[i + 1].fraction) continue;
     const double span = path[i + 1].fraction - path[i].fraction;
@@ -57,19 +57,19 @@ double touch_of(const TraceHeader& header) {
 }
 
 /// How far it goes in the time of a whole step, as it does from one fraction of it to another [m].
-Vec2d rate_between(const PathPoint<double>& from, const PathPoint<double>& to) {
+Vec2d rate_between(const PathPoint& from, const PathPoint& to) {
   return (to.position - from.position) / (to.fraction - from.fraction);
 }
 
 /// As it goes on from a fraction of the step,
-Vec2d rate_after(const std::vector<PathPoint<double>>& path, double fraction) {
+Vec2d rate_after(const std::vector<PathPoint>& path, double fraction) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
     if (path[i].fraction <= fraction && fraction < path[i + 1].fraction) return rate_between(path[i], path[i + 1]);
   return Vec2d::Zero();
 }
 
 /// and as it comes to it.
-Vec2d rate_before(const std::vector<PathPoint<double>>& path, double fraction) {
+Vec2d rate_before(const std::vector<PathPoint>& path, double fraction) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
     if (path[i].fraction < fraction && fraction <= path[i + 1].fraction) return rate_between(path[i], path[i + 1]);
   return Vec2d::Zero();
@@ -112,7 +112,7 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
              pair_.meet(way, other.path);
     });
   };
-  others.near = [this, steps, character](const PathPoint<double>& corner, double within) {
+  others.near = [this, steps, character](const PathPoint& corner, double within) {
     std::vector<NearPart> parts;
     for (const TraceStep& other : steps) {
       if (other.character == character) continue;
@@ -127,10 +127,10 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
     return parts;
   };
   others.handed_on = [this, steps, character] { return handed_on(character, steps); };
-  others.add_moments = [steps, character](std::vector<PathPoint<double>>& path) {
+  others.add_moments = [steps, character](std::vector<PathPoint>& path) {
     for (const TraceStep& other : steps) {
       if (other.character == character) continue;
-      for (const PathPoint<double>& corner : other.path) {
+      for (const PathPoint& corner : other.path) {
         const auto next = std::lower_bound(path.begin(), path.end(), corner.fraction,
                                            [](const auto& own, double fraction) { return own.fraction < fraction; });
         if (next == path.end() || next->fraction == corner.fraction) continue;
@@ -166,13 +166,13 @@ double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceSt
     const Vec2d up = up_in(step, header_);
     const Vec2d unsteered = step.requested - step.steered * right_of(up);
     if (member != character) most += std::max(step.requested.norm(), unsteered.norm()) * steepest;
-    const Box2<double> places = reach_of(step);
-    const Box2<double> covered{places.lower + box_.lower, places.upper + box_.upper};
+    const Box2 places = reach_of(step);
+    const Box2 covered{places.lower + box_.lower, places.upper + box_.upper};
     for (const ColliderDef& def : header_.scenery.colliders) {
       if (def.mover == no_mover) continue;
       const auto& [from, to] = step.movers[def.mover];
-      Box2<double> swept = box_of(def.points);
-      swept = Box2<double>{swept.lower + from.cwiseMin(to), swept.upper + from.cwiseMax(to)};
+      Box2 swept = box_of(def.points);
+      swept = Box2{swept.lower + from.cwiseMin(to), swept.upper + from.cwiseMax(to)};
       if (swept.inflated(def.radius + (to - from).norm() + reach_).overlaps(covered))
         movers[def.mover] = (to - from).norm();
     }
@@ -183,9 +183,9 @@ double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceSt
 
 template <class Visit>
 bool CompanyJudge::any_moment(const TraceStep& one, const TraceStep& other, const Visit& visit) {
-  for (const PathPoint<double>& corner : one.path)
+  for (const PathPoint& corner : one.path)
     if (visit(corner.position, place_at(other.path, corner.fraction), corner.fraction)) return true;
-  for (const PathPoint<double>& corner : other.path)
+  for (const PathPoint& corner : other.path)
     if (visit(place_at(one.path, corner.fraction), corner.position, corner.fraction)) return true;
   return false;
 }
@@ -210,7 +210,7 @@ bool CompanyJudge::has_face(const TraceStep& one, const TraceStep& other, const 
 /// What was requested of a character, and all that its contacts with scenery may have left of it.
 std::vector<Vec2d> CompanyJudge::ways_of(const TraceStep& step) const {
   std::vector<Vec2d> ways{step.requested};
-  for (const Contact<double>& contact : step.contacts) {
+  for (const Contact& contact : step.contacts) {
     const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
     const Vec2d own = mover == no_mover ? Vec2d::Zero() : Vec2d(step.movers[mover].to - step.movers[mover].from);
     for (std::size_t i = 0, before = ways.size(); i < before; ++i)
@@ -260,7 +260,7 @@ std::vector<Vec2d> CompanyJudge::ways_at(const TraceStep& one, std::span<const T
   return ways;
 }
 
-double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const CrowdContact& met,
                             std::span<const TraceStep> steps) const {
   double off = std::max(0.0, pair_.separation(place_at(one.path, met.fraction), place_at(other.path, met.fraction)));
   any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double fraction) {
@@ -307,9 +307,9 @@ bool CompanyJudge::continues(const TraceStep& step) const {
 
 bool CompanyJudge::may_meet(const TraceStep& one, const TraceStep& other) const {
   const auto covered = [this](const TraceStep& step) {
-    const Box2<double> places = reach_of(step);
+    const Box2 places = reach_of(step);
     const double size = std::max(places.lower.cwiseAbs().maxCoeff(), places.upper.cwiseAbs().maxCoeff());
-    return Box2<double>{places.lower + box_.lower, places.upper + box_.upper}.inflated(box2d_skin + size * 0x1p-48);
+    return Box2{places.lower + box_.lower, places.upper + box_.upper}.inflated(box2d_skin + size * 0x1p-48);
   };
   return covered(one).overlaps(covered(other));
 }
@@ -355,8 +355,8 @@ void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, Ste
   const FreeFrom from = was_apart ? FreeFrom(std::pair(start_of(one), start_of(other))) : stay->second;
   if (!was_apart) inside_.erase(stay);
   if (!from) return;
-  const std::array<PathPoint<double>, 2> of_one{{{from->first, 0}, {end_of(one), 1}}};
-  const std::array<PathPoint<double>, 2> of_other{{{from->second, 0}, {end_of(other), 1}}};
+  const std::array<PathPoint, 2> of_one{{{from->first, 0}, {end_of(one), 1}}};
+  const std::array<PathPoint, 2> of_other{{{from->second, 0}, {end_of(other), 1}}};
   judge_ways(of_one, of_other, other.character, judgement);
 }
 
@@ -424,13 +424,13 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
     if (judgement.ghost_speed_loss == 0 && judgement.motion_lost == 0) return;
     opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs) || is_pushed(mine, theirs);
   };
-  for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
-  for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
+  for (const PathPoint& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
+  for (const PathPoint& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
   const bool may_be_pushed = near && !header_.path_exact;
   if (opposed || may_be_pushed) judgement.ghost_speed_loss = judgement.motion_lost = 0;
   if (!near) return;
   const bool excused = allowed(Exempt::company, header_) > 0;
-  for (const Contact<double>& contact : one.contacts) {
+  for (const Contact& contact : one.contacts) {
     const std::pair touch(contact.collider, contact.side);
     const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& each) {
       return each.collider == contact.collider && each.side == contact.side;
@@ -443,7 +443,7 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
   }
   // What another turned aside before is not met by what was requested.
   std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
-    const auto is_it = [&exact](const Contact<double>& contact) {
+    const auto is_it = [&exact](const Contact& contact) {
       return contact.collider == exact.collider && contact.side == exact.side;
     };
     return std::none_of(one.contacts.begin(), one.contacts.end(), is_it) && (excused || turns_aside(one, other, exact));

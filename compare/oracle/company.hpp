@@ -59,7 +59,7 @@ class CompanyJudge {
   /// How far the time at which they say that they met is off [m]: from a moment at which they are no farther than
   /// 1e-6 m from each other, along the normal, at the pace at which they come to it, or go on from it, or would go on:
   /// see `ways_at`. No more than the gap that there is at that time. Not told below 1e-6 m.
-  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact& met,
                               std::span<const TraceStep> steps) const;
 
   /// How far one would go in the time of a whole step, from a fraction of it on: as requested, or as its contacts with
@@ -75,7 +75,7 @@ class CompanyJudge {
   void judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements);
 
  private:
-  using Way = std::span<const PathPoint<double>>;
+  using Way = std::span<const PathPoint>;
   /// Where two that overlap were last without; none where the run began with it.
   using FreeFrom = std::optional<std::pair<Vec2d, Vec2d>>;
   /// The first impacts that every one of them would have.
@@ -103,7 +103,7 @@ class CompanyJudge {
 
   TraceHeader header_;
   ExactPair pair_;
-  Box2<double> box_;  ///< Around the shape, relative to the position [m].
+  Box2 box_;  ///< Around the shape, relative to the position [m].
   double slop_;
   double reach_;                  ///< What counts as touching [m].
   std::vector<Vec2d> last_ends_;  ///< Empty before the first step.

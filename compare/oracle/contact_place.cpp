@@ -57,13 +57,12 @@ Face face_against(const Vec2d& normal, const std::vector<Vec2d>& hull) {
 
 }  // namespace
 
-std::optional<PlaceFault> place_fault(const TraceHeader& header, const TraceStep& step,
-                                      const Contact<double>& contact) {
+std::optional<PlaceFault> place_fault(const TraceHeader& header, const TraceStep& step, const Contact& contact) {
   const ColliderDef& def = header.scenery.colliders[contact.collider];
   const Vec2d across(contact.normal.y(), -contact.normal.x());
   const Face face = face_against(contact.normal, header.points);
   bool on_both = false;
-  for (const PathPoint<double>& at : step.path) {
+  for (const PathPoint& at : step.path) {
     const Vec2d offset = Place(at, step.movers).offset(def.mover);
     if (!(distance_from_outline(contact.point - offset, def) <= beside_face)) continue;
     const Vec2d from = contact.point - at.position;

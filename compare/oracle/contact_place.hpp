@@ -19,6 +19,6 @@ struct PlaceFault {
 /// @param contact with what does not turn, of a step that begins and ends inside nothing.
 /// @return none where it is right.
 [[nodiscard]] std::optional<PlaceFault> place_fault(const TraceHeader& header, const TraceStep& step,
-                                                    const Contact<double>& contact);
+                                                    const Contact& contact);
 
 }  // namespace paperproof::compare

@@ -81,7 +81,7 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   add_ghosts(judgement);
   add_normal_error(judgement);
   if (header_.characters > 1)
-    for (const Contact<double>& contact : step_.contacts)
+    for (const Contact& contact : step_.contacts)
       if (has_face(contact)) judgement.faced.emplace_back(contact.collider, contact.side);
   measure_motion(starts_free, judgement);
   // What a crush stops is not stopped by nothing.
@@ -92,7 +92,7 @@ Side ContactJudge::side_of(const ExactImpact& impact) const { return side_along(
 
 bool ContactJudge::reports(const ExactImpact& impact) const {
   const Side side = side_of(impact);
-  return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
+  return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact& contact) {
     return contact.collider == impact.collider && contact.side == side;
   });
 }
@@ -100,7 +100,7 @@ bool ContactJudge::reports(const ExactImpact& impact) const {
 /// Whether its way, from the start, is not the requested one: a mover would leave it no room there.
 bool ContactJudge::gives_way() const {
   if (!header_.path_exact || step_.movers.empty() || step_.path.size() < 2) return false;
-  const PathPoint<double>& corner = step_.path[1];
+  const PathPoint& corner = step_.path[1];
   const Vec2d expected = step_.path[0].position + step_.requested * corner.fraction;
   return (corner.position - expected).cwiseAbs().maxCoeff() > contact_reach;
 }
@@ -116,7 +116,7 @@ double ContactJudge::nearest(ColliderIndex collider) const {
 }
 
 void ContactJudge::add_gaps(StepJudgement& judgement) const {
-  for (const Contact<double>& contact : step_.contacts) {
+  for (const Contact& contact : step_.contacts) {
     judgement.max_contact_gap = std::max(judgement.max_contact_gap, nearest(contact.collider));
   }
 }
@@ -147,13 +147,13 @@ double ContactJudge::rounding_across() const { return 1e-12 * step_.requested.no
 /// requested, or at the height that it was left (ground may hold it).
 bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) const {
   // Ground that rests keeps what leads across up, but between it and another surface a motion may end.
-  const auto is_ground = [this](const Contact<double>& contact) {
+  const auto is_ground = [this](const Contact& contact) {
     return header_.scenery.colliders[contact.collider].mover == no_mover && is_walkable(contact.normal, header_, up_);
   };
   const bool on_ground_alone = promises_ && !step_.contacts.empty() && step_.met.empty() &&
                                std::all_of(step_.contacts.begin(), step_.contacts.end(), is_ground);
   // A contact that exact arithmetic has, or that an exact one deflected the motion into, may take it.
-  for (const Contact<double>& contact : step_.contacts) {
+  for (const Contact& contact : step_.contacts) {
     const auto is_it = [&](const auto& one) { return one.collider == contact.collider && one.side == contact.side; };
     const std::pair touch(contact.collider, contact.side);
     const bool confirmed =
@@ -178,7 +178,7 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
 }
 
 void ContactJudge::add_normal_error(StepJudgement& judgement) const {
-  for (const Contact<double>& contact : step_.contacts) {
+  for (const Contact& contact : step_.contacts) {
     std::optional<double> least;
     for (const ExactContact& exact : judgement.contacts) {
       if (exact.collider != contact.collider || exact.side != contact.side) continue;
@@ -197,15 +197,14 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
 
 /// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
 bool ContactJudge::pushed_by_skin(double wanted) const {
-  return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
-    return across(contact.normal) * wanted < 0 && has_face(contact);
-  });
+  return std::any_of(step_.contacts.begin(), step_.contacts.end(),
+                     [&](const Contact& contact) { return across(contact.normal) * wanted < 0 && has_face(contact); });
 }
 
 /// The face of the solids taken together that is there to be touched along the reported normal: its own normal. There
 /// is one beside a corner of the way, or where a leg would come to if it went on. A one-way chain is there for a leg
 /// that began above it: where the leg ends, beside its tip, the octagon is not above it any more.
-std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
+std::optional<Vec2d> ContactJudge::face_of(const Contact& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
   bool is_own = false;  // of two that abut the face may be the other's, but both are there
@@ -236,7 +235,7 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const
 
 /// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left
 /// of the motion was stopped, or ground was followed.
-bool ContactJudge::ran_into(const Contact<double>& contact) const {
+bool ContactJudge::ran_into(const Contact& contact) const {
   for (std::size_t i = 1; i < step_.path.size(); ++i) {
     const Vec2d leg = step_.path[i].position - step_.path[i - 1].position;
     if (contact.normal.dot(leg) < 0 && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
@@ -245,7 +244,7 @@ bool ContactJudge::ran_into(const Contact<double>& contact) const {
 }
 
 void ContactJudge::add_ghosts(StepJudgement& judgement) const {
-  for (const Contact<double>& contact : step_.contacts) {
+  for (const Contact& contact : step_.contacts) {
     const bool dont_care = std::binary_search(judgement.dont_care.begin(), judgement.dont_care.end(), contact.collider);
     if (dont_care && !has_face(contact)) judgement.ghosts.emplace_back(contact.collider, contact.side);
   }
@@ -255,7 +254,7 @@ void ContactJudge::add_ghosts(StepJudgement& judgement) const {
 /// collider that is touched: which part that is belongs to the contender's law of response, not to geometry. (In a
 /// corner of a wall and a slope, pushing down along the slope: it runs along the slope and into the wall; what is left
 /// of it falls onto the slope.)
-bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<const ExactContact> others) const {
+bool ContactJudge::met_after_another(const Contact& contact, std::span<const ExactContact> others) const {
   const Vec2d own = step_.requested - wanted(contact.collider);
   const Vec2d unsteered = step_.requested - step_.steered * right_;
   // A steep face takes steering out of the motion, and an impact the momentum across up.
@@ -279,7 +278,7 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<c
 
 /// Whether the requested motion leads against the reported normal, and the collider is held already or comes within the
 /// contender's hit distance on the way.
-bool ContactJudge::comes_near(const Contact<double>& contact) const {
+bool ContactJudge::comes_near(const Contact& contact) const {
   if (contact.normal.dot(wanted(contact.collider)) >= 0) return false;
   const auto is_it = [&contact](const ExactImpact& impact) { return impact.collider == contact.collider; };
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
@@ -294,10 +293,9 @@ bool ContactJudge::comes_near(const Contact<double>& contact) const {
 }
 
 /// The other contacts that there are: exact ones, and those that a motion comes within the hit distance of.
-std::vector<ExactContact> ContactJudge::contacts_besides(const Contact<double>& contact,
-                                                         const StepJudgement& judgement) const {
+std::vector<ExactContact> ContactJudge::contacts_besides(const Contact& contact, const StepJudgement& judgement) const {
   std::vector<ExactContact> others = judgement.contacts;
-  for (const Contact<double>& other : step_.contacts)
+  for (const Contact& other : step_.contacts)
     if (&other != &contact && comes_near(other) && has_face(other))
       others.push_back({.collider = other.collider, .side = other.side, .normal = other.normal});
   return others;
@@ -305,7 +303,7 @@ std::vector<ExactContact> ContactJudge::contacts_besides(const Contact<double>& 
 
 /// Whether the collider is held, and the motion along the ground goes against it or away from it by no more than a
 /// slanted up, which is rounded, makes of a motion straight down.
-bool ContactJudge::is_led_into_by_rounding(const Contact<double>& contact, std::span<const ExactContact> others) const {
+bool ContactJudge::is_led_into_by_rounding(const Contact& contact, std::span<const ExactContact> others) const {
   const bool is_slanted = up_.x() != 0 && up_.y() != 0;
   return is_slanted && std::abs(across(step_.requested)) <= rounding_across() && nearest(contact.collider) <= touch_ &&
          std::any_of(others.begin(), others.end(),
@@ -326,12 +324,12 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     }
   }
   // One collider may have an exact contact on one side and deflect the motion into another side of itself: a valley.
-  const auto exact_on_side = [&](const Contact<double>& reported) {
+  const auto exact_on_side = [&](const Contact& reported) {
     return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
       return one.collider == reported.collider && one.side == reported.side;
     });
   };
-  for (const Contact<double>& contact : step_.contacts) {
+  for (const Contact& contact : step_.contacts) {
     if (!header_.path_exact || exact_on_side(contact)) continue;
     // Nothing but another contact turns a motion aside; ground is followed.
     const std::vector<ExactContact> others = contacts_besides(contact, judgement);

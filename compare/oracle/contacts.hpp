@@ -61,15 +61,14 @@ class ContactJudge {
   [[nodiscard]] bool is_opposed(double wanted, const StepJudgement& judgement) const;
   void add_normal_error(StepJudgement& judgement) const;
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
-  [[nodiscard]] std::optional<Vec2d> face_of(const Contact<double>& contact) const;
-  [[nodiscard]] bool has_face(const Contact<double>& contact) const { return face_of(contact).has_value(); }
-  [[nodiscard]] bool ran_into(const Contact<double>& contact) const;
-  [[nodiscard]] std::vector<ExactContact> contacts_besides(const Contact<double>& contact,
+  [[nodiscard]] std::optional<Vec2d> face_of(const Contact& contact) const;
+  [[nodiscard]] bool has_face(const Contact& contact) const { return face_of(contact).has_value(); }
+  [[nodiscard]] bool ran_into(const Contact& contact) const;
+  [[nodiscard]] std::vector<ExactContact> contacts_besides(const Contact& contact,
                                                            const StepJudgement& judgement) const;
-  [[nodiscard]] bool met_after_another(const Contact<double>& contact, std::span<const ExactContact> others) const;
-  [[nodiscard]] bool is_led_into_by_rounding(const Contact<double>& contact,
-                                             std::span<const ExactContact> others) const;
-  [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
+  [[nodiscard]] bool met_after_another(const Contact& contact, std::span<const ExactContact> others) const;
+  [[nodiscard]] bool is_led_into_by_rounding(const Contact& contact, std::span<const ExactContact> others) const;
+  [[nodiscard]] bool comes_near(const Contact& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] bool gives_way() const;
   [[nodiscard]] bool is_closed_before(const ExactImpact& first) const;

@@ -48,7 +48,7 @@ bool is_convex(const Polygon& polygon, const Ring& ring) {
 
 /// Strictly between a and b, for a point on their line.
 bool between(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
-  return p != a && p != b && Box2<double>{a.cwiseMin(b), a.cwiseMax(b)}.overlaps({p, p});
+  return p != a && p != b && Box2{a.cwiseMin(b), a.cwiseMax(b)}.overlaps({p, p});
 }
 
 /// Whether the open segments a-b and c-d have a point in common, or an end of one lies inside the other.
@@ -124,7 +124,7 @@ void join_holes(Polygon& polygon) {
 }
 
 bool in_closed_triangle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& p) {
-  if (!Box2<double>{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.overlaps({p, p})) return false;
+  if (!Box2{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.overlaps({p, p})) return false;
   return turn(a, b, p) != Sign::negative && turn(b, c, p) != Sign::negative && turn(c, a, p) != Sign::negative;
 }
 
@@ -235,15 +235,15 @@ class Parts {
 };
 
 ConvexPart make_part(std::vector<Vec2d> points) {
-  Box2<double> box{points[0], points[0]};
+  Box2 box{points[0], points[0]};
   for (const Vec2d& point : points) box = box.merged({point, point});
   return {std::move(points), box};
 }
 
 }  // namespace
 
-Box2<double> box_of_disc(const Vec2d& centre, double radius) {
-  const Box2<double> box{centre, centre};
+Box2 box_of_disc(const Vec2d& centre, double radius) {
+  const Box2 box{centre, centre};
   return box.inflated(radius + (centre.cwiseAbs().maxCoeff() + radius) * 0x1p-52);
 }
 

@@ -10,7 +10,7 @@ namespace paperproof::compare::detail {
 /// Counter-clockwise vertices, or the two ends of a segment, or the centre of a disc.
 struct ConvexPart {
   std::vector<Vec2d> points;
-  Box2<double> box;
+  Box2 box;
   double radius = 0;  ///< Of a disc, and of nothing else [m].
 };
 
@@ -25,6 +25,6 @@ struct ConvexPart {
 [[nodiscard]] ConvexPart with_corners(ConvexPart part);
 
 /// Encloses a disc, rounding included.
-[[nodiscard]] Box2<double> box_of_disc(const Vec2d& centre, double radius);
+[[nodiscard]] Box2 box_of_disc(const Vec2d& centre, double radius);
 
 }  // namespace paperproof::compare::detail

@@ -63,8 +63,8 @@ class Departure {
   }
 
   /// The whole way of the step, if it goes straight from here.
-  [[nodiscard]] std::vector<PathPoint<double>> way_to(const Vec2d& end) const {
-    std::vector<PathPoint<double>> way = way_;
+  [[nodiscard]] std::vector<PathPoint> way_to(const Vec2d& end) const {
+    std::vector<PathPoint> way = way_;
     way.push_back({end, 1});
     return way;
   }
@@ -72,7 +72,7 @@ class Departure {
   const ExactScenery& scenery_;
   const ExactScenery& grown_scenery_;
   Place from_;
-  std::vector<PathPoint<double>> way_;  ///< Up to there.
+  std::vector<PathPoint> way_;  ///< Up to there.
   std::vector<ColliderIndex> inside_;
   std::vector<ColliderIndex> near_;                     ///< Nearer than `least_clearance`.
   std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.

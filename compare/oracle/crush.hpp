@@ -12,19 +12,19 @@ namespace paperproof::compare {
 /// has room, and what holds it.
 struct Others {
   /// Those within so many metres when the step has come to a corner of the way. Empty where there are none.
-  std::function<std::vector<NearPart>(const PathPoint<double>& corner, double within)> near{};
+  std::function<std::vector<NearPart>(const PathPoint& corner, double within)> near{};
   /// The same where the step ends, `moved` as what turns goes then. Empty where nothing turns near by.
   std::function<std::vector<NearPart>(double within)> near_at_end{};
   /// Adds to a way the moments at which others turn. Empty where there are no other characters.
-  std::function<void(std::vector<PathPoint<double>>& path)> add_moments{};
+  std::function<void(std::vector<PathPoint>& path)> add_moments{};
   /// What a displacement from where the step ends meets first of them, while all stays as it is then.
   std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
   /// Of what turns only: whether something that is farther away than `within` at a corner of the way is met in the rest
   /// of the step, if the character goes on by so much.
-  std::function<bool(const PathPoint<double>& corner, const Vec2d& way, double within)> runs_into{};
+  std::function<bool(const PathPoint& corner, const Vec2d& way, double within)> runs_into{};
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
-  std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
+  std::function<bool(std::span<const PathPoint> way)> left_free{};
   /// How far those may push it, of the other characters, that touch it, or touch one that does, and so on: a push
   /// begins with a character that wants to go, or with what moves near one of them [m]. Empty where there are none.
   std::function<double()> handed_on{};

@@ -53,7 +53,7 @@ struct ExactScenery::Impl {
   /// The best axis of the part that is deepest, or nearest.
   [[nodiscard]] detail::Axis nearest(const detail::FramePlace& place, ColliderIndex collider) const {
     detail::Axis nearest{std::numeric_limits<double>::infinity(), Vec2d::Zero()};
-    const Box2<double> at = world.box_of(Way::stay(place));
+    const Box2 at = world.box_of(Way::stay(place));
     for (const detail::ConvexPart& part : parts[collider]) {
       const double distance = (part.box.lower - at.upper).cwiseMax(at.lower - part.box.upper).maxCoeff();
       if (distance > 0 && distance * share_of_distance > nearest.separation) continue;
@@ -152,8 +152,8 @@ struct ExactScenery::Impl {
     detail::FramePlace place = barrier.end;
     place.position = position;
     const Vec2d seen = place.rounded();
-    const Box2<double>& octagon = world.points_box();
-    const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
+    const Box2& octagon = world.points_box();
+    const Box2 around{seen + octagon.lower, seen + octagon.upper};
     if (!barrier.part->box.overlaps(around.inflated(surely_clear))) return true;
     return detail::best_axis(*barrier.exact, world.points(), place).separation >= clearance;
   }
@@ -169,7 +169,7 @@ struct ExactScenery::Impl {
       const detail::FramePlace from = seen_from(group, question.from);
       const detail::FramePlace end =
           seen_from(group, Place(question.from.position, question.end.movers, question.end.fraction));
-      const Box2<double> within = world.box_of(Way::to(from, end)).inflated(reach);
+      const Box2 within = world.box_of(Way::to(from, end)).inflated(reach);
       for (const ColliderIndex collider : group.solid_tree.meeting(within)) {
         const bool one_way = world.solids()[collider].kind == detail::Kind::one_way;
         for (const detail::ConvexPart& part : parts[collider]) {
@@ -302,7 +302,7 @@ std::vector<ColliderIndex> ExactScenery::near(const Place& from, const Place& to
   const Place late(from.position, to.movers, to.fraction);
   for (const detail::Group& group : impl_->world.groups()) {
     if (group.sensor) continue;
-    Box2<double> box = impl_->world.box_of(impl_->way_between(group, from, to));
+    Box2 box = impl_->world.box_of(impl_->way_between(group, from, to));
     if (group.mover != no_mover) box = box.merged(impl_->world.box_of(impl_->way_between(group, early, late)));
     const std::vector<ColliderIndex> near = group.solid_tree.meeting(box.inflated(within));
     found.insert(found.end(), near.begin(), near.end());
@@ -316,7 +316,7 @@ std::vector<NearPart> ExactScenery::near_parts(const Place& at, double within) c
   const double distance = within / impl_->share_of_distance;
   for (const ColliderIndex collider : near(at, at, distance)) {
     const detail::FramePlace place = impl_->seen_from(collider, at);
-    const Box2<double> around = impl_->world.box_of(Way::stay(place)).inflated(distance);
+    const Box2 around = impl_->world.box_of(Way::stay(place)).inflated(distance);
     for (const detail::ConvexPart& part : impl_->parts[collider]) {
       if (!part.box.overlaps(around)) continue;
       NearPart near{.collider = collider, .moved = place.mover.to - place.mover.from, .faces = {}};
@@ -379,7 +379,7 @@ std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const 
   double farthest = 0;
   for (const ColliderIndex collider : inside) {
     const Vec2d seen = impl_->seen_from(collider, at).rounded();
-    const Box2<double>& box = impl_->world.solids()[collider].box;
+    const Box2& box = impl_->world.solids()[collider].box;
     farthest = std::max(farthest, (box.upper - seen).cwiseMax(seen - box.lower).norm());
   }
   const double whole = std::min(reach, farthest + size.norm());

@@ -33,15 +33,15 @@ using Rational = boost::multiprecision::cpp_rational;
 /// alone stands for that position while every mover is at offset zero.
 struct Place {
   Vec2d position;
-  std::span<const MoverMotion<double>> movers{};  ///< One for each mover, or none. Not copied.
-  double fraction = 0;                            ///< Of the step, in [0, 1]; movers go on beyond 1 as before.
+  std::span<const MoverMotion> movers{};  ///< One for each mover, or none. Not copied.
+  double fraction = 0;                    ///< Of the step, in [0, 1]; movers go on beyond 1 as before.
 
   template <class Derived>
   Place(const Eigen::MatrixBase<Derived>& at) : position(at) {}  // NOLINT(google-explicit-constructor): a place as well
   Place(double x, double y) : position(x, y) {}
-  Place(const PathPoint<double>& at, std::span<const MoverMotion<double>> motions)
+  Place(const PathPoint& at, std::span<const MoverMotion> motions)
       : position(at.position), movers(motions), fraction(at.fraction) {}
-  Place(const Vec2d& at, std::span<const MoverMotion<double>> motions, double when)
+  Place(const Vec2d& at, std::span<const MoverMotion> motions, double when)
       : position(at), movers(motions), fraction(when) {}
 
   /// Where a mover is, rounded.
@@ -84,7 +84,7 @@ struct NearPart {
 
 /// The octagon's interior came to overlap a sensor's, or ceased to.
 struct ExactSensorEvent {
-  using Change = SensorEvent<double>::Change;
+  using Change = SensorEvent::Change;
   ColliderIndex sensor = 0;
   Change change = Change::enter;
   Rational fraction;  ///< Of the step, in [0, 1].

@@ -17,8 +17,8 @@ constexpr int halvings_of_neighbours = 12;
 
 /// A time in which the octagon and all vertices go straight and evenly, or a leap of the octagon in no time.
 struct Stretch {
-  const PathPoint<double>* leg_from;
-  const PathPoint<double>* leg_to;
+  const PathPoint* leg_from;
+  const PathPoint* leg_to;
   double instant_from;  ///< Of the two between which the vertices go.
   double instant_to;
   const std::vector<Vec2d>* vertices_from;
@@ -31,10 +31,10 @@ struct Stretch {
 
 /// Calls `visit(stretch)` in order of time, until it returns true.
 template <class Visit>
-void for_stretches(std::span<const PathPoint<double>> path, const VertexWay& way, const Visit& visit) {
+void for_stretches(std::span<const PathPoint> path, const VertexWay& way, const Visit& visit) {
   for (std::size_t leg = path.size() > 1 ? 1 : 0; leg < path.size(); ++leg) {
-    const PathPoint<double>& from = path[leg == 0 ? 0 : leg - 1];
-    const PathPoint<double>& to = path[leg];
+    const PathPoint& from = path[leg == 0 ? 0 : leg - 1];
+    const PathPoint& to = path[leg];
     for (std::size_t k = 0; k + 1 < way.instants.size(); ++k) {
       const double begin = std::max(from.fraction, way.instants[k]);
       const double end = std::min(to.fraction, way.instants[k + 1]);
@@ -81,8 +81,8 @@ View<Number> view_of(const Stretch& stretch, std::span<const Vec2d> octagon, con
     return scaled(all, first) + scaled(time(when) - time(begin), convert(place, b) - first);
   };
   const auto position = [&](bool end) {
-    const PathPoint<double>& a = *stretch.leg_from;
-    const PathPoint<double>& b = *stretch.leg_to;
+    const PathPoint& a = *stretch.leg_from;
+    const PathPoint& b = *stretch.leg_to;
     if (stretch.is_leap()) return scaled(chord, scaled(leg, convert(place, end ? b.position : a.position)));
     return scaled(chord, between(a.position, b.position, a.fraction, end ? stretch.end : stretch.begin, leg));
   };
@@ -282,13 +282,13 @@ class StretchSearch {
 
   /// Boxes around all places of both, with more between them than rounding.
   [[nodiscard]] bool are_far_apart() const {
-    const Box2<double> way = Box2<double>{stretch_.leg_from->position, stretch_.leg_from->position}.merged(
+    const Box2 way = Box2{stretch_.leg_from->position, stretch_.leg_from->position}.merged(
         {stretch_.leg_to->position, stretch_.leg_to->position});
-    Box2<double> hull{octagon_[0], octagon_[0]};
+    Box2 hull{octagon_[0], octagon_[0]};
     for (const Vec2d& corner : octagon_) hull = hull.merged({corner, corner});
-    const Box2<double> octagon{way.lower + hull.lower, way.upper + hull.upper};
+    const Box2 octagon{way.lower + hull.lower, way.upper + hull.upper};
     const Vec2d& any = (*stretch_.vertices_from)[part_.vertices[0]];
-    Box2<double> part{any, any};
+    Box2 part{any, any};
     for (const std::size_t i : part_.vertices)
       for (const auto* vertices : {stretch_.vertices_from, stretch_.vertices_to})
         part = part.merged({(*vertices)[i], (*vertices)[i]});
@@ -325,7 +325,7 @@ class StretchSearch {
 
 }  // namespace
 
-Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path, const VertexWay& way,
+Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint> path, const VertexWay& way,
                       std::span<const std::size_t> part, Asked asked, double radius) {
   const Part whole{part, radius};
   Meeting first;

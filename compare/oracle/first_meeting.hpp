@@ -38,7 +38,7 @@ enum class Asked : std::uint8_t { whether, when };
 /// @param way its instants hold those of the path. @param part the numbers of its vertices in `way`, counter-clockwise
 ///   or the two ends of a segment, or the centre of a disc.
 /// @param radius of a disc, else 0. It is judged for all of a straight stretch at once.
-[[nodiscard]] Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path,
+[[nodiscard]] Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint> path,
                                     const VertexWay& way, std::span<const std::size_t> part,
                                     Asked asked = Asked::whether, double radius = 0);
 

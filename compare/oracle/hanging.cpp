@@ -152,13 +152,13 @@ double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Near
 /// Whether a mover that does not touch the octagon at some corner would run into it, if it stayed there or went on as
 /// requested.
 bool HangingJudge::is_run_into(const Reach& reach) const {
-  return std::any_of(step_.path.begin(), step_.path.end(), [&](const PathPoint<double>& corner) {
+  return std::any_of(step_.path.begin(), step_.path.end(), [&](const PathPoint& corner) {
     return is_run_into(corner, Vec2d::Zero(), reach) ||
            is_run_into(corner, step_.requested * (1 - corner.fraction), reach);
   });
 }
 
-bool HangingJudge::is_run_into(const PathPoint<double>& corner, const Vec2d& way, const Reach& reach) const {
+bool HangingJudge::is_run_into(const PathPoint& corner, const Vec2d& way, const Reach& reach) const {
   if (others_.runs_into && others_.runs_into(corner, way, reach.contact)) return true;
   const Place there(corner, step_.movers);
   const std::vector<ExactImpact> impacts =
@@ -166,7 +166,7 @@ bool HangingJudge::is_run_into(const PathPoint<double>& corner, const Vec2d& way
   return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
     const MoverIndex mover = scenery_.scenery().colliders[impact.collider].mover;
     if (mover == no_mover || scenery_.separation(there, impact.collider) <= reach.contact) return false;
-    const MoverMotion<double>& motion = step_.movers[mover];
+    const MoverMotion& motion = step_.movers[mover];
     const double left = (1 - static_cast<double>(impact.fraction)) * (1 - corner.fraction);
     return (motion.to - motion.from).dot(impact.normal) * left > exact_reach.contact;
   });

@@ -61,7 +61,7 @@ class HangingJudge {
   [[nodiscard]] double fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                        const Reach& reach) const;
   [[nodiscard]] bool is_run_into(const Reach& reach) const;
-  [[nodiscard]] bool is_run_into(const PathPoint<double>& corner, const Vec2d& way, const Reach& reach) const;
+  [[nodiscard]] bool is_run_into(const PathPoint& corner, const Vec2d& way, const Reach& reach) const;
 
   [[nodiscard]] std::vector<NearPart> parts_near(std::size_t corner, double within) const;
   [[nodiscard]] bool blocks(std::size_t corner, const NearPart& part, double within) const;

@@ -255,8 +255,7 @@ bool is_exposed(const World& world, const std::vector<Touch>& touches, const Tou
                 const Vec2d& normal, const WayIn& way_in) {
   const Group& group = world.group_of(world.edges()[chosen.event.edge].collider);
   const Vec2d place = place_of(world, chosen);
-  const Box2<double> near =
-      Box2<double>{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)}.merged({place, place});
+  const Box2 near = Box2{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)}.merged({place, place});
   const auto seams = [&] {
     return Seams(world, group, way_in, chosen.timing.numerator, chosen.timing.denominator, near);
   };

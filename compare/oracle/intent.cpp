@@ -17,7 +17,7 @@ constexpr double climb_margin = 1e-8;
 constexpr double share_of_double = 1e-12;
 constexpr double share_of_float = 1e-5;
 
-Vec2d way_of(const MoverMotion<double>& motion) { return motion.to - motion.from; }
+Vec2d way_of(const MoverMotion& motion) { return motion.to - motion.from; }
 
 }  // namespace
 
@@ -85,7 +85,7 @@ bool Intent::jumped_later(const TraceStep& step) const {
   if (!jump_pending_) return false;
   if (step.jumping && !jumping_) return true;
   const Vec2d up = up_in(step, *header_);
-  const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
+  const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact& contact) {
     return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
   if (!landed) return false;
@@ -94,7 +94,7 @@ bool Intent::jumped_later(const TraceStep& step) const {
   // It landed once more, if it went up as only a jump does.
   const double dt = length_of(step, *header_);
   for (std::size_t i = 1; i < step.path.size(); ++i) {
-    const PathPoint<double>& from = step.path[i - 1];
+    const PathPoint& from = step.path[i - 1];
     const double time = (step.path[i].fraction - from.fraction) * dt;
     if (time > 0 && (step.path[i].position - from.position).dot(up) > header_->character.jump_speed / 2 * time)
       return true;
@@ -189,7 +189,7 @@ void Intent::end(const TraceStep& step) {
   crushed_ = !step.crushed.empty() || (crushed_ && step.stuck);
   const auto touches = [&](Side side) {
     return std::any_of(step.contacts.begin(), step.contacts.end(),
-                       [side](const Contact<double>& contact) { return contact.side == side; });
+                       [side](const Contact& contact) { return contact.side == side; });
   };
   wall_left_ = touches(Side::left);
   wall_right_ = touches(Side::right);
@@ -207,7 +207,7 @@ double Intent::rounding(const TraceStep& step, const Wanted& wanted) const {
                 (velocity_.norm() + (ride_ ? ride_->velocity.norm() : 0)) * length_of(step, *header_);
   // Where movers are is rounded, too.
   double largest = 0;
-  for (const MoverMotion<double>& motion : step.movers)
+  for (const MoverMotion& motion : step.movers)
     largest = std::max({largest, motion.from.cwiseAbs().maxCoeff(), motion.to.cwiseAbs().maxCoeff()});
   return share * size + 4 * ulp_at(*header_, {largest, 0});
 }

@@ -37,9 +37,7 @@ Place between(const Place& from, const Place& to, double share) {
           from.fraction + share * (to.fraction - from.fraction)};
 }
 
-bool same_motion(const MoverMotion<double>& a, const MoverMotion<double>& b) {
-  return a.from == b.from && a.to == b.to;
-}
+bool same_motion(const MoverMotion& a, const MoverMotion& b) { return a.from == b.from && a.to == b.to; }
 
 }  // namespace
 
@@ -77,17 +75,17 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others, const Wa
 
 Others Judge::with_turning(const TraceStep& step, const Others& characters) const {
   Others all = characters;
-  all.left_free = [this, &step, &characters](std::span<const PathPoint<double>> way) {
+  all.left_free = [this, &step, &characters](std::span<const PathPoint> way) {
     return turning_->left_free(step, way) && (!characters.left_free || characters.left_free(way));
   };
   if (step.path.empty() || turning_->is_alone(step, std::max(detail::reach_of(header_).contact, own_reach(header_))))
     return all;
-  const auto with = [&characters](std::vector<NearPart> parts, const PathPoint<double>& corner, double within) {
+  const auto with = [&characters](std::vector<NearPart> parts, const PathPoint& corner, double within) {
     if (characters.near)
       for (NearPart& part : characters.near(corner, within)) parts.push_back(std::move(part));
     return parts;
   };
-  all.near = [this, &step, with](const PathPoint<double>& corner, double within) {
+  all.near = [this, &step, with](const PathPoint& corner, double within) {
     return with(turning_->near(step, corner, within), corner, within);
   };
   all.near_at_end = [this, &step, with](double within) {
@@ -99,7 +97,7 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
       for (ExactImpact& impact : characters.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
     return impacts;
   };
-  all.runs_into = [this, &step](const PathPoint<double>& corner, const Vec2d& way, double within) {
+  all.runs_into = [this, &step](const PathPoint& corner, const Vec2d& way, double within) {
     return turning_->runs_into(step, corner, way, within);
   };
   all.longest_way = std::max(all.longest_way, turning_->longest_way(step));
@@ -166,7 +164,7 @@ void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgeme
   if (!header_.path_exact) return;
   const auto is_reported = [&](const ExactContact& exact) {
     return std::any_of(step.contacts.begin(), step.contacts.end(),
-                       [&](const Contact<double>& contact) { return contact.collider == exact.collider; });
+                       [&](const Contact& contact) { return contact.collider == exact.collider; });
   };
   std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
     if (!exact.foreseen || is_reported(exact)) return false;
@@ -187,20 +185,20 @@ void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgeme
 /// Adds the reported contacts with the rest that a contact with what turns pushes the octagon against.
 /// @param step the exact part of it.
 void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const {
-  const auto is_known = [&](const Contact<double>& contact) {
+  const auto is_known = [&](const Contact& contact) {
     const auto is_it = [&](const ExactContact& one) {
       return one.collider == contact.collider && one.side == contact.side;
     };
     return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
            contains(judgement.deflected, std::pair(contact.collider, contact.side));
   };
-  const auto is_pushed = [&](const Contact<double>& contact) {
+  const auto is_pushed = [&](const Contact& contact) {
     return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
       return turning_->turns(one.collider) && one.normal.dot(contact.normal) < 0;
     });
   };
-  const auto has_face = [&](const Contact<double>& contact) {
-    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
+  const auto has_face = [&](const Contact& contact) {
+    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint& corner) {
       const std::vector<NearPart> parts = scenery_.near_parts({corner, step.movers}, detail::contact_reach);
       return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
         return part.collider == contact.collider &&
@@ -209,7 +207,7 @@ void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const
       });
     });
   };
-  for (const Contact<double>& contact : step.contacts)
+  for (const Contact& contact : step.contacts)
     if (!is_known(contact) && is_pushed(contact) && has_face(contact))
       judgement.deflected.emplace_back(contact.collider, contact.side);
 }
@@ -221,7 +219,7 @@ bool Judge::is_stuck_refuted(const Place& at, const Others& others, const AmongT
   const auto accept = [&](const Vec2d& out) {
     const auto& left_free = turning->characters.left_free;
     return !ends_on_another_side(at, out) &&
-           (!left_free || left_free(std::vector<PathPoint<double>>{{at.position, 0}, {out, 1}}));
+           (!left_free || left_free(std::vector<PathPoint>{{at.position, 0}, {out, 1}}));
   };
   return at.fraction == 1 ? turning_->frees_at_end(turning->step, accept) : turning_->frees(turning->step, accept);
 }
@@ -229,7 +227,7 @@ bool Judge::is_stuck_refuted(const Place& at, const Others& others, const AmongT
 /// Corners where nothing moves are left out; a way that ends early waits where it is while the movers go on.
 Judge::Path Judge::path_of(const TraceStep& step) const {
   Path path;
-  for (const PathPoint<double>& corner : step.path) {
+  for (const PathPoint& corner : step.path) {
     const bool still = !path.empty() && path.back().position == corner.position;
     if (still && (mover_count_ == 0 || path.back().fraction == corner.fraction)) continue;
     path.emplace_back(corner, step.movers);
@@ -241,7 +239,7 @@ Judge::Path Judge::path_of(const TraceStep& step) const {
 }
 
 bool Judge::alone(const Path& path, const TraceStep& step) const {
-  Box2<double> reach{path[0].position, path[0].position};
+  Box2 reach{path[0].position, path[0].position};
   for (const Place& corner : path) {
     const Vec2d wanted = corner.position + step.requested;
     reach = reach.merged({corner.position, corner.position}).merged({wanted, wanted});
@@ -253,10 +251,10 @@ bool Judge::alone(const Path& path, const TraceStep& step) const {
 bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
   if (!last_ || step.respawn || last_->wanted.has_value() != (wanted != nullptr)) return false;
   const TraceStep& last = last_->step;
-  const auto same_corner = [](const PathPoint<double>& a, const PathPoint<double>& b) {
+  const auto same_corner = [](const PathPoint& a, const PathPoint& b) {
     return a.position == b.position && a.fraction == b.fraction;
   };
-  const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
+  const auto same_contact = [](const Contact& a, const Contact& b) {
     return a.collider == b.collider && a.side == b.side && a.normal == b.normal && a.point == b.point &&
            a.fraction == b.fraction && a.separation == b.separation;
   };
@@ -279,9 +277,7 @@ bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
 }
 
 bool Judge::continues(const TraceStep& step, const Place& start) const {
-  const auto goes_on = [](const MoverMotion<double>& now, const MoverMotion<double>& before) {
-    return now.from == before.to;
-  };
+  const auto goes_on = [](const MoverMotion& now, const MoverMotion& before) { return now.from == before.to; };
   return !step.respawn && last_end_ && last_end_->position == start.position &&
          std::equal(step.movers.begin(), step.movers.end(), last_end_->movers.begin(), last_end_->movers.end(),
                     goes_on);
@@ -577,7 +573,7 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
     const Vec2d ahead = (end - start.position).normalized();
     const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
     return open(end) && open(end + aside) && open(end - aside) && keeps_side(end) &&
-           (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {end, 1}}));
+           (!others.left_free || others.left_free(std::vector<PathPoint>{{start.position, 0}, {end, 1}}));
   };
   const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};
   leaving.longer = scenery_.find_free(question, way.norm() - around_way_out, around_way_out, accept).has_value();
@@ -644,7 +640,7 @@ void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& l
   const double rise = (step.path.back().position - step.path.front().position).dot(up);
   double unsure = 0;
   bool may_oppose = false;
-  for (const PathPoint<double>& corner : step.path) {
+  for (const PathPoint& corner : step.path) {
     for (const double height : {step.requested.dot(up), rise}) {
       const Opposition how = turning_->opposes(step, corner, (wanted + beyond) * right + height * up);
       may_oppose = may_oppose || how == Opposition::unsure;
@@ -688,9 +684,8 @@ bool Judge::has_way_out(const Place& at, const Others& others) {
     if (same) return asked_way_out_->second;
   }
   const std::optional<Vec2d> out = scenery_.way_out(at, detail::farthest_way_out);
-  const bool found =
-      out && !ends_on_another_side(at, *out) &&
-      (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{at.position, 0}, {*out, 1}}));
+  const bool found = out && !ends_on_another_side(at, *out) &&
+                     (!others.left_free || others.left_free(std::vector<PathPoint>{{at.position, 0}, {*out, 1}}));
   asked_way_out_.emplace(Kept(at), found);
   return found;
 }
@@ -700,7 +695,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
   std::erase_if(judgement.sensor_events, [this](const auto& event) { return turning_->turns(event.sensor); });
   std::vector<bool> taken(step.sensors.size());
   const auto is_report_of = [&](const ExactSensorEvent& event, std::size_t i) {
-    const SensorEvent<double>& reported = step.sensors[i];
+    const SensorEvent& reported = step.sensors[i];
     return !taken[i] && reported.sensor == event.sensor && reported.change == event.change &&
            std::isfinite(reported.fraction);
   };

@@ -294,7 +294,7 @@ class Judge {
         : position(at.position), movers(at.movers.begin(), at.movers.end()), fraction(at.fraction) {}
     [[nodiscard]] Place place() const { return {position, movers, fraction}; }
     Vec2d position;
-    std::vector<MoverMotion<double>> movers;
+    std::vector<MoverMotion> movers;
     double fraction = 0;
   };
   /// A stay inside a solid.

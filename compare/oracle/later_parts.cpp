@@ -45,7 +45,7 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
   later.most_steered = most;
   later.asked = std::clamp(*step.input.move, -1.0, 1.0) * character.walk_speed;
   // Ground that moves, and what slopes, may leave it any speed in any part.
-  const auto keeps_speed = [&](const Contact<double>& contact) {
+  const auto keeps_speed = [&](const Contact& contact) {
     const ColliderDef& met = header.scenery.colliders[contact.collider];
     const bool is_wall = std::abs(contact.normal.dot(up)) <= upright;
     return met.mover == no_mover && met.surface_speed == 0 && (is_wall || is_walked_on(contact.normal, header, up));

@@ -70,7 +70,7 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
     const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
     const bool straight = std::abs(leg.x()) <= 4 * ulp_at(header, step.path[k].position);
     if (!goes_on_at_once || !straight || !(leg.y() > 0 && leg.y() <= highest)) continue;
-    const PathPoint<double>& atop = step.path[std::min(k + 1, step.path.size() - 1)];
+    const PathPoint& atop = step.path[std::min(k + 1, step.path.size() - 1)];
     const Vec2d made = seen(atop.position - step.path[k - 2].position, up);
     const bool leads_on = made.y() > guaranteed_touch && made.x() * walk.dot(right_of(up)) > 0;
     if (leads_on && is_stopped(k - 2)) ++climbed;
@@ -104,10 +104,10 @@ ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
   for (const Wanted* wanted : {&wanted_, &first_})
     for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_), Vec2d(wanted->velocity + left)})
       unsteered.push_back(seen(velocity - carried - wanted->steered / dt_ * right_, up_));
-  ControlledRange range{.unsteered = Box2<double>::around(unsteered)};
+  ControlledRange range{.unsteered = Box2::around(unsteered)};
   // What turns under its rider takes it along otherwise in each part of the step.
   if (first_.from_ground) {
-    Box2<double> unsure{Vec2d::Zero(), Vec2d::Zero()};
+    Box2 unsure{Vec2d::Zero(), Vec2d::Zero()};
     for (const NearPart& part : near(0, contact_reach))
       for (const NearFace& face : part.faces)
         unsure = unsure.merged(face_of(part, seen(face.normal, up_), dt_).velocities());
@@ -164,22 +164,22 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
 }
 
 /// All that the step may have at these surfaces, across and along up [m/s]. @param carried see `wanted_velocities`.
-Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const {
+Box2 LegJudge::velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const {
   ControlledRange range = held_ ? ControlledRange{} : wanted_velocities(carried);
   range.squeezed = push_beyond_motion / dt_;
-  Box2<double> all = controlled_bounds(range, surfaces);
+  Box2 all = controlled_bounds(range, surfaces);
   if (!held_) {
     // What a part of the step has made falls on, and is steered, in the next; or it jumps off ground.
     const Vec2d falls = seen(later_.velocity, up_);
-    const auto goes_on = [&](const Box2<double>& box, double slower, double faster) {
+    const auto goes_on = [&](const Box2& box, double slower, double faster) {
       return box.merged({box.lower + falls + Vec2d(slower, 0), box.upper + falls + Vec2d(faster, 0)});
     };
     all = goes_on(all, 0, 0);
     if (later_.steered() > 0) {
       range.least_steering += later_.slower;
       range.most_steering += later_.faster;
-      const Box2<double> steered = goes_on(controlled_bounds(range, surfaces), later_.slower, later_.faster);
-      const Box2<double> ends = all.merged(asked(surfaces));
+      const Box2 steered = goes_on(controlled_bounds(range, surfaces), later_.slower, later_.faster);
+      const Box2 ends = all.merged(asked(surfaces));
       all = all.merged(steered);
       all.lower.x() = std::max(all.lower.x(), ends.lower.x());
       all.upper.x() = std::min(all.upper.x(), ends.upper.x());
@@ -192,9 +192,9 @@ Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces, const Ve
 }
 
 /// The speeds across up that steering ends at, in the air and on each ground: their smallest box, of any height.
-Box2<double> LegJudge::asked(std::span<const MetSurface> surfaces) const {
+Box2 LegJudge::asked(std::span<const MetSurface> surfaces) const {
   const Vec2d speed(later_.asked, 0);
-  Box2<double> all{speed, speed};
+  Box2 all{speed, speed};
   for (const MetSurface& at : surfaces)
     if (at.walkable) all = all.merged({speed + at.velocities().lower, speed + at.velocities().upper});
   return all;
@@ -205,7 +205,7 @@ LegJudge::Pushes LegJudge::pushes() const {
   std::map<ColliderIndex, double> solids;
   Pushes pushes;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
-    Box2<double> of_characters;  // these push along their normals
+    Box2 of_characters;  // these push along their normals
     for (const NearPart& part : near(corner, contact_reach)) {
       double way = part.moved.norm();
       // One that is pushed itself, late in the step, goes fast for a part of it.
@@ -216,7 +216,7 @@ LegJudge::Pushes LegJudge::pushes() const {
             std::max(solids[part.collider], way + part.unsure + std::abs(part.rim) + part.rim_unsure);
         continue;
       }
-      Box2<double> along;
+      Box2 along;
       for (const NearFace& face : part.faces) {
         const Vec2d push = way * seen(face.normal, up_);
         along = along.merged({push, push});
@@ -242,7 +242,7 @@ double LegJudge::thrown() const {
 double LegJudge::rounding() const {
   double rounding = relative_rounding * (1 + wanted_.displacement.norm());
   const Vec2d* last = nullptr;
-  for (const PathPoint<double>& corner : step_.path) {
+  for (const PathPoint& corner : step_.path) {
     if (last == nullptr || *last != corner.position) rounding += 4 * ulp_at(header_, corner.position);
     last = &corner.position;
   }
@@ -300,23 +300,23 @@ double LegJudge::way_gained(std::size_t first) const {
   if (!(gained > 0) || !is_pushed()) return gained;
   // Pushed at once, it goes on as if all rested: each motion counts once.
   const Pushes ways = pushes();
-  const Box2<double> pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
+  const Box2 pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
   const Vec2d most = Vec2d::Constant(ways.of_solids + push_beyond_motion);
-  const Box2<double> push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
+  const Box2 push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
   std::vector<MetSurface> resting = surfaces_;
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable, .is_overlapped = at.is_overlapped};
-  const Box2<double> all{push.lower + ways.of_characters.lower, push.upper + ways.of_characters.upper};
+  const Box2 all{push.lower + ways.of_characters.lower, push.upper + ways.of_characters.upper};
   return farther(first, velocities(resting, own_carrier()), all.inflated(thrown()));
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push of what comes against it,
 /// across and along up [m].
-double LegJudge::farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const {
+double LegJudge::farther(std::size_t first, const Box2& speeds, const Box2& push) const {
   Vec2d above = Vec2d::Zero();
   Vec2d below = Vec2d::Zero();
   for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
-    const PathPoint<double>& from = step_.path[leg];
-    const PathPoint<double>& to = step_.path[leg + 1];
+    const PathPoint& from = step_.path[leg];
+    const PathPoint& to = step_.path[leg + 1];
     const Vec2d way = seen(to.position - from.position, up_);
     const double time = (to.fraction - from.fraction) * dt_;
     above += (way - speeds.upper * time).cwiseMax(0);
@@ -362,7 +362,7 @@ bool LegJudge::is_moved_at_once() const {
   if (is_pushed() || std::any_of(surfaces_.begin(), surfaces_.end(), turns)) return true;
   if (!others_.near) return false;
   return std::any_of(step_.path.begin(), step_.path.end(),
-                     [this](const PathPoint<double>& corner) { return !others_.near(corner, contact_reach).empty(); });
+                     [this](const PathPoint& corner) { return !others_.near(corner, contact_reach).empty(); });
 }
 
 /// Whether nothing but the law of response moves it: it goes in one part, and nothing moves it at once, but for gaps
@@ -389,15 +389,15 @@ double LegJudge::room_at(std::size_t surfaces) const {
 }
 
 double LegJudge::end_error() const {
-  const std::vector<PathPoint<double>>& path = step_.path;
+  const std::vector<PathPoint>& path = step_.path;
   std::size_t end = path.size() - 1;
   while (end > 0 && !(path[end - 1].fraction < path[end].fraction)) --end;
   const bool in_parts = first_.parts > 1 || later_.any();
   const bool is_asked = end > 0 && !held_ && !in_parts && !step_.dropped && step_.crushed.empty() && snapped() == 0 &&
                         !header_.character.side_hit_ends_rise && stairs_ == 0;
   if (!is_asked) return 0;
-  const PathPoint<double>& from = path[end - 1];
-  const PathPoint<double>& to = path[end];
+  const PathPoint& from = path[end - 1];
+  const PathPoint& to = path[end];
   // A contact that is met where the leg ends changes the velocity there. It tells of a moment just after its corner.
   const auto follows = [&](const auto& met) { return met.fraction - from.fraction > to.fraction - met.fraction; };
   if (std::any_of(step_.contacts.begin(), step_.contacts.end(), follows)) return 0;
@@ -423,11 +423,11 @@ double LegJudge::leg_error() const {
   std::size_t met = 0;
   double off = 0;
   for (std::size_t leg = 0; leg + 1 < step_.path.size(); ++leg) {
-    const PathPoint<double>& from = step_.path[leg];
-    const PathPoint<double>& to = step_.path[leg + 1];
-    const auto is_there = [&](const Contact<double>& contact) {
+    const PathPoint& from = step_.path[leg];
+    const PathPoint& to = step_.path[leg + 1];
+    const auto is_there = [&](const Contact& contact) {
       return std::any_of(step_.path.begin(), step_.path.begin() + static_cast<std::ptrdiff_t>(leg) + 1,
-                         [&](const PathPoint<double>& corner) {
+                         [&](const PathPoint& corner) {
                            return scenery_.separation(Place(corner, step_.movers), contact.collider) <= contact_reach;
                          });
     };
@@ -445,7 +445,7 @@ double LegJudge::leg_error() const {
   }
   // Each collider is aimed away from once, however often the way turns.
   std::set<ColliderIndex> aimed_at;
-  for (const Contact<double>& contact : step_.contacts) aimed_at.insert(contact.collider);
+  for (const Contact& contact : step_.contacts) aimed_at.insert(contact.collider);
   const double room = room_at(aimed_at.size());
   return off <= room ? 0 : off;
 }

@@ -71,12 +71,12 @@ class LegJudge {
   }
   [[nodiscard]] ControlledRange wanted_velocities(const Vec2d& carried) const;
   [[nodiscard]] std::vector<MetSurface> near_surfaces() const;
-  [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const;
-  [[nodiscard]] Box2<double> asked(std::span<const MetSurface> surfaces) const;
-  [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const;
+  [[nodiscard]] Box2 velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const;
+  [[nodiscard]] Box2 asked(std::span<const MetSurface> surfaces) const;
+  [[nodiscard]] double farther(std::size_t first, const Box2& speeds, const Box2& push) const;
   struct Pushes {
-    double of_solids = 0;          ///< [m]
-    Box2<double> of_characters{};  ///< Across and along up [m].
+    double of_solids = 0;  ///< [m]
+    Box2 of_characters{};  ///< Across and along up [m].
   };
   [[nodiscard]] Vec2d own_carrier() const;
   [[nodiscard]] Pushes pushes() const;
@@ -102,7 +102,7 @@ class LegJudge {
   bool held_;
   const int stairs_;                        ///< See `stairs_climbed`.
   const std::vector<MetSurface> surfaces_;  ///< All that is near the way, as an upright character sees it.
-  const Box2<double> speeds_;               ///< What the step may have at them, across and along up [m/s].
+  const Box2 speeds_;                       ///< What the step may have at them, across and along up [m/s].
 };
 
 }  // namespace paperproof::compare::detail

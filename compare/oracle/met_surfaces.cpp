@@ -19,7 +19,7 @@ using detail::RigidMotion;
 constexpr double touched = detail::guaranteed_touch + detail::touch_rounding;
 
 /// Whether what was touched still is, and there: who has come past a rim is beside it. The normal of a circle turns.
-bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact<double>& touch) {
+bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact& touch) {
   constexpr double same_face = 1 - 1e-9;
   const bool round = solids.scenery().colliders[touch.collider].shape == ColliderDef::Shape::circle;
   const std::vector<NearPart> parts = solids.near_parts(at, touched);
@@ -32,7 +32,7 @@ bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact
   });
 }
 
-bool touches_ground(const SolidsInStep& solids, const PathPoint<double>& at) {
+bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
@@ -57,7 +57,7 @@ const ExactScenery& SolidsInStep::at(double fraction) const {
 
 double SolidsInStep::gap_on_way(ColliderIndex collider) const {
   double gap = std::numeric_limits<double>::infinity();
-  for (const PathPoint<double>& corner : step_.path)
+  for (const PathPoint& corner : step_.path)
     gap = std::min(gap, at(corner.fraction).separation(Place(corner, step_.movers), collider));
   return gap;
 }
@@ -112,7 +112,7 @@ Vec2d imparted(const Vec2d& velocity, const Vec2d& normal, bool walkable) {
   return walkable ? velocity : Vec2d(velocity.dot(normal) * normal);
 }
 
-Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch) {
+Vec2d velocity_of(const SolidsInStep& solids, const Contact& touch) {
   return conveyed(solids.header().scenery.colliders[touch.collider], touch.normal) +
          solids.moved(touch.collider, touch.point, touch.fraction) / length_of(solids.step(), solids.header());
 }
@@ -123,17 +123,17 @@ bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool groun
   return grounded && wanted.dot(up) <= std::abs(wanted.dot(right_of(up))) * steepest;
 }
 
-std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact<double>> contacts, bool walks,
+std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts, bool walks,
                                      std::optional<ColliderIndex> ridden) {
   const TraceStep& step = solids.step();
   const Vec2d up = up_in(step, solids.header());
   std::vector<MetSurface> surfaces;
-  for (const Contact<double>& touch : contacts) {
+  for (const Contact& touch : contacts) {
     // A contact tells when it would be touched, a corner when the way ends at the gap before it.
     const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
       return std::abs(a.fraction - touch.fraction) < std::abs(b.fraction - touch.fraction);
     });
-    const auto is_touched = [&](const PathPoint<double>& at) {
+    const auto is_touched = [&](const PathPoint& at) {
       return is_touched_there(solids.at(at.fraction), Place(at, step.movers), touch);
     };
     auto since = corner;

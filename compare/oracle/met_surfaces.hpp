@@ -62,7 +62,7 @@ class SolidsInStep {
 [[nodiscard]] Vec2d imparted(const Vec2d& velocity, const Vec2d& normal, bool walkable);
 
 /// Of a surface that goes along with its mover and may be a conveyor [m/s].
-[[nodiscard]] Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch);
+[[nodiscard]] Vec2d velocity_of(const SolidsInStep& solids, const Contact& touch);
 
 /// Whether a step begins as a walk on the ground, so that what rises in it is a climb: a rise that is steeper than any
 /// walkable ground is a jump.
@@ -72,8 +72,7 @@ class SolidsInStep {
 /// The surfaces of the contacts, in their order, for the law of octagon_sweep.
 /// @param contacts of the step: those reported, or of these the ones that exact arithmetic confirms.
 /// @param walks see `begins_as_walk`. @param ridden what the step rides from its begin on.
-[[nodiscard]] std::vector<MetSurface> met_surfaces(const SolidsInStep& solids,
-                                                   std::span<const Contact<double>> contacts, bool walks,
-                                                   std::optional<ColliderIndex> ridden = {});
+[[nodiscard]] std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts,
+                                                   bool walks, std::optional<ColliderIndex> ridden = {});
 
 }  // namespace paperproof::compare

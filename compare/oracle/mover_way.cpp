@@ -139,7 +139,7 @@ MoverPose MoverWayJudge::Course::at(double fraction) const {
 
 MoverWayJudge::MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts)
     : header_(header), scripts_(std::move(scripts)), is_float_(header.scalar == "float") {
-  Box2<double> box{header.points.front(), header.points.front()};
+  Box2 box{header.points.front(), header.points.front()};
   for (const Vec2d& corner : header.points) {
     box = box.merged({corner, corner});
     radius_ = std::max(radius_, corner.norm());
@@ -218,7 +218,7 @@ bool MoverWayJudge::is_on_script(const Vec2d& offset, const MoverPose& pose, Mov
 void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judgement) {
   for (MoverIndex i = 0; i < scripts_.size() && i < step.movers.size(); ++i) {
     const Course course = course_of(i);
-    const MoverMotion<double>& motion = step.movers[i];
+    const MoverMotion& motion = step.movers[i];
     const bool begins = (scripts_[i].body && step.step > 0) || is_on_script(motion.from, course.from, i, course.slack);
     const bool ends = scripts_[i].body || is_on_script(motion.to, course.to, i, course.slack);
     const bool goes_on = !goes_on_ || motion.from == before_.offsets[i];
@@ -226,7 +226,7 @@ void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judg
   }
   if (step.movers.size() < scripts_.size()) judgement.off_script.push_back(static_cast<MoverIndex>(step.movers.size()));
   now_.offsets.clear();
-  for (const MoverMotion<double>& motion : step.movers) now_.offsets.push_back(motion.to);
+  for (const MoverMotion& motion : step.movers) now_.offsets.push_back(motion.to);
 }
 
 double MoverWayJudge::allowed(const MoverPose& pose, const Vec2d& v, MoverIndex mover, double slack) const {
@@ -296,7 +296,7 @@ void MoverWayJudge::measure_arc(const VertexWay& way, const TraceStep& step, dou
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double r = points[i].norm();
     double far = 0;  // from the position of the character
-    for (const PathPoint<double>& corner : step.path)
+    for (const PathPoint& corner : step.path)
       for (const auto* vertices : {&way.vertices.front(), &way.vertices.back()})
         far = std::max(far, ((*vertices)[i] - corner.position).norm());
     const double lag = turning_share * (carried + r * turn) + allowed(course.to, points[i], def.mover, course.slack);

@@ -40,7 +40,7 @@ class ExactPair {
   /// Whether they overlap at any moment of a step. Both go evenly between the corners of their ways; parts that take no
   /// time come one after the other, those of the one first.
   /// @param one,other from fraction 0 to 1.
-  [[nodiscard]] bool meet(std::span<const PathPoint<double>> one, std::span<const PathPoint<double>> other) const;
+  [[nodiscard]] bool meet(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 
   /// The first touch of two straight motions that take the whole step; none where they do not come to overlap, or do
   /// already.
@@ -53,7 +53,7 @@ class ExactPair {
   [[nodiscard]] std::vector<NearFace> near_faces(const Vec2d& one, const Vec2d& other, double within) const;
 
   /// The largest depth at any moment of two ways, rounded [m]; 0 where they do not overlap.
-  [[nodiscard]] double deepest(std::span<const PathPoint<double>> one, std::span<const PathPoint<double>> other) const;
+  [[nodiscard]] double deepest(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 
  private:
   using Point = detail::Point<Rational>;
@@ -66,8 +66,8 @@ class ExactPair {
   };
   /// From `begin` to `end` of what leads evenly from one corner to the next; a jump takes no time and goes all the way.
   struct Part {
-    PathPoint<double> from;
-    PathPoint<double> to;
+    PathPoint from;
+    PathPoint to;
     double begin = 0;
     double end = 0;
     bool jump = false;
@@ -77,7 +77,7 @@ class ExactPair {
     [[nodiscard]] Point first() const { return jump ? exact(from.position) : at(begin); }
     [[nodiscard]] Point last() const { return jump ? exact(to.position) : at(end); }
   };
-  using Way = std::span<const PathPoint<double>>;
+  using Way = std::span<const PathPoint>;
 
   /// Calls `visit(part, part)` for what the two do at the same time, in order, until it returns true.
   template <class Visit>

@@ -168,7 +168,7 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   return now.wanted;
 }
 
-std::array<Vec2d, 4> corners_of(const Box2<double>& box) {
+std::array<Vec2d, 4> corners_of(const Box2& box) {
   return {box.lower, box.upper, Vec2d(box.lower.x(), box.upper.y()), Vec2d(box.upper.x(), box.lower.y())};
 }
 
@@ -179,10 +179,10 @@ double fastest(const MetSurface& at) { return at.velocity.norm() + std::hypot(at
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Holds nothing.
-const Box2<double> no_box{Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
+const Box2 no_box{Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
 
 /// Whether some velocity in a box enters a surface.
-bool may_enter(const Box2<double>& box, const MetSurface& at) {
+bool may_enter(const Box2& box, const MetSurface& at) {
   if (!(box.lower.x() <= box.upper.x())) return false;
   const std::array<Vec2d, 4> corners = corners_of(box);
   const std::array<Vec2d, 4> goes = velocities_of(at);
@@ -202,7 +202,7 @@ constexpr std::size_t most_rounds = 2;
 
 /// Adds to a box what one surface that rests can make of a velocity. Ground may be followed that is not entered. A wall
 /// takes what leads across up into it, or a part of that: it turns none of that upwards.
-void add_responses(const Vec2d& v, const MetSurface& at, Box2<double>& box) {
+void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
   const Vec2d& n = at.normal;
   const auto add = [&box](const Vec2d& made) { box = box.merged({made, made}); };
   const auto slide = [&](const Vec2d& w) { add(w - std::min(w.dot(n), 0.0) * n); };
@@ -297,15 +297,15 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   return outcomes;
 }
 
-Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
+Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
   const Vec2d slower(range.least_steering, 0);
   const Vec2d faster(range.most_steering, 0);
-  Box2<double> unsteered = range.unsteered;
-  Box2<double> wanted{unsteered.lower + slower, unsteered.upper + faster};
-  std::vector<Box2<double>> made_by(surfaces.size(), no_box);
+  Box2 unsteered = range.unsteered;
+  Box2 wanted{unsteered.lower + slower, unsteered.upper + faster};
+  std::vector<Box2> made_by(surfaces.size(), no_box);
   // What impulses along the normal leave.
   const auto slides = [&wanted](const MetSurface& at) {
-    Box2<double> left = no_box;
+    Box2 left = no_box;
     for (const Vec2d& goes : velocities_of(at))
       for (const Vec2d& v : corners_of(wanted)) {
         const MetSurface moving{.normal = at.normal, .velocity = goes};
@@ -318,19 +318,19 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
   for (std::size_t turn = 0; turn < most_rounds * surfaces.size(); ++turn) {
     const std::size_t i = turn % surfaces.size();
     const MetSurface& at = surfaces[i];
-    const auto responses = [&at](const Box2<double>& box) {
-      Box2<double> all = no_box;
+    const auto responses = [&at](const Box2& box) {
+      Box2 all = no_box;
       // Ground may carry the character.
       if (at.walkable || at.is_overlapped) all = at.velocities();
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
-          Box2<double> made = no_box;
+          Box2 made = no_box;
           add_responses(v - goes, at, made);
           all = all.merged({made.lower + goes, made.upper + goes});
         }
       return all;
     };
-    const Box2<double> before = unsteered;
+    const Box2 before = unsteered;
     unsteered = unsteered.merged(responses(before));
     made_by[i] = responses(wanted);
     wanted = wanted.merged(made_by[i]).merged(unsteered);
@@ -339,8 +339,8 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     for (std::size_t k = 0; k < i; ++k) {
       const MetSurface& with = surfaces[k];
       if (!are_together(at, with)) continue;
-      const Box2<double> slide = slides(at);
-      const Box2<double> other_slide = slides(with);
+      const Box2 slide = slides(at);
+      const Box2 other_slide = slides(with);
       const bool enters_with = may_enter(made_by[i].merged(slide), with);
       const bool enters_at = may_enter(made_by[k].merged(other_slide), at);
       // At two surfaces with different velocities the nearest motion may be left that enters neither.

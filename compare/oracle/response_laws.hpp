@@ -33,7 +33,7 @@ struct MetSurface {
   double stands_at = 0;
 
   /// The smallest box that holds its velocities.
-  [[nodiscard]] Box2<double> velocities() const {
+  [[nodiscard]] Box2 velocities() const {
     constexpr double any = std::numeric_limits<double>::infinity();
     if (spread + spread_along == any) return {Vec2d::Constant(-any), Vec2d::Constant(any)};
     const Vec2d along(-normal.y(), normal.x());
@@ -82,7 +82,7 @@ struct ControlledStep {
 /// What a step may begin with where its parts are not told apart, as an upright character sees it: x across up, y along
 /// it [m/s].
 struct ControlledRange {
-  Box2<double> unsteered{};   ///< As in `ControlledStep`.
+  Box2 unsteered{};           ///< As in `ControlledStep`.
   double least_steering = 0;  ///< Steering adds across up no less than this, which is not positive,
   double most_steering = 0;   ///< and no more than this.
   double squeezed = 0;        ///< Two surfaces press a character out by at most their own speeds and this.
@@ -92,7 +92,7 @@ struct ControlledRange {
 /// surfaces are met, or whether at all, nor in which order: it goes over them twice. It knows their velocities as far
 /// as `MetSurface::spread` says. Where walls leave no motion it is a crush, and the box need not hold its end.
 /// @param surfaces as an upright character sees them.
-[[nodiscard]] Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
+[[nodiscard]] Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
 
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and
 /// `MetSurface::spread` go. Nothing where it is one. The law knows the surfaces alone. It is not that of a step that

@@ -13,7 +13,7 @@ Sign side_in(const Convert<Number>& number, const Vec2d& start, const Vec2d& end
 }  // namespace
 
 Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const Integer& numerator,
-             const Integer& denominator, const Box2<double>& near)
+             const Integer& denominator, const Box2& near)
     : world_(world) {
   const Way own_way = way_in(own);
   for (const Group& group : world.groups()) {
@@ -24,7 +24,7 @@ Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const In
     }
     Neighbour neighbour = make_neighbour(group, own_way, way_in(group), numerator, denominator);
     const Vec2d& shift = neighbour.rounded_shift;
-    if (group.box.overlaps(Box2<double>{near.lower + shift, near.upper + shift}.inflated(neighbour.rounding))) {
+    if (group.box.overlaps(Box2{near.lower + shift, near.upper + shift}.inflated(neighbour.rounding))) {
       neighbours_.push_back(std::move(neighbour));
     }
   }
@@ -68,7 +68,7 @@ bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const
   std::vector<std::pair<double, double>> covers;
   for (const Neighbour& neighbour : neighbours_) {
     const Vec2d& shift = neighbour.rounded_shift;
-    const Box2<double> box{first.cwiseMin(last) + shift, first.cwiseMax(last) + shift};
+    const Box2 box{first.cwiseMin(last) + shift, first.cwiseMax(last) + shift};
     for (const std::uint32_t i : neighbour.group->edge_tree.meeting(box.inflated(neighbour.rounding))) {
       const Edge& other = world_.edges()[i];
       if (other.collider == edge.collider || world_.solids()[other.collider].kind != Kind::polygon) continue;
@@ -97,7 +97,7 @@ bool Seams::pass(const Vec2d& vertex, std::uint32_t own, const Vec2d& start, con
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
     const Vec2d there = vertex + neighbour.rounded_shift;
     const std::vector<std::uint32_t> edges =
-        neighbour.group->edge_tree.meeting(Box2<double>{there, there}.inflated(neighbour.rounding));
+        neighbour.group->edge_tree.meeting(Box2{there, there}.inflated(neighbour.rounding));
     return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
       const Edge& other = world_.edges()[i];
       if (i == own) return false;

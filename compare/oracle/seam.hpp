@@ -16,7 +16,7 @@ class Seams {
   /// @param numerator, denominator of the moment's fraction of the way; the denominator above zero.
   /// @param near encloses what is touched, in the touched collider's frame.
   Seams(const World& world, const Group& own, const WayIn& way_in, const Integer& numerator, const Integer& denominator,
-        const Box2<double>& near);
+        const Box2& near);
 
   /// Whether polygons of other colliders abut the edge all along from `first` to `last`.
   [[nodiscard]] bool cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const;

@@ -328,13 +328,13 @@ class StraightTime {
 
   /// Boxes around all places of both, with more between them than rounding.
   [[nodiscard]] bool are_far_apart() const {
-    Box2<double> body = Box2<double>{leg_.from, leg_.from}.merged({leg_.to, leg_.to});
-    Box2<double> shape{octagon_[0], octagon_[0]};
+    Box2 body = Box2{leg_.from, leg_.from}.merged({leg_.to, leg_.to});
+    Box2 shape{octagon_[0], octagon_[0]};
     for (const Vec2d& corner : octagon_) shape = shape.merged({corner, corner});
     body = {body.lower + shape.lower, body.upper + shape.upper};
     const double rounding = std::max(body.lower.cwiseAbs().maxCoeff(), body.upper.cwiseAbs().maxCoeff()) * 0x1p-48;
     const Vec2d& any = part_.way.vertices[chord_][part_.vertices[0]];
-    Box2<double> around{any, any};
+    Box2 around{any, any};
     for (const std::size_t k : {chord_, chord_ + 1})
       for (const std::size_t i : part_.vertices)
         around = around.merged({part_.way.vertices[k][i], part_.way.vertices[k][i]});
@@ -391,7 +391,7 @@ class StraightTime {
 
 }  // namespace
 
-Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path, const VertexWay& way,
+Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint> path, const VertexWay& way,
                        std::span<const std::size_t> part, double radius) {
   const PartWay whole{way, part, radius};
   const std::size_t chords = way.instants.size() - 1;

@@ -21,7 +21,7 @@ namespace paperproof::compare::detail {
 /// All numbers are integers. Isolation ends: different roots of two quadratics with coefficients of B bits are at least
 /// 2^-(4 B + 8) apart, and doubles keep 4 B below `most_bits`.
 /// @throws std::logic_error where they do not.
-[[nodiscard]] Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path,
+[[nodiscard]] Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint> path,
                                      const VertexWay& way, std::span<const std::size_t> part, double radius = 0);
 
 }  // namespace paperproof::compare::detail

@@ -97,7 +97,7 @@ void add_sensor_events(const World& world, ColliderIndex sensor, std::span<const
                        std::span<const FramePlace> places, std::vector<ExactSensorEvent>& events) {
   std::vector<Stay> stays;
   for (std::size_t leg = 0; leg + 1 < places.size(); ++leg) {
-    const Box2<double> box = world.box_of(Way::to(places[leg], places[leg + 1]));
+    const Box2 box = world.box_of(Way::to(places[leg], places[leg + 1]));
     for (const ConvexPart& part : parts) {
       if (!part.box.overlaps(box)) continue;
       std::optional<Stay> stay = part.radius > 0 ? stay_in_disc(world, sensor, places[leg], places[leg + 1])

@@ -34,7 +34,7 @@ bool turns_with(const TraceHeader& header, ColliderIndex collider) {
 /// The wanted displacement without what contacts with the rest take from it.
 Vec2d left_to_want(const TraceStep& step, const TraceHeader& header) {
   Vec2d wanted = step.requested;
-  for (const Contact<double>& contact : step.contacts)
+  for (const Contact& contact : step.contacts)
     if (!turns_with(header, contact.collider)) wanted -= contact.normal * std::min(0.0, wanted.dot(contact.normal));
   return wanted;
 }
@@ -134,13 +134,13 @@ SceneryDef TurningJudge::exact_part(const TraceHeader& header) {
 
 TraceStep TurningJudge::exact_part(const TraceStep& step) const {
   TraceStep rest = step;
-  std::erase_if(rest.contacts, [this](const Contact<double>& contact) { return turns(contact.collider); });
-  std::erase_if(rest.sensors, [this](const SensorEvent<double>& event) { return turns(event.sensor); });
+  std::erase_if(rest.contacts, [this](const Contact& contact) { return turns(contact.collider); });
+  std::erase_if(rest.sensors, [this](const SensorEvent& event) { return turns(event.sensor); });
   std::erase_if(rest.crushed, [this](ColliderIndex collider) { return turns(collider); });
   return rest;
 }
 
-Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
+Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint> path,
                               Asked asked) const {
   Meeting first;
   bool by_second = false;
@@ -168,7 +168,7 @@ bool TurningJudge::methods_agree(const Solid& solid, const TraceStep& step) cons
   });
 }
 
-bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
+bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const PathPoint& at) const {
   return meeting(solid, way, {&at, 1}).kind == Meeting::Kind::meets;
 }
 
@@ -180,7 +180,7 @@ ConvexPart TurningJudge::part_at(const Solid& solid, const std::vector<std::size
   return part;
 }
 
-Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
+Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint& at) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   Axis nearest{std::numeric_limits<double>::infinity(), Vec2d::Zero()};
   for (const std::vector<std::size_t>& numbers : solid.parts) {
@@ -193,7 +193,7 @@ Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const 
 /// Of all faces that are touched at a corner of the way, the normal that is most alike.
 Vec2d TurningJudge::nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const {
   Vec2d most_alike = -normal;
-  for (const PathPoint<double>& corner : step.path)
+  for (const PathPoint& corner : step.path)
     for (const std::vector<std::size_t>& numbers : solid.parts) {
       const ConvexPart part = part_at(solid, numbers, vertices_at(way_of(step, solid.collider), corner.fraction));
       for (const Axis& axis : separating_axes(part, octagon_, FramePlace{corner.position}, contact_reach))
@@ -204,7 +204,7 @@ Vec2d TurningJudge::nearest_face(const Solid& solid, const TraceStep& step, cons
 
 double TurningJudge::nearest(const Solid& solid, const TraceStep& step) const {
   double gap = std::numeric_limits<double>::infinity();
-  for (const PathPoint<double>& corner : step.path)
+  for (const PathPoint& corner : step.path)
     gap = std::min(gap, nearest_axis(solid, way_of(step, solid.collider), corner).separation);
   return gap;
 }
@@ -231,15 +231,15 @@ std::vector<ColliderIndex> TurningJudge::near_at_begin(const TraceStep& step, do
 
 bool TurningJudge::is_alone(const TraceStep& step, double within) const {
   const auto covered = [](std::span<const Vec2d> points) {
-    Box2<double> box{points[0], points[0]};
+    Box2 box{points[0], points[0]};
     for (const Vec2d& point : points) box = box.merged({point, point});
     return box;
   };
-  const Box2<double> extent = covered(octagon_);
-  Box2<double> places{step.path.front().position, step.path.front().position};
-  for (const PathPoint<double>& corner : step.path)
+  const Box2 extent = covered(octagon_);
+  Box2 places{step.path.front().position, step.path.front().position};
+  for (const PathPoint& corner : step.path)
     for (const Vec2d& at : {corner.position, Vec2d(corner.position + step.requested)}) places = places.merged({at, at});
-  const Box2<double> reach = Box2<double>{places.lower + extent.lower, places.upper + extent.upper}.inflated(within);
+  const Box2 reach = Box2{places.lower + extent.lower, places.upper + extent.upper}.inflated(within);
   return std::none_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
     const VertexWay& way = way_of(step, solid.collider);
     return std::any_of(way.vertices.begin(), way.vertices.end(), [&](const std::vector<Vec2d>& vertices) {
@@ -255,8 +255,8 @@ double TurningJudge::longest_way(const TraceStep& step) const {
 }
 
 TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vector<std::size_t>& numbers,
-                                              const VertexWay& way, const Vec2d& requested,
-                                              const PathPoint<double>& corner, double within) const {
+                                              const VertexWay& way, const Vec2d& requested, const PathPoint& corner,
+                                              double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
   Standing found{.part = part_at(solid, numbers, now), .turn = way.turn, .requested = requested.norm()};
   const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
@@ -294,7 +294,7 @@ std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standi
   return near;
 }
 
-std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint<double>& corner, double within) const {
+std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint& corner, double within) const {
   std::vector<NearPart> found;
   for (const Solid& solid : solids_)
     for (const std::vector<std::size_t>& numbers : solid.parts) {
@@ -344,8 +344,8 @@ std::vector<ExactImpact> TurningJudge::impacts_at_end(const TraceStep& step, con
 }
 
 /// Whether some side of a part that is near at a place faces the part of a motion across up.
-bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
-                              const Vec2d& across, double within) const {
+bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const PathPoint& at, const Vec2d& across,
+                              double within) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   return std::any_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& numbers) {
     const std::vector<Axis> axes =
@@ -354,9 +354,9 @@ bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const Pa
   });
 }
 
-TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const PathPoint<double>& corner,
+TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const PathPoint& corner,
                                                const Vec2d& motion) const {
-  const std::array<PathPoint<double>, 2> path{{corner, {corner.position + motion, corner.fraction + 1}}};
+  const std::array<PathPoint, 2> path{{corner, {corner.position + motion, corner.fraction + 1}}};
   const Vec2d up = up_in(step, header_);
   const Vec2d across = motion - motion.dot(up) * up;
   Opposition found = Opposition::none;
@@ -372,7 +372,7 @@ TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const Path
         const Meeting met = first_meeting(body, path, way, numbers, Asked::when, solid.radius);
         if (met.kind == Meeting::Kind::apart) return false;
         const double when = std::clamp(met.low, corner.fraction, corner.fraction + 1);
-        const PathPoint<double> there{corner.position + (when - corner.fraction) * motion, when};
+        const PathPoint there{corner.position + (when - corner.fraction) * motion, when};
         return is_against(solid, way, there, across, within + contact_reach);
       };
       if (opposes_body(octagon_, 0)) return Opposition::met;
@@ -382,9 +382,8 @@ TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const Path
   return found;
 }
 
-bool TurningJudge::runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
-                             double within) const {
-  const std::array<PathPoint<double>, 2> path{{corner, {corner.position + way, 1}}};
+bool TurningJudge::runs_into(const TraceStep& step, const PathPoint& corner, const Vec2d& way, double within) const {
+  const std::array<PathPoint, 2> path{{corner, {corner.position + way, 1}}};
   if (corner.fraction == 1) return false;
   return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
     const VertexWay& its = way_of(step, solid.collider);
@@ -416,11 +415,11 @@ bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(
   return has_way_out_at(header_, step, 1, sides_, accept);
 }
 
-bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const {
+bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint> way) const {
   const std::vector<Vec2d> wider = grown(octagon_, least_clearance);
   return std::all_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
     const VertexWay& its = way_of(step, solid.collider);
-    const auto is_apart = [&](std::span<const Vec2d> body, std::span<const PathPoint<double>> path) {
+    const auto is_apart = [&](std::span<const Vec2d> body, std::span<const PathPoint> path) {
       return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
         return first_meeting(body, path, its, part, Asked::whether, solid.radius).kind == Meeting::Kind::apart;
       });
@@ -450,7 +449,7 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, int pa
     side = RigidMotion(way.vertices.front(), way.vertices.back())(side);
   }
   const bool touches = std::any_of(step.contacts.begin(), step.contacts.end(),
-                                   [this](const Contact<double>& contact) { return turns(contact.collider); });
+                                   [this](const Contact& contact) { return turns(contact.collider); });
   for (const Solid& solid : solids_) {
     judge_way(solid, step, rest, judgement);
     judge_contacts(solid, step, parts, judgement);
@@ -460,7 +459,7 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, int pa
   for (const Solid& solid : solids_)
     if (contains(judgement.end_overlap, solid.collider) && !contains(inside_, solid.collider)) note_side(solid, step);
   std::set<ColliderIndex> touched;
-  for (const Contact<double>& contact : step.contacts)
+  for (const Contact& contact : step.contacts)
     if (turns(contact.collider)) touched.insert(contact.collider);
   touched_ = std::move(touched);
   std::sort(judgement.end_overlap.begin(), judgement.end_overlap.end());
@@ -469,7 +468,7 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, int pa
 /// Where the octagon was last free of what it ends inside of, as that is then.
 void TurningJudge::note_side(const Solid& solid, const TraceStep& step) {
   const VertexWay& way = way_of(step, solid.collider);
-  const auto last = std::find_if(step.path.rbegin(), step.path.rend(), [&](const PathPoint<double>& corner) {
+  const auto last = std::find_if(step.path.rbegin(), step.path.rend(), [&](const PathPoint& corner) {
     return !overlaps(solid, way, corner);
   });  // the first, if no other is
   sides_[solid.collider] = RigidMotion(vertices_at(way, last->fraction), way.vertices.back())(last->position);
@@ -485,7 +484,7 @@ bool TurningJudge::is_said_as_crush(const Solid& solid, const TraceStep& step, c
   std::optional<Vec2d> room = step.path.front().position;
   if (goes(its)) {
     room = room_beside(header_, rest, step, its, sides_,
-                       [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
+                       [&](std::span<const PathPoint> way) { return left_free(step, way); });
   }
   if (room) judgement.room = room;
   if (room && named) judgement.crushed_with_room.push_back(solid.collider);
@@ -517,7 +516,7 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const Ex
   if (met.by_second) judgement.undecided.push_back(solid.collider);
   if (met.kind != Meeting::Kind::meets) return;
   // What is excused may go through the octagon, and not the octagon through it: as it stands where the step ends.
-  const std::array<PathPoint<double>, 2> through{{{step.path.front().position, 1}, {step.path.back().position, 1}}};
+  const std::array<PathPoint, 2> through{{{step.path.front().position, 1}, {step.path.back().position, 1}}};
   if (excused && meeting(solid, way, through).kind != Meeting::Kind::meets) return;
   judge_passage(solid, step, judgement);
 }
@@ -541,12 +540,12 @@ void TurningJudge::judge_passage(const Solid& solid, const TraceStep& step, Step
 double TurningJudge::depth_on(const Solid& solid, const TraceStep& step) const {
   double depth = 0;
   for (std::size_t i = 1; i < step.path.size(); ++i) {
-    const PathPoint<double>& a = step.path[i - 1];
-    const PathPoint<double>& b = step.path[i];
+    const PathPoint& a = step.path[i - 1];
+    const PathPoint& b = step.path[i];
     for (int k = 0; k <= depth_samples; ++k) {
       const double share = static_cast<double>(k) / depth_samples;
-      const PathPoint<double> at{a.position + share * (b.position - a.position),
-                                 a.fraction + share * (b.fraction - a.fraction)};
+      const PathPoint at{a.position + share * (b.position - a.position),
+                         a.fraction + share * (b.fraction - a.fraction)};
       depth = std::max(depth, -nearest_axis(solid, way_of(step, solid.collider), at).separation);
     }
   }
@@ -555,14 +554,14 @@ double TurningJudge::depth_on(const Solid& solid, const TraceStep& step) const {
 
 void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, int parts,
                                   StepJudgement& judgement) const {
-  std::vector<Contact<double>> reported = step.contacts;
-  std::erase_if(reported, [&](const Contact<double>& contact) { return contact.collider != solid.collider; });
+  std::vector<Contact> reported = step.contacts;
+  std::erase_if(reported, [&](const Contact& contact) { return contact.collider != solid.collider; });
   const bool reports = !reported.empty();
-  const PathPoint<double>& start = step.path.front();
+  const PathPoint& start = step.path.front();
   const Vec2d wanted = header_.path_exact ? step.requested : left_to_want(step, header_);
   const int ahead = header_.path_exact ? 1 : steps_ahead;
   const VertexWay way = gone_on(way_of(step, solid.collider), ahead);
-  const std::array<PathPoint<double>, 2> path{{start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
+  const std::array<PathPoint, 2> path{{start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
   const Meeting met = meeting(solid, way, path, Asked::when);
   const bool touches = met.kind == Meeting::Kind::meets;
   const double when = touches ? met.low + (met.high - met.low) / 2 : 0;
@@ -571,7 +570,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, int
   const bool first = told && (!judgement.first_impact || when < *judgement.first_impact);
   const double gap = reports || !promises_ ? nearest(solid, step) : 0;
   if (header_.path_exact && reports && gap <= contact_reach) {
-    for (const Contact<double>& contact : reported) {
+    for (const Contact& contact : reported) {
       const Vec2d face = nearest_face(solid, step, contact.normal);
       judgement.contacts.push_back(
           {.collider = solid.collider, .side = contact.side, .normal = face, .fraction = contact.fraction});
@@ -608,12 +607,12 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, int
 /// When the way that was travelled up to a moment touches, if it goes on from there as straight as before; nothing
 /// where it did not go, or leapt, just before.
 std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const TraceStep& step, double moment) const {
-  std::vector<PathPoint<double>> way;
-  for (const PathPoint<double>& corner : step.path)
+  std::vector<PathPoint> way;
+  for (const PathPoint& corner : step.path)
     if (corner.fraction <= moment) way.push_back(corner);
   if (way.size() < 2 || moment == 1) return std::nullopt;
-  const PathPoint<double> last = way.back();
-  const PathPoint<double> before = way[way.size() - 2];
+  const PathPoint last = way.back();
+  const PathPoint before = way[way.size() - 2];
   if (last.position == before.position || last.fraction - before.fraction < leap) return std::nullopt;
   const Vec2d rate = (last.position - before.position) / (last.fraction - before.fraction);
   way.push_back({last.position + (1 - last.fraction) * rate, 1});

@@ -61,7 +61,7 @@ class TurningJudge {
   /// Whether something that turns is within so many metres at a corner of the way.
   [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.
-  [[nodiscard]] bool left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const;
+  [[nodiscard]] bool left_free(const TraceStep& step, std::span<const PathPoint> way) const;
   /// The solids that are no farther than so many metres from where the step begins.
   [[nodiscard]] std::vector<ColliderIndex> near_at_begin(const TraceStep& step, double within) const;
 
@@ -79,7 +79,7 @@ class TurningJudge {
   /// where `reach` is the extent of the part, or of the octagon and `within` if that is less, and `leaves` how far the
   /// nearest point goes from an even straight way. All points of a straight face go equally fast along it, while it
   /// turns by nothing: so `unsure_along` has `turn` times the reach, and the gap, in place of the reach.
-  [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint<double>& corner, double within) const;
+  [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint& corner, double within) const;
   /// The same where the step ends, if everything went all the time as it does in the last stretch between two instants.
   [[nodiscard]] std::vector<NearPart> near_at_end(const TraceStep& step, double within) const;
   /// What a displacement from where the step ends meets first, of all that is within its length, while all stays.
@@ -92,11 +92,10 @@ class TurningJudge {
   };
   /// Whether something opposes a motion from a corner of the way, in the time of a whole step: what turns goes on as in
   /// this one. @param motion [m]
-  [[nodiscard]] Opposition opposes(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& motion) const;
+  [[nodiscard]] Opposition opposes(const TraceStep& step, const PathPoint& corner, const Vec2d& motion) const;
   /// Whether something farther away than `within` at a corner of the way is met in the rest of the step, if the octagon
   /// goes on by so much. @param way [m]
-  [[nodiscard]] bool runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
-                               double within) const;
+  [[nodiscard]] bool runs_into(const TraceStep& step, const PathPoint& corner, const Vec2d& way, double within) const;
   /// Who leaves what carried it, or rides a disc, goes on as that went in the step before. By so much what is touched
   /// carries otherwise in this one, as a conveyor too [m].
   [[nodiscard]] double carries_otherwise(const TraceStep& step) const;
@@ -116,7 +115,7 @@ class TurningJudge {
   };
 
   /// The first touch of all parts on a way.
-  [[nodiscard]] Meeting meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
+  [[nodiscard]] Meeting meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint> path,
                                 Asked asked = Asked::whether) const;
   /// Where a part stands at an instant, and how it goes in the step.
   struct Standing {
@@ -128,19 +127,19 @@ class TurningJudge {
     double requested = 0;  ///< [m]
   };
   [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const VertexWay& way,
-                                  const Vec2d& requested, const PathPoint<double>& corner, double within) const;
+                                  const Vec2d& requested, const PathPoint& corner, double within) const;
   [[nodiscard]] std::optional<NearPart> near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
                                                   double within) const;
   /// @param across up, as long as the motion goes that way [m].
-  [[nodiscard]] bool is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
-                                const Vec2d& across, double within) const;
+  [[nodiscard]] bool is_against(const Solid& solid, const VertexWay& way, const PathPoint& at, const Vec2d& across,
+                                double within) const;
   [[nodiscard]] bool methods_agree(const Solid& solid, const TraceStep& step) const;
-  [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
+  [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint& at) const;
   /// @param vertices all of the solid, at one instant.
   [[nodiscard]] static ConvexPart part_at(const Solid& solid, const std::vector<std::size_t>& numbers,
                                           std::span<const Vec2d> vertices);
   [[nodiscard]] Vec2d nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const;
-  [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
+  [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint& at) const;
   /// Over the corners of the way [m].
   [[nodiscard]] double nearest(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool is_said_as_crush(const Solid& solid, const TraceStep& step, const ExactScenery& rest,

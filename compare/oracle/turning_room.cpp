@@ -115,18 +115,18 @@ bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& 
 
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
                                  const VertexWay& crusher, const Sides& sides,
-                                 const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
+                                 const std::function<bool(std::span<const PathPoint>)>& left_free) {
   const ExactScenery end(standing_at(header.scenery, step, 1), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
   const double reach = largest_motion(crusher) + push_beyond_motion;
-  std::vector<PathPoint<double>> way;
-  for (const PathPoint<double>& corner : step.path) {
+  std::vector<PathPoint> way;
+  for (const PathPoint& corner : step.path) {
     if (corner.fraction == 1) break;
     way.push_back(corner);
     const Place from(corner, step.movers);
     const auto reached = [&](const Vec2d& position) {
       const Place there(position, step.movers, 1);
-      std::vector<PathPoint<double>> whole = way;
+      std::vector<PathPoint> whole = way;
       whole.push_back({position, 1});
       return (position - step.path.back().position).norm() <= reach && on_their_sides(end, sides, there) &&
              meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(whole);

@@ -46,9 +46,9 @@ using Sides = std::map<ColliderIndex, Vec2d>;
 /// @param rest the solids that do not turn. @param sides of what was overlapped when the step began, as things are when
 ///   it ends: room is on the same side.
 /// @param left_free whether a way of the whole step leaves free what turns.
-[[nodiscard]] std::optional<Vec2d> room_beside(
-    const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const VertexWay& crusher,
-    const Sides& sides, const std::function<bool(std::span<const PathPoint<double>>)>& left_free);
+[[nodiscard]] std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest,
+                                               const TraceStep& step, const VertexWay& crusher, const Sides& sides,
+                                               const std::function<bool(std::span<const PathPoint>)>& left_free);
 
 /// A way out of what the octagon is inside of is looked for this far [m].
 inline constexpr double farthest_way_out = 1e4;

@@ -14,7 +14,7 @@ namespace paperproof::compare::detail {
 /// motion is zero.
 struct FramePlace {
   Vec2d position{Vec2d::Zero()};
-  MoverMotion<double> mover{};
+  MoverMotion mover{};
   double fraction = 0;
 
   template <class Number>

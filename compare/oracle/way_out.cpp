@@ -126,9 +126,9 @@ std::vector<Interval> without(const Interval& whole, std::vector<Interval> taken
 class Plane {
  public:
   Plane(std::span<const Barrier> barriers, std::span<const Vec2d> octagon, const EndSearch& search) : search_(search) {
-    std::vector<Box2<double>> boxes;
+    std::vector<Box2> boxes;
     std::vector<std::uint32_t> names;
-    const Box2<double> shape = Box2<double>::around(octagon);
+    const Box2 shape = Box2::around(octagon);
     for (const Barrier& barrier : barriers) {
       if (barrier.from) hidden_.push_back(hidden_by(barrier, search.beside));
       if (!barrier.bars_ends) continue;
@@ -140,10 +140,10 @@ class Plane {
         const Axis out = best_axis(*barrier.exact, octagon, barrier.end);
         beside_discs_.emplace_back(out.normal * (search.clearance - out.separation));
       }
-      const Box2<double>& box = barrier.part->box;
+      const Box2& box = barrier.part->box;
       const Vec2d seen = barrier.end.rounded();
       boxes.push_back(
-          Box2<double>{box.lower - seen - shape.upper, box.upper - seen - shape.lower}.inflated(2 * search.clearance));
+          Box2{box.lower - seen - shape.upper, box.upper - seen - shape.lower}.inflated(2 * search.clearance));
     }
     tree_ = BoxTree(std::move(boxes), std::move(names));
   }

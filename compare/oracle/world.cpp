@@ -30,8 +30,8 @@ int lowest_bit(std::span<const Vec2d> points) {
   return lowest;
 }
 
-Box2<double> box_around(std::span<const Vec2d> points) {
-  Box2<double> box{points[0], points[0]};
+Box2 box_around(std::span<const Vec2d> points) {
+  Box2 box{points[0], points[0]};
   for (const Vec2d& point : points) box = box.merged({point, point});
   return box;
 }
@@ -117,8 +117,8 @@ std::uint32_t World::find_group(const ColliderDef& def) {
 }
 
 void World::build_trees(Group& group) const {
-  std::vector<Box2<double>> solid_boxes;
-  std::vector<Box2<double>> edge_boxes;
+  std::vector<Box2> solid_boxes;
+  std::vector<Box2> edge_boxes;
   std::vector<std::uint32_t> edge_names;
   group.box = solids_[group.colliders.front()].box;
   for (const ColliderIndex collider : group.colliders) {
@@ -186,11 +186,11 @@ void World::add_one_way(ColliderIndex index) {
   }
 }
 
-Box2<double> World::box_of(const Way& way) const noexcept {
+Box2 World::box_of(const Way& way) const noexcept {
   const Vec2d from = way.from.rounded();
   const Vec2d end = way.rounded_end();
-  const Box2<double> ends = Box2<double>{from, from}.merged({end, end});
-  const Box2<double> box{ends.lower + points_box_.lower, ends.upper + points_box_.upper};
+  const Box2 ends = Box2{from, from}.merged({end, end});
+  const Box2 box{ends.lower + points_box_.lower, ends.upper + points_box_.upper};
   // At most eight roundings of numbers no larger than these.
   const double size = way.size() + points_box_.lower.cwiseAbs().maxCoeff() + points_box_.upper.cwiseAbs().maxCoeff();
   return box.inflated(size * 0x1p-49 + std::numeric_limits<double>::min());

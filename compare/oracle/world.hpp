@@ -34,7 +34,7 @@ struct Solid {
   std::uint32_t first_edge = 0;
   std::uint32_t edge_count = 0;
   int unit = 0;  ///< Lowest bit of its vertices, or of centre and radius.
-  Box2<double> box;
+  Box2 box;
 };
 
 /// What goes along with one mover, or stands: its frame is the one where that mover's offset is zero. Sensors are kept
@@ -43,7 +43,7 @@ struct Group {
   MoverIndex mover = no_mover;
   bool sensor = false;
   std::vector<ColliderIndex> colliders;
-  Box2<double> box;
+  Box2 box;
   BoxTree edge_tree;
   BoxTree solid_tree;
 };
@@ -59,7 +59,7 @@ class World {
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept { return scenery_; }
   [[nodiscard]] std::span<const Vec2d> points() const noexcept { return points_; }
-  [[nodiscard]] const Box2<double>& points_box() const noexcept { return points_box_; }
+  [[nodiscard]] const Box2& points_box() const noexcept { return points_box_; }
   [[nodiscard]] std::span<const Edge> edges() const noexcept { return edges_; }
   [[nodiscard]] std::span<const Edge> edges_of(ColliderIndex collider) const noexcept {
     return std::span(edges_).subspan(solids_[collider].first_edge, solids_[collider].edge_count);
@@ -75,7 +75,7 @@ class World {
   /// A point strictly inside the octagon, relative to its position.
   [[nodiscard]] const Vec2d& witness() const noexcept { return witness_; }
   /// Encloses all that the octagon touches on the way.
-  [[nodiscard]] Box2<double> box_of(const Way& way) const noexcept;
+  [[nodiscard]] Box2 box_of(const Way& way) const noexcept;
   /// The unit in which everything about this way and this solid is an integer.
   [[nodiscard]] int unit_of(const Way& way, ColliderIndex collider) const noexcept {
     return std::min({solids_[collider].unit, points_unit_, way.unit()});
@@ -101,7 +101,7 @@ class World {
   SceneryDef scenery_;
   std::vector<Vec2d> points_;
   Vec2d witness_{Vec2d::Zero()};
-  Box2<double> points_box_;
+  Box2 points_box_;
   int points_unit_ = 0;
   std::vector<Edge> edges_;
   std::vector<Solid> solids_;
@@ -182,7 +182,7 @@ class Passage {
   const World& world_;
   const Group& group_;
   Way way_;
-  Box2<double> box_;
+  Box2 box_;
   Frame<Approximate> quick_;
   mutable std::optional<std::pair<std::uint32_t, bool>> known_above_;  ///< The surface asked about last.
 };

@@ -36,12 +36,12 @@ struct Disagreement {
     std::size_t run = 0;        ///< Position in `ReportScene::runs`: gives the name, the octagon and the scenery.
     Vec2d from{Vec2d::Zero()};  ///< Where the step began [m].
     Vec2d to{Vec2d::Zero()};    ///< Where it ended [m].
-    std::vector<Contact<double>> contacts;
+    std::vector<Contact> contacts;
   };
   int step = 0;
-  std::vector<Statement> statements;                  ///< What each side says, usually controller and Box2D.
-  std::optional<std::vector<Contact<double>>> exact;  ///< What exact arithmetic says, where it was asked.
-  std::string who_is_right;                           ///< One sentence with the reason.
+  std::vector<Statement> statements;          ///< What each side says, usually controller and Box2D.
+  std::optional<std::vector<Contact>> exact;  ///< What exact arithmetic says, where it was asked.
+  std::string who_is_right;                   ///< One sentence with the reason.
 };
 
 struct ReportScene {

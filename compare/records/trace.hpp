@@ -98,18 +98,18 @@ struct TraceHeader {
   std::vector<Vec2d> points;   ///< Hull of the character, relative to its position [m], as run.
   /// How the character wants to move, jumping rules in force included. Its shape is `points`.
   CharacterDef character{};
-  Vec2d gravity{Vec2d::Zero()};               ///< [m/s²]
-  Vec2d up{Vec2d::UnitY()};                   ///< Unit vector: the character falls against it.
-  std::vector<TraceStart> starts{};           ///< One for each character.
-  std::vector<MoverScript> scripts{};         ///< By mover: where the scene says that it is.
-  std::optional<Box2<double>> respawn_box{};  ///< Maps only: see `Scene::respawn_box`.
-  int substeps = 1;                           ///< Into how many shorter steps the contender divides each.
-  std::vector<Clause> guarantees{};           ///< What the contender promises. Empty: nothing.
-  SceneryDef scenery;                         ///< As run, world metres.
-  std::vector<std::string> ids;               ///< One per collider.
-  std::vector<bool> turning;                  ///< By mover; empty where none turns.
-  std::string box2d;                          ///< Version of the Box2D in use.
-  std::optional<LevelPlan> plan;              ///< None for Box2D, which has none.
+  Vec2d gravity{Vec2d::Zero()};        ///< [m/s²]
+  Vec2d up{Vec2d::UnitY()};            ///< Unit vector: the character falls against it.
+  std::vector<TraceStart> starts{};    ///< One for each character.
+  std::vector<MoverScript> scripts{};  ///< By mover: where the scene says that it is.
+  std::optional<Box2> respawn_box{};   ///< Maps only: see `Scene::respawn_box`.
+  int substeps = 1;                    ///< Into how many shorter steps the contender divides each.
+  std::vector<Clause> guarantees{};    ///< What the contender promises. Empty: nothing.
+  SceneryDef scenery;                  ///< As run, world metres.
+  std::vector<std::string> ids;        ///< One per collider.
+  std::vector<bool> turning;           ///< By mover; empty where none turns.
+  std::string box2d;                   ///< Version of the Box2D in use.
+  std::optional<LevelPlan> plan;       ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;
@@ -120,9 +120,9 @@ struct TraceStep {
   std::optional<double> dt{};  ///< Its own length [s], where the scene gives each step one.
   CharacterIndex character = 0;
   Input input{};
-  std::optional<Vec2d> up{};            ///< In this step, where it is not the header's.
-  std::optional<Vec2d> gravity{};       ///< The same [m/s²].
-  std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
+  std::optional<Vec2d> up{};       ///< In this step, where it is not the header's.
+  std::optional<Vec2d> gravity{};  ///< The same [m/s²].
+  std::vector<PathPoint> path;     ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
   double steered = 0;             ///< The part of `requested.x()` that this step's steering added [m].
@@ -134,14 +134,14 @@ struct TraceStep {
   std::optional<TraceRide> ride{};
   Vec2d ground_velocity{Vec2d::Zero()};      ///< Of the surface that the character stands on at the end [m/s].
   std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.
-  std::vector<Contact<double>> contacts;
+  std::vector<Contact> contacts;
   std::vector<CharacterIndex> start_overlap_characters;  ///< Which it overlapped when the step began, exactly.
-  std::vector<CrowdContact<double>> met;                 ///< Contacts with other characters.
+  std::vector<CrowdContact> met;                         ///< Contacts with other characters.
   /// One for each mover of the scenery; of one that turns the offset of the point that it turns about.
-  std::vector<MoverMotion<double>> movers;
-  std::vector<VertexWay> vertex_ways;        ///< Of each collider that goes with a mover that turns, in order.
-  std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
-  std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
+  std::vector<MoverMotion> movers;
+  std::vector<VertexWay> vertex_ways;  ///< Of each collider that goes with a mover that turns, in order.
+  std::vector<ColliderIndex> crushed;  ///< Colliders of movers that left the character no room, as reported.
+  std::vector<SensorEvent> sensors;    ///< In order of time, as reported.
   /// One-way chains that were passed against their normal on purpose, as reported: the input asked to drop.
   std::vector<ColliderIndex> dropped_through{};
   bool respawn = false;  ///< The character was put back at the start, or placed elsewhere, before this step.

@@ -375,12 +375,12 @@ void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
       step.vertex_ways.push_back(read_way(motion, collider, header.scenery.colliders[collider]));
       offset = motion.find("offset");
     }
-    MoverMotion<double> own{Vec2d::Zero(), Vec2d::Zero()};
+    MoverMotion own{Vec2d::Zero(), Vec2d::Zero()};
     if (offset) {
       const std::vector<Value> ends = offset->list(2, 2);
       own = {ends[0].point(), ends[1].point()};
     }
-    const MoverMotion<double>& other = step.movers[mover];
+    const MoverMotion& other = step.movers[mover];
     if (!known.insert(mover).second && (other.from != own.from || other.to != own.to))
       motion.refuse("the offset of what goes along with it");
     step.movers[mover] = own;
@@ -396,7 +396,7 @@ void read_events(const Value& at, const TraceHeader& header, TraceStep& step) {
   if (const auto met = at.find("met"))
     for (const Value& one : met->list()) {
       one.only({"character", "normal", "fraction", "side"});
-      CrowdContact<double> contact;
+      CrowdContact contact;
       contact.other = static_cast<CharacterIndex>(one.require("character").index(header.characters));
       contact.normal = one.require("normal").point();
       contact.fraction = one.require("fraction").share();
@@ -405,7 +405,7 @@ void read_events(const Value& at, const TraceHeader& header, TraceStep& step) {
     }
   if (const auto sensors = at.find("sensors"))
     for (const Value& one : sensors->list()) {
-      using Change = SensorEvent<double>::Change;
+      using Change = SensorEvent::Change;
       one.only({"id", "change", "fraction"});
       step.sensors.push_back({index_of(one.require("id"), header.ids),
                               one.require("change").one_of<Change>({{"enter", Change::enter}, {"exit", Change::exit}}),

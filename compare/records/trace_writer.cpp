@@ -120,7 +120,7 @@ void put_flags(Buffer& out, std::initializer_list<std::pair<std::string_view, bo
 
 void put_text(Buffer& out, std::string_view text) { out.append(text.data(), text.data() + text.size()); }
 
-void put_path(Buffer& out, const std::vector<PathPoint<double>>& path) {
+void put_path(Buffer& out, const std::vector<PathPoint>& path) {
   put_text(out, "\"path\":[");
   for (std::size_t i = 0; i < path.size(); ++i) {
     put_text(out, i == 0 ? "[" : ",[");
@@ -134,7 +134,7 @@ void put_path(Buffer& out, const std::vector<PathPoint<double>>& path) {
   out.push_back(']');
 }
 
-void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<std::string>& ids) {
+void put_contact(Buffer& out, const Contact& contact, const std::vector<std::string>& ids) {
   put_text(out, "{\"collider\":");
   put_text(out, ids[contact.collider]);
   put_text(out, ",\"point\":");
@@ -148,7 +148,7 @@ void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<
   fmt::format_to(std::back_inserter(out), ",\"side\":\"{}\"}}", name_of(contact.side));
 }
 
-void put_met(Buffer& out, const std::vector<CrowdContact<double>>& met) {
+void put_met(Buffer& out, const std::vector<CrowdContact>& met) {
   put_text(out, ",\"met\":[");
   for (std::size_t i = 0; i < met.size(); ++i) {
     fmt::format_to(std::back_inserter(out), "{}{{\"character\":{},\"normal\":", i == 0 ? "" : ",", met[i].other);
@@ -171,12 +171,12 @@ void put_list(Buffer& out, const Items& items, const Put& put_one) {
 }
 
 /// Where a mover is when the step begins and ends.
-void put_motion(Buffer& out, const MoverMotion<double>& motion) {
+void put_motion(Buffer& out, const MoverMotion& motion) {
   put_list(out, std::array{motion.from, motion.to}, [&](const Vec2d& offset) { put(out, offset); });
 }
 
 /// @param motion of its mover.
-void put_way(Buffer& out, const VertexWay& way, const MoverMotion<double>& motion) {
+void put_way(Buffer& out, const VertexWay& way, const MoverMotion& motion) {
   put_text(out, "{\"k\":");
   put_list(out, way.instants, [&](double instant) { put(out, instant); });
   put_text(out, ",\"vertices\":");
@@ -194,10 +194,10 @@ void put_ids(Buffer& out, const std::vector<ColliderIndex>& colliders, const std
   put_list(out, colliders, [&](ColliderIndex collider) { put_text(out, ids[collider]); });
 }
 
-void put_sensors(Buffer& out, const std::vector<SensorEvent<double>>& events, const std::vector<std::string>& ids) {
+void put_sensors(Buffer& out, const std::vector<SensorEvent>& events, const std::vector<std::string>& ids) {
   put_text(out, ",\"sensors\":[");
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const bool enters = events[i].change == SensorEvent<double>::Change::enter;
+    const bool enters = events[i].change == SensorEvent::Change::enter;
     put_text(out, i == 0 ? "{\"id\":" : ",{\"id\":");
     put_text(out, ids[events[i].sensor]);
     put_text(out, enters ? ",\"change\":\"enter\",\"fraction\":" : ",\"change\":\"exit\",\"fraction\":");

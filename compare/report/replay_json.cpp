@@ -39,14 +39,14 @@ double farthest_coordinate(const ReportScene& scene) {
   for (const ReportRun& run : scene.runs) {
     Vec2d farthest_offset = Vec2d::Zero();
     for (const TraceStep& step : run.steps) {
-      for (const MoverMotion<double>& mover : step.movers) grow(farthest_offset, mover.to);
+      for (const MoverMotion& mover : step.movers) grow(farthest_offset, mover.to);
     }
     for (const ColliderDef& collider : run.header.scenery.colliders) {
       for (const Vec2d& point : collider.points)
         grow(extent, collider.mover == no_mover ? point : Vec2d(point.cwiseAbs() + farthest_offset));
     }
     for_each_step(run, [&extent](const TraceStep& step) {
-      for (const PathPoint<double>& corner : step.path) grow(extent, corner.position);
+      for (const PathPoint& corner : step.path) grow(extent, corner.position);
     });
   }
   return extent.maxCoeff();
@@ -54,8 +54,8 @@ double farthest_coordinate(const ReportScene& scene) {
 
 std::set<ColliderIndex> colliders_to_name(const ReportScene& scene) {
   std::set<ColliderIndex> named;
-  const auto add_contacts = [&named](const std::vector<Contact<double>>& contacts) {
-    for (const Contact<double>& contact : contacts) named.insert(contact.collider);
+  const auto add_contacts = [&named](const std::vector<Contact>& contacts) {
+    for (const Contact& contact : contacts) named.insert(contact.collider);
   };
   for (const ReportRun& run : scene.runs) {
     for_each_step(run, [&](const TraceStep& step) {

@@ -76,7 +76,7 @@ class Columns {
     position_ = corner;
   }
 
-  void add_path(const std::vector<PathPoint<double>>& path) {
+  void add_path(const std::vector<PathPoint>& path) {
     if (path.empty()) {
       path_.add(-1);
     } else if (path.size() == 2 && quantum_.round(path.front().position) == position_) {
@@ -84,7 +84,7 @@ class Columns {
       add_corner(quantum_.round(path.back().position));
     } else {
       path_.add(static_cast<std::int64_t>(path.size()));
-      for (const PathPoint<double>& corner : path) {
+      for (const PathPoint& corner : path) {
         add_corner(quantum_.round(corner.position));
         path_.add(in_parts(corner.fraction));
       }
@@ -106,9 +106,9 @@ class Columns {
     return entry->second;
   }
 
-  void add_contacts(const std::vector<Contact<double>>& contacts) {
+  void add_contacts(const std::vector<Contact>& contacts) {
     contacts_.add(static_cast<std::int64_t>(contacts.size()));
-    for (const Contact<double>& contact : contacts) {
+    for (const Contact& contact : contacts) {
       const std::size_t kind = index_of({contact.collider, static_cast<std::int64_t>(contact.side),
                                          in_parts(contact.normal.x()), in_parts(contact.normal.y())});
       const DisplayPoint point = quantum_.round(contact.point);
@@ -120,10 +120,10 @@ class Columns {
     }
   }
 
-  void add_met(const std::vector<CrowdContact<double>>& met) {
+  void add_met(const std::vector<CrowdContact>& met) {
     if (met.empty()) return;
     JsonArray list;
-    for (const CrowdContact<double>& contact : met) {
+    for (const CrowdContact& contact : met) {
       list.add(contact.other).add(static_cast<std::int64_t>(contact.side));
       list.add(in_parts(contact.normal.x())).add(in_parts(contact.normal.y())).add(in_parts(contact.fraction));
     }
@@ -145,7 +145,7 @@ class Columns {
   }
 
   /// At a steady speed all numbers are 0 or, where it is no whole number of units, 1.
-  void add_movers(const std::vector<MoverMotion<double>>& movers) {
+  void add_movers(const std::vector<MoverMotion>& movers) {
     if (count_ == 0) places_.resize(movers.size());
     const std::size_t known = std::min(places_.size(), movers.size());
     bool jumped = false;
@@ -189,11 +189,11 @@ class Columns {
 };
 
 bool is_finite(const TraceStep& step) {
-  const auto moves = [](const MoverMotion<double>& mover) { return mover.from.allFinite() && mover.to.allFinite(); };
+  const auto moves = [](const MoverMotion& mover) { return mover.from.allFinite() && mover.to.allFinite(); };
   return step.velocity.allFinite() && step.remainder.allFinite() &&
          std::all_of(step.movers.begin(), step.movers.end(), moves) &&
          std::all_of(step.path.begin(), step.path.end(),
-                     [](const PathPoint<double>& corner) { return corner.position.allFinite(); });
+                     [](const PathPoint& corner) { return corner.position.allFinite(); });
 }
 
 /// Up to the first step on which a character is not.
@@ -286,9 +286,9 @@ std::string run_json(const ReportRun& run, std::size_t scenery, const Quantum& q
   return std::move(object).take();
 }
 
-std::string plain_contacts_json(const std::vector<Contact<double>>& contacts, const Quantum& quantum) {
+std::string plain_contacts_json(const std::vector<Contact>& contacts, const Quantum& quantum) {
   JsonArray list;
-  for (const Contact<double>& contact : contacts) {
+  for (const Contact& contact : contacts) {
     JsonArray numbers;
     numbers.add(contact.collider).add(static_cast<std::int64_t>(contact.side));
     numbers.add(quantum.round(contact.point.x())).add(quantum.round(contact.point.y()));

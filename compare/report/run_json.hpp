@@ -34,6 +34,6 @@ namespace paperproof::compare {
 
 /// Contacts one by one: [[collider, side, x, y, normal x, normal y, fraction, separation]…], lengths in quanta,
 /// normals and fractions in 1/10,000, the separation in metres.
-[[nodiscard]] std::string plain_contacts_json(const std::vector<Contact<double>>& contacts, const Quantum& quantum);
+[[nodiscard]] std::string plain_contacts_json(const std::vector<Contact>& contacts, const Quantum& quantum);
 
 }  // namespace paperproof::compare

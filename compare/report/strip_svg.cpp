@@ -104,7 +104,7 @@ void draw_scenery(Svg& svg, const View& view, const ReportRun& run, const TraceS
 void draw_way(Svg& svg, const View& view, const ReportRun& run, const TraceStep& record, std::size_t ink_number) {
   const std::string ink = fmt::format("i{}", ink_number % svg_inks);
   std::vector<Vec2d> way;
-  for (const PathPoint<double>& corner : record.path) way.push_back(corner.position);
+  for (const PathPoint& corner : record.path) way.push_back(corner.position);
   svg.polyline(view.flat(run.header.points, way.front()), true, "curve ghost " + ink);
   svg.polyline(view.flat(way, Vec2d::Zero()), false, "curve " + ink);
   svg.polyline(view.flat(run.header.points, way.back()), true, "curve " + ink);
@@ -127,7 +127,7 @@ std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>
   Box box;
   for (const StripPanel& panel : panels)
     if (const TraceStep* record = record_of(panel, step))
-      for (const PathPoint<double>& corner : record->path)
+      for (const PathPoint& corner : record->path)
         for (const Vec2d& point : panel.run->header.points) box.grow(corner.position + point);
   Svg svg(2 * margin + static_cast<double>(panels.size()) * (panel_width + gap) - gap, strip_top + panel_height + 78);
   svg.text(margin, 24, "start", title, "title");

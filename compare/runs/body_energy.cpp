@@ -48,7 +48,7 @@ void BodyEnergy::add(const TraceStep& step) {
   double turned_over = in_springs(step);
   double height = 0;
   for (MoverIndex i = 0; i < step.movers.size(); ++i) {
-    const MoverMotion<double>& motion = step.movers[i];
+    const MoverMotion& motion = step.movers[i];
     const double mass = scene_.movers[i].body->mass;
     const Vec2d velocity = (motion.to - motion.from) / dt;
     const double ulp = roundings * epsilon * motion.to.cwiseAbs().maxCoeff();

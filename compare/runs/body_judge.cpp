@@ -38,7 +38,7 @@ void BodyJudge::add(const TraceStep& step) {
   bool inside = false;
   bool passed = false;
   for (Body& body : bodies_) {
-    const MoverMotion<double>& motion = step.movers[body.mover];
+    const MoverMotion& motion = step.movers[body.mover];
     TraceStep own;
     own.step = step.step;
     own.dt = step.dt;

@@ -80,8 +80,7 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHe
 
 class Box2dContender final : public Contender {
  public:
-  Box2dContender(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
-                 std::span<const KnobSetting> knobs)
+  Box2dContender(const TwinDef& def, const Scene& scene, const Scenery& scenery, std::span<const KnobSetting> knobs)
       : character_(rules_for_twin(scene)),
         substeps_(def.substeps),
         world_(scenery, scene.character, starts_of(scene), def.world),
@@ -155,14 +154,14 @@ class Box2dContender final : public Contender {
   }
 
   void place(const Pose& pose, std::size_t character) override {
-    twins_[character] = {state_at<double>(pose), pose.ground_normal, 0};
+    twins_[character] = {state_at(pose), pose.ground_normal, 0};
     twins_[character].state.ride = pose.ride;
     world_.place(pose.position, pose.velocity, character);
   }
 
  private:
   struct Twin {
-    CharacterState<double> state;
+    CharacterState state;
     Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what the ride is on.
     double steered = 0;                   ///< See `DesiredVelocity`, of the present step [m/s].
   };
@@ -191,7 +190,7 @@ class Box2dContender final : public Contender {
   StepInput part_of(const StepInput& whole, int substep) {
     if (substeps_ == 1) return whole;
     part_movers_.clear();
-    for (const MoverMotion<double>& mover : whole.movers)
+    for (const MoverMotion& mover : whole.movers)
       part_movers_.push_back({place_at(mover, substep), place_at(mover, substep + 1)});
     part_turns_.clear();
     for (const TurnMotion& turn : whole.turns)
@@ -229,12 +228,12 @@ class Box2dContender final : public Contender {
   Vec2d wanted_by(Twin& twin, const Input& player, const StepInput& input) const {
     twin.state.velocity -= twin.state.ride.velocity;
     const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, input.movers);
-    const DesiredVelocity<double> own = desired_velocity(character_, input.gravity, player, dt_, twin.state);
+    const DesiredVelocity own = desired_velocity(character_, input.gravity, player, dt_, twin.state);
     twin.steered = own.steered;
     return carried + own.velocity;
   }
 
-  std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion<double>> movers) {
+  std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion> movers) {
     try {
       return world_.step_all(wishes_, dt_, movers, turns_);
     } catch (const box2d::InvalidDefinition& reason) {
@@ -243,19 +242,19 @@ class Box2dContender final : public Contender {
   }
 
   void take_over(const box2d::TwinStep& step, Twin& twin) const {
-    CharacterState<double>& state = twin.state;
+    CharacterState& state = twin.state;
     state.velocity = step.velocity;
     state.grounded = step.grounded;
     ride_on(step, twin);
     // Of what rides, float keeps no more than this [m/s].
-    const double at_rest = state.ride.ground == Ride<double>::none ? 0 : 1e-4;
+    const double at_rest = state.ride.ground == Ride::none ? 0 : 1e-4;
     if (step.grounded && step.velocity.y() <= state.ride.velocity.y() + at_rest) state.jumping = false;
   }
 
   /// A character that comes to rest on what carries is carried at once; one with a speed of its own keeps it, as for
   /// the controller.
   void ride_on(const box2d::TwinStep& step, Twin& twin) const {
-    const bool comes_to_rest = twin.state.ride.ground == Ride<double>::none && twin.state.velocity.x() == 0;
+    const bool comes_to_rest = twin.state.ride.ground == Ride::none && twin.state.velocity.x() == 0;
     twin.state.ride = {};
     if (!step.ground) return;
     const ColliderDef& ground = header_.scenery.colliders[step.ground->collider];
@@ -268,9 +267,9 @@ class Box2dContender final : public Contender {
 
   /// In one step [m/s]; a conveyor's surface runs along the ground, to the right where its speed is positive.
   [[nodiscard]] Vec2d velocity_of_ground(ColliderIndex ground, const Vec2d& normal,
-                                         std::span<const MoverMotion<double>> movers) const {
+                                         std::span<const MoverMotion> movers) const {
     Vec2d velocity = Vec2d::Zero();
-    if (ground == Ride<double>::none) return velocity;
+    if (ground == Ride::none) return velocity;
     const ColliderDef& collider = header_.scenery.colliders[ground];
     if (collider.mover != no_mover) velocity = (movers[collider.mover].to - movers[collider.mover].from) / dt_;
     return velocity + collider.surface_speed * Vec2d(normal.y(), -normal.x());
@@ -282,8 +281,8 @@ class Box2dContender final : public Contender {
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   std::vector<Twin> twins_;
-  std::vector<box2d::MoverTurn> turns_;           ///< Of the present step.
-  std::vector<MoverMotion<double>> part_movers_;  ///< See `part_of`.
+  std::vector<box2d::MoverTurn> turns_;   ///< Of the present step.
+  std::vector<MoverMotion> part_movers_;  ///< See `part_of`.
   std::vector<TurnMotion> part_turns_;
   std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
   std::vector<box2d::TwinWish> kept_;    ///< Of all steps since they are kept.
@@ -292,8 +291,8 @@ class Box2dContender final : public Contender {
 
 }  // namespace
 
-std::unique_ptr<Contender> make_box2d_contender(box2d::SceneryMode mode, const Scene& scene,
-                                                const Scenery<double>& scenery, std::span<const KnobSetting> knobs) {
+std::unique_ptr<Contender> make_box2d_contender(box2d::SceneryMode mode, const Scene& scene, const Scenery& scenery,
+                                                std::span<const KnobSetting> knobs) {
   TwinDef def{.world = {.mode = mode}};
   turn_knobs(knobs, def);
   return std::make_unique<Box2dContender>(def, scene, scenery, knobs);

@@ -8,7 +8,7 @@
 namespace paperproof::compare {
 
 [[nodiscard]] std::unique_ptr<Contender> make_box2d_contender(box2d::SceneryMode mode, const Scene& scene,
-                                                              const Scenery<double>& scenery,
+                                                              const Scenery& scenery,
                                                               std::span<const KnobSetting> knobs);
 
 }  // namespace paperproof::compare

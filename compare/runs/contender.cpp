@@ -44,7 +44,7 @@ void place_at_start(Contender& contender, const Scene& scene) {
 }
 
 std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                          const Scenery<double>& scenery, const Planning& planning) {
+                                          const Scenery& scenery, const Planning& planning) {
   if (is_reference(name)) {
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
@@ -62,7 +62,8 @@ std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scal
   if (const TechniqueEntry* technique = find_technique(name)) {
     if (turns) return make_level_contender(*technique, scene, scenery, planning);
     const bool crowd = !scene.others.empty();
-    if (crowd && technique->moves_crowds) return make_crowd_contender(*technique, scalar, scene, scenery, planning);
+    if (crowd && scalar != ScalarKind::binary64) throw NotApplicable("several characters move in double alone");
+    if (crowd && technique->moves_crowds) return make_crowd_contender(*technique, scene, scenery, planning);
     if (crowd)
       throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     try {

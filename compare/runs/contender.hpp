@@ -21,6 +21,8 @@ namespace paperproof::compare {
 
 enum class ScalarKind : std::uint8_t { binary64, binary32 };
 [[nodiscard]] std::string_view name_of(ScalarKind scalar) noexcept;
+/// All but `octagon_sweep`: asked for several numbers, they run in the first.
+[[nodiscard]] inline bool computes_in_one(std::string_view contender) { return contender != "octagon_sweep"; }
 
 /// What a contender carries from step to step that a twin in lockstep takes over.
 struct Pose {
@@ -30,18 +32,18 @@ struct Pose {
   bool jumping = false;
   bool jump_held = false;
   bool jump_pending = false;
-  Ride<double> ride{};                  ///< Without its place: what is put down stands anew.
+  Ride ride{};                          ///< Without its place: what is put down stands anew.
   Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what it rides on.
 };
 
 /// What happens to every contender alike in one step.
 struct StepInput {
-  double dt = 0;                                ///< [s]
-  std::span<const Input> players;               ///< One for each character.
-  std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
-  std::span<const TurnMotion> turns;            ///< The same.
-  Vec2d gravity{Vec2d::Zero()};                 ///< [m/s²]
-  Vec2d up{Vec2d::UnitY()};                     ///< Unit vector.
+  double dt = 0;                        ///< [s]
+  std::span<const Input> players;       ///< One for each character.
+  std::span<const MoverMotion> movers;  ///< One for each mover of the scene.
+  std::span<const TurnMotion> turns;    ///< The same.
+  Vec2d gravity{Vec2d::Zero()};         ///< [m/s²]
+  Vec2d up{Vec2d::UnitY()};             ///< Unit vector.
 };
 
 class Contender {
@@ -85,6 +87,6 @@ void place_at_start(Contender& contender, const Scene& scene);
 /// @param planning of the techniques; Box2D has none.
 /// @throws NotApplicable where the contender cannot express the scene; std::exception where it cannot be built.
 [[nodiscard]] std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                                        const Scenery<double>& scenery, const Planning& planning = {});
+                                                        const Scenery& scenery, const Planning& planning = {});
 
 }  // namespace paperproof::compare

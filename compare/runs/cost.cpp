@@ -39,7 +39,7 @@ class TimedSteps {
   [[nodiscard]] std::span<const StepInput> inputs() const noexcept { return inputs_; }
 
  private:
-  std::vector<MoverMotion<double>> motions_;
+  std::vector<MoverMotion> motions_;
   std::vector<TurnMotion> turns_;
   std::vector<Input> players_;
   std::vector<StepInput> inputs_;

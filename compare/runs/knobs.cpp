@@ -92,7 +92,7 @@ std::vector<SharedKnob> technique_knobs() {
 }
 
 /// A level of one square metre: whatever a knob may be is tried on it.
-Scenery<double> a_square() { return Scenery<double>({{{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}); }
+Scenery a_square() { return Scenery({{{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}); }
 
 }  // namespace
 
@@ -122,7 +122,7 @@ void check_knob(const KnobSetting& setting, std::string_view contender) {
   TechniqueDef def;
   def.name = contender;
   turn_knobs(std::span(&setting, 1), def);
-  const Scenery<double> scenery = a_square();
+  const Scenery scenery = a_square();
   try {
     static_cast<void>(make_controller(scenery, CharacterDef{}, def));
   } catch (const NotExpressible&) {

@@ -17,7 +17,7 @@ constexpr int first_steps = 60;
 
 }  // namespace
 
-Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
+Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery& scenery,
            const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
     : limit_(replay), steps_vary_(!scene.dt_list.empty()) {
   row_.scene = scene.name;
@@ -88,7 +88,7 @@ void Lane::expect(const std::vector<Answer>& answers) {
 void Lane::place(const Pose& pose, std::size_t character) {
   contender_->place(pose, character);
   // A character of ours forgets its ride when it is placed.
-  begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride<double>{});
+  begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride{});
 }
 
 void Lane::launch(const Vec2d& velocity, std::size_t character) {
@@ -97,7 +97,7 @@ void Lane::launch(const Vec2d& velocity, std::size_t character) {
   begin_anew(launched, character, launched.ride);
 }
 
-void Lane::begin_anew(const Pose& pose, std::size_t character, const Ride<double>& ride) {
+void Lane::begin_anew(const Pose& pose, std::size_t character, const Ride& ride) {
   placed_[character] = true;
   placed_in_[character] = {.velocity = pose.velocity,
                            .grounded = pose.grounded,
@@ -213,9 +213,8 @@ void Lane::note_events(std::size_t character) {
   note(ReportEvent::Kind::one_way, judged.one_way_broken, "passes against its normal:");
   note(ReportEvent::Kind::crush, record.crushed, "is crushed by");
   note(ReportEvent::Kind::drop, record.dropped_through, "drops through");
-  for (const SensorEvent<double>& event : record.sensors)
-    note(ReportEvent::Kind::sensor, {event.sensor},
-         event.change == SensorEvent<double>::Change::enter ? "enters" : "leaves",
+  for (const SensorEvent& event : record.sensors)
+    note(ReportEvent::Kind::sensor, {event.sensor}, event.change == SensorEvent::Change::enter ? "enters" : "leaves",
          header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
   note(ReportEvent::Kind::inside, judged.entered, "ends inside");
   note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");

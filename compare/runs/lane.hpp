@@ -24,8 +24,8 @@ struct ReplayLimit {
 /// ends the lane with a row that says why. Not thread-safe.
 class Lane {
  public:
-  Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
-       const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
+  Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery& scenery, const Planning& planning,
+       const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
 
   [[nodiscard]] bool running() const noexcept { return contender_ != nullptr; }
   [[nodiscard]] const std::string& contender_name() const noexcept { return row_.contender; }
@@ -66,7 +66,7 @@ class Lane {
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
-  void begin_anew(const Pose& pose, std::size_t character, const Ride<double>& ride);
+  void begin_anew(const Pose& pose, std::size_t character, const Ride& ride);
   void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();

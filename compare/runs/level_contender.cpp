@@ -14,11 +14,10 @@ namespace {
 
 class LevelContender final : public Contender {
  public:
-  LevelContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
-                 const Planning& planning)
+  LevelContender(const TechniqueEntry& technique, const Scene& scene, const Scenery& scenery, const Planning& planning)
       : level_(scenery.as_run()),
         controller_(level_, rules_for(technique, scene, planning.knobs)),
-        header_(header_of(technique, scenery, scene, planning)) {
+        header_(header_of(technique, ScalarKind::binary64, scenery, scene, planning)) {
     header_.plan.reset();  // it leaves nothing out
     header_.turning.assign(scene.movers.size(), true);
     place_at_start(*this, scene);
@@ -28,7 +27,7 @@ class LevelContender final : public Contender {
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
     TraceStep& record = records.front();
-    const CharacterState<double> before = state_;
+    const CharacterState before = state_;
     step_unrecorded(input);
     write_report(report_, state_, Sides::as_said, record);
     record.movers.assign(input.movers.begin(), input.movers.end());
@@ -47,13 +46,13 @@ class LevelContender final : public Contender {
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
 
-  void place(const Pose& pose, std::size_t) override { state_ = state_at<double>(pose); }
+  void place(const Pose& pose, std::size_t) override { state_ = state_at(pose); }
   void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = velocity; }
 
  private:
   /// What the ground adds to the displacement [m].
-  [[nodiscard]] Vec2d carried(const CharacterState<double>& before, std::span<const VertexWay> ways) const {
-    if (before.ride.ground == Ride<double>::none) return Vec2d::Zero();
+  [[nodiscard]] Vec2d carried(const CharacterState& before, std::span<const VertexWay> ways) const {
+    if (before.ride.ground == Ride::none) return Vec2d::Zero();
     const VertexWay* ground = find_way(ways, before.ride.ground);
     // A circle that turns carries like a conveyor, and its centre does not tell.
     const bool is_circle = header_.scenery.colliders[before.ride.ground].shape == ColliderDef::Shape::circle;
@@ -63,15 +62,15 @@ class LevelContender final : public Contender {
   Level level_;
   LevelController controller_;
   TraceHeader header_;
-  CharacterState<double> state_;
-  StepReport<double> report_;
+  CharacterState state_;
+  StepReport report_;
   std::vector<PoseMotion> motions_;  ///< Of the present step.
 };
 
 }  // namespace
 
 std::unique_ptr<Contender> make_level_contender(const TechniqueEntry& octagon_sweep, const Scene& scene,
-                                                const Scenery<double>& scenery, const Planning& planning) {
+                                                const Scenery& scenery, const Planning& planning) {
   if (!scene.others.empty())
     throw NotApplicable(fmt::format("octagon_sweep knows one character where something turns, and here are {}",
                                     character_count(scene)));

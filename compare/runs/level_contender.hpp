@@ -10,6 +10,6 @@ namespace paperproof::compare {
 /// @throws NotApplicable for several characters, for movers that are one-way, and for knobs of the technique: the
 ///   controller of a level has none.
 [[nodiscard]] std::unique_ptr<Contender> make_level_contender(const TechniqueEntry& octagon_sweep, const Scene& scene,
-                                                              const Scenery<double>& scenery, const Planning& planning);
+                                                              const Scenery& scenery, const Planning& planning);
 
 }  // namespace paperproof::compare

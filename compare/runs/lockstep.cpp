@@ -17,7 +17,7 @@ constexpr double same_direction = 1e-3;
 
 std::vector<Vec2d> held_normals(Lane& lane, const Place& place) {
   std::vector<Vec2d> normals;
-  for (const Contact<double>& contact : lane.record().contacts) {
+  for (const Contact& contact : lane.record().contacts) {
     if (lane.solids().separation(place, contact.collider) > held_gap) continue;
     const bool known = std::any_of(normals.begin(), normals.end(), [&](const Vec2d& other) {
       return std::abs(other.x() * contact.normal.y() - other.y() * contact.normal.x()) < same_direction &&
@@ -45,7 +45,7 @@ TwinStart twin_start(Lane& lane, const StepInput& input) {
   TwinStart start;
   start.pose = lane.contender().pose();
   // Movers are where the last step left them, in the numbers that ran.
-  const std::vector<MoverMotion<double>>& ran = lane.record().movers;
+  const std::vector<MoverMotion>& ran = lane.record().movers;
   const auto place = [&] {
     return ran.empty() ? Place(start.pose.position, input.movers, 0) : Place(start.pose.position, ran, 1);
   };
@@ -54,7 +54,7 @@ TwinStart twin_start(Lane& lane, const StepInput& input) {
   const ExactScenery& solids = lane.solids();
   for (const ColliderIndex near : solids.near(place(), place(), box2d::rest_gap))
     if (solids.separation(place(), near) < box2d::rest_gap - gap_slack) start.room = false;
-  for (const Contact<double>& contact : lane.record().contacts)
+  for (const Contact& contact : lane.record().contacts)
     if (contact.collider == start.pose.ride.ground && contact.side == Side::bottom)
       start.pose.ground_normal = contact.normal;
   return start;

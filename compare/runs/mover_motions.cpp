@@ -43,7 +43,7 @@ std::optional<box2d::BodyWorld> world_of_bodies(const Scene& scene) {
   try {
     if (!(StepTimes(scene).shortest() >= box2d::least_step))
       throw box2d::InvalidDefinition("it takes no steps shorter than 1e-9 s");
-    return box2d::BodyWorld(Scenery<double>(scene.scenery), bodies, scene.gravity, joints);
+    return box2d::BodyWorld(Scenery(scene.scenery), bodies, scene.gravity, joints);
   } catch (const box2d::InvalidDefinition& error) {
     throw NotApplicable(std::string("the scene's bodies are moved by Box2D, and ") + error.what());
   }

@@ -22,13 +22,13 @@ class MoverMotions {
   /// Computes the next step.
   /// @param step from 0 on, one after the other. @param times of the scene.
   void advance(int step, const StepTimes& times);
-  [[nodiscard]] std::span<const MoverMotion<double>> motions() const noexcept { return motions_; }
+  [[nodiscard]] std::span<const MoverMotion> motions() const noexcept { return motions_; }
   [[nodiscard]] std::span<const TurnMotion> turns() const noexcept { return turns_; }
 
  private:
   const Scene& scene_;
   std::optional<box2d::BodyWorld> bodies_;
-  std::vector<MoverMotion<double>> motions_;
+  std::vector<MoverMotion> motions_;
   std::vector<TurnMotion> turns_;
   std::vector<box2d::MoverTurn> body_turns_;  ///< The same, for the bodies' world.
 };

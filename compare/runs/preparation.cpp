@@ -18,21 +18,20 @@ constexpr double pairs_to_measure = 1e5;
 constexpr double measurable = 2e-3;
 
 /// From how many others some hundred boxes, evenly spread, are within reach of.
-double pairs_in(std::span<const Box2<double>> boxes, double reach) {
+double pairs_in(std::span<const Box2> boxes, double reach) {
   constexpr std::size_t asked = 200;
   const std::size_t stride = std::max<std::size_t>(1, boxes.size() / asked);
   double met = 0;
   double count = 0;
   for (std::size_t i = 0; i < boxes.size(); i += stride, ++count)
-    met += static_cast<double>(
-               std::count_if(boxes.begin(), boxes.end(),
-                             [&](const Box2<double>& box) { return box.overlaps(boxes[i].inflated(reach)); })) -
+    met += static_cast<double>(std::count_if(boxes.begin(), boxes.end(),
+                                             [&](const Box2& box) { return box.overlaps(boxes[i].inflated(reach)); })) -
            1;
   return count == 0 ? 0 : met / count * static_cast<double>(boxes.size()) / 2;
 }
 
 /// Every `stride`-th piece of the scenery as a collider of its own, standing still.
-Scene sample_of(const Scene& scene, const Scenery<double>& scenery, std::size_t stride) {
+Scene sample_of(const Scene& scene, const Scenery& scenery, std::size_t stride) {
   Scene sample = scene;
   sample.scenery = {};
   sample.ids.clear();
@@ -59,7 +58,7 @@ Scene sample_of(const Scene& scene, const Scenery<double>& scenery, std::size_t 
 double measured(const Scene& scene, const std::string& contender, ScalarKind scalar) {
   const auto begin = std::chrono::steady_clock::now();
   try {
-    const Scenery<double> scenery(scene.scenery);
+    const Scenery scenery(scene.scenery);
     const auto runner = make_contender(contender, scalar, scene, scenery);
     const Judge judge(runner->header());
   } catch (const std::exception&) {
@@ -72,9 +71,9 @@ double measured(const Scene& scene, const std::string& contender, ScalarKind sca
 
 std::optional<Preparation> expected_preparation(const Scene& scene, const std::vector<std::string>& contenders,
                                                 const std::vector<ScalarKind>& scalars) {
-  const Scenery<double> scenery(scene.scenery);
+  const Scenery scenery(scene.scenery);
   // What the character can touch both of at once is compared.
-  const Box2<double>& body = scene.character.shape.box();
+  const Box2& body = scene.character.shape.box();
   Preparation expected{.pairs = pairs_in(scenery.boxes(), (body.upper - body.lower).maxCoeff())};
   if (expected.pairs < many_pairs) return std::nullopt;
   const auto stride = static_cast<std::size_t>(std::ceil(std::sqrt(expected.pairs / pairs_to_measure)));
@@ -82,7 +81,7 @@ std::optional<Preparation> expected_preparation(const Scene& scene, const std::v
   const Scene half = sample_of(scene, scenery, 2 * stride);
   for (const std::string& contender : contenders)
     for (const ScalarKind scalar : scalars) {
-      if (is_reference(contender) && scalar != scalars.front()) continue;
+      if (computes_in_one(contender) && scalar != scalars.front()) continue;
       const double of_half = measured(half, contender, scalar);
       const double of_sample = measured(sample, contender, scalar);
       const bool grows = of_half > 0 && of_sample > measurable;

@@ -42,7 +42,7 @@ class SceneRun {
     const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
     for (const std::string& name : contenders_of(options))
       for (const ScalarKind scalar : options.scalars) {
-        if (is_reference(name) && scalar != options.scalars.front()) continue;
+        if (computes_in_one(name) && scalar != options.scalars.front()) continue;
         lanes_.push_back(
             std::make_unique<Lane>(name, scalar, scene, scenery_, planning_, mode, options.trace_stem, replay));
         if (options.mode != Mode::lockstep) continue;
@@ -166,7 +166,7 @@ class SceneRun {
         continue;
       }
       TraceStep unshifted = pair.reference->record();
-      for (PathPoint<double>& corner : unshifted.path) corner.position -= start.shift;
+      for (PathPoint& corner : unshifted.path) corner.position -= start.shift;
       compare(pair, 0, unshifted);
     }
   }
@@ -182,7 +182,7 @@ class SceneRun {
 
   /// Whether the boxes of two characters come within Box2D's skin of each other, where the step begins or ends.
   static bool is_beside_another(const Lane& lane, std::size_t k) {
-    Box2<double> hull{lane.header().points.front(), lane.header().points.front()};
+    Box2 hull{lane.header().points.front(), lane.header().points.front()};
     for (const Vec2d& point : lane.header().points) hull = hull.merged({point, point});
     const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(beyond_box2d_skin);
     for (std::size_t other = 0; other < lane.characters(); ++other)
@@ -312,7 +312,7 @@ class SceneRun {
   const RunOptions& options_;
   int steps_;
   Script script_;
-  Scenery<double> scenery_;
+  Scenery scenery_;
   Planning planning_;
   std::optional<InputCursor> cursor_;  ///< None where the scene cannot be run at all.
   std::vector<std::unique_ptr<Lane>> lanes_;

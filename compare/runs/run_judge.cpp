@@ -54,10 +54,10 @@ constexpr double same_speed = 1e-9;
 constexpr double lost_beyond = 10;
 
 /// Whether a contact's point is in the character's box at some corner of the way, and no farther from it than it says.
-bool is_point_of(const TraceStep& record, const Contact<double>& contact, std::span<const Vec2d> points) {
+bool is_point_of(const TraceStep& record, const Contact& contact, std::span<const Vec2d> points) {
   constexpr double near = 1e-5;
-  const Box2<double> box = Box2<double>::around(points).inflated(near);
-  const auto is_there = [&](const PathPoint<double>& at) {
+  const Box2 box = Box2::around(points).inflated(near);
+  const auto is_there = [&](const PathPoint& at) {
     const Vec2d point = contact.point - at.position;
     return box.contains({point, point});
   };
@@ -67,8 +67,8 @@ bool is_point_of(const TraceStep& record, const Contact<double>& contact, std::s
 /// Whether it says that it has met two surfaces that face different ways.
 bool is_between(const TraceStep& record) {
   std::vector<Vec2d> normals;
-  for (const Contact<double>& contact : record.contacts) normals.push_back(contact.normal);
-  for (const CrowdContact<double>& met : record.met) normals.push_back(met.normal);
+  for (const Contact& contact : record.contacts) normals.push_back(contact.normal);
+  for (const CrowdContact& met : record.met) normals.push_back(met.normal);
   return std::any_of(normals.begin(), normals.end(),
                      [&](const Vec2d& normal) { return normal.dot(normals.front()) < same_face; });
 }
@@ -81,7 +81,7 @@ std::size_t places_of(const TraceStep& record) {
 }
 
 /// Whether a face of what a contact is with has its normal, or nearly so.
-bool has_face(std::span<const NearPart> parts, const Contact<double>& contact) {
+bool has_face(std::span<const NearPart> parts, const Contact& contact) {
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
     return part.collider == contact.collider &&
            std::any_of(part.faces.begin(), part.faces.end(),
@@ -90,18 +90,18 @@ bool has_face(std::span<const NearPart> parts, const Contact<double>& contact) {
 }
 
 /// Where it is at a fraction of the step.
-PathPoint<double> place_at(const TraceStep& record, double fraction) {
+PathPoint place_at(const TraceStep& record, double fraction) {
   if (record.path.size() == 1) return {record.path.front().position, fraction};
   std::size_t next = 1;
   while (next + 1 < record.path.size() && record.path[next].fraction < fraction) ++next;
-  const PathPoint<double>& from = record.path[next - 1];
-  const PathPoint<double>& to = record.path[next];
+  const PathPoint& from = record.path[next - 1];
+  const PathPoint& to = record.path[next];
   const double length = to.fraction - from.fraction;
   const double share = length > 0 ? std::clamp((fraction - from.fraction) / length, 0.0, 1.0) : 1;
   return {from.position + share * (to.position - from.position), fraction};
 }
 
-bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
+bool moves(const MoverMotion& motion) { return motion.from != motion.to; }
 
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 
@@ -130,7 +130,7 @@ bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) 
 /// Whether no other character is within so many metres at a corner of the way.
 bool RunJudge::is_apart(const TraceStep& record, const Others& others, double within) {
   return !others.near || std::all_of(record.path.begin(), record.path.end(),
-                                     [&](const PathPoint<double>& at) { return others.near(at, within).empty(); });
+                                     [&](const PathPoint& at) { return others.near(at, within).empty(); });
 }
 
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
@@ -246,7 +246,7 @@ bool RunJudge::may_respawn(const TraceStep& record, const Follower& follower) co
 
 /// Whether the step goes on from the one before, along a way that takes the whole step.
 void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
-  const std::vector<PathPoint<double>>& path = record.path;
+  const std::vector<PathPoint>& path = record.path;
   const auto is_start = [&] {
     if (record.character >= header_.starts.size()) return false;
     const TraceStart& start = header_.starts[record.character];
@@ -391,7 +391,7 @@ bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follow
   if (record.ground_velocity.isZero(0) || is_kept || !follower.touches_nobody || record.respawn ||
       is_beside_what_turns(record))
     return false;
-  return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
+  return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint& at) {
     const std::vector<NearPart> parts = solids().near_parts(Place(at, record.movers), guaranteed_gap);
     return std::any_of(parts.begin(), parts.end(), [this](const NearPart& part) { return moves_or_conveys(part); });
   });
@@ -410,7 +410,7 @@ bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follow
   if (!goes_on || !plain) return false;
   const Vec2d up = up_in(record, header_);
   if (!(gravity_in(record, header_).dot(up) < 0)) return false;
-  const auto stands_on_what_moves = [&](const PathPoint<double>& at) {
+  const auto stands_on_what_moves = [&](const PathPoint& at) {
     bool stands = false;
     for (const NearPart& part : solids().near_parts(Place(at, record.movers), guaranteed_gap))
       for (const NearFace& face : part.faces) {
@@ -466,13 +466,12 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
   const ColliderDef& ground = header_.scenery.colliders[record.ride->collider];
   if (!before || before->collider != record.ride->collider || ground.mover == no_mover || ground.surface_speed != 0)
     return;
-  const MoverMotion<double>& motion = record.movers[ground.mover];
+  const MoverMotion& motion = record.movers[ground.mover];
   const Vec2d up = up_in(record, header_);
   const Vec2d own = follower.wanted.displacement - (motion.to - motion.from);
   const bool stays = std::abs(own.dot(right_of(up))) == 0 && own.dot(up) <= 0 && record.met.empty() &&
-                     std::all_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& contact) {
-                       return contact.collider == record.ride->collider;
-                     });
+                     std::all_of(record.contacts.begin(), record.contacts.end(),
+                                 [&](const Contact& contact) { return contact.collider == record.ride->collider; });
   if (!stays || follower.last.size() < 2) return;
   const std::optional<TraceRide>& earlier = follower.last[0].ride;
   if (!earlier || earlier->collider != before->collider) return;
@@ -508,7 +507,7 @@ void RunJudge::judge_movers(std::span<TraceStep> records) {
 /// comes to it.
 void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records) {
   if (record.contacts.empty() || !record.start_overlap.empty()) return;
-  const auto check = [&](const Contact<double>& contact, double off, double allowed) {
+  const auto check = [&](const Contact& contact, double off, double allowed) {
     if (off > allowed && off < std::numeric_limits<double>::infinity())
       note(Clause::time_of_impact, record,
            fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
@@ -528,12 +527,12 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
   const bool meets_turning = std::any_of(record.contacts.begin(), record.contacts.end(),
                                          [&](const auto& contact) { return turning.turns(contact.collider); });
   const bool in_parts = parts_of(record.vertex_ways) > 1;
-  for (const Contact<double>& contact : record.contacts) {
+  for (const Contact& contact : record.contacts) {
     if (in_parts || !turning.turns(contact.collider) || !judged.end_overlap.empty()) continue;
-    std::vector<PathPoint<double>> then{place_at(record, contact.fraction)};
+    std::vector<PathPoint> then{place_at(record, contact.fraction)};
     std::copy_if(record.path.begin(), record.path.end(), std::back_inserter(then),
-                 [&](const PathPoint<double>& corner) { return corner.fraction == contact.fraction; });
-    const bool is_there = std::any_of(then.begin(), then.end(), [&](const PathPoint<double>& at) {
+                 [&](const PathPoint& corner) { return corner.fraction == contact.fraction; });
+    const bool is_there = std::any_of(then.begin(), then.end(), [&](const PathPoint& at) {
       return has_face(turning.near(record, at, 3 * guaranteed_gap), contact);
     });
     if (!is_there)
@@ -542,14 +541,14 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
                        contact.fraction));
   }
   if (in_parts || meets_turning || !record.crushed.empty() || !judged.end_overlap.empty()) return;
-  for (const Contact<double>& contact : record.contacts) {
+  for (const Contact& contact : record.contacts) {
     const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
     const Vec2d carried =
         mover != no_mover ? Vec2d(record.movers[mover].to - record.movers[mover].from) : Vec2d::Zero();
     // Of one collider that is the first contact: a later one is another face, and is met where the way comes to it.
-    const auto is_of_it = [&](const Contact<double>& one) { return one.collider == contact.collider; };
-    const Contact<double>& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
-    const auto is_there = [&](const PathPoint<double>& corner) {
+    const auto is_of_it = [&](const Contact& one) { return one.collider == contact.collider; };
+    const Contact& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
+    const auto is_there = [&](const PathPoint& corner) {
       const Place at(corner, record.movers);
       if (&first == &contact) return solids().separation(at, contact.collider) <= guaranteed_gap;
       return has_face(solids().near_parts(at, guaranteed_gap), contact);
@@ -568,11 +567,11 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
     double off = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < record.path.size(); ++i) {
-      const PathPoint<double>& corner = record.path[i];
+      const PathPoint& corner = record.path[i];
       if (!is_there(corner)) continue;
       if (contact.fraction == corner.fraction) off = 0;  // it was there, however it came
       const bool waited = i == 0 || !(record.path[i - 1].fraction < corner.fraction);
-      const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
+      const PathPoint& begin = waited ? corner : record.path[i - 1];
       const Vec2d pace =
           waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
       // A way that others leave, and that runs along the face, comes to it at no time.
@@ -599,7 +598,7 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
 /// What it says that it dropped through is one-way, was asked for, and was passed, or stood upon where a leg begins: by
 /// the octagon itself or, as rounding may name a chain whose tip is grazed, by one a little to its side.
 void RunJudge::judge_drops(const TraceStep& record) {
-  for (const Contact<double>& contact : record.contacts)
+  for (const Contact& contact : record.contacts)
     if (record.input.drop && header_.scenery.colliders[contact.collider].one_way)
       note(Clause::contact_invented, record,
            "reports a contact with `" + header_.ids[contact.collider] + "`, which blocks nobody who drops");
@@ -627,13 +626,13 @@ void RunJudge::judge_drops(const TraceStep& record) {
 /// Two that met each say so, with one normal, of a face that is there, and at one time, and were there. Who must have
 /// met another says so.
 void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
-  for (const CrowdContact<double>& met : record.met) {
+  for (const CrowdContact& met : record.met) {
     if (met.other >= records.size() || met.other == record.character) {
       note(Clause::contact_invented, record, fmt::format("met character {}, which is no other one", met.other));
       continue;
     }
     const TraceStep& other = records[met.other];
-    const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact<double>& its) {
+    const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact& its) {
       return its.other == record.character && its.fraction == met.fraction &&
              (its.normal + met.normal).norm() <= same_normal;
     });
@@ -655,7 +654,7 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
   if (!company_) return;
   for (const TraceStep& other : records) {
     const bool says = std::any_of(record.met.begin(), record.met.end(),
-                                  [&](const CrowdContact<double>& met) { return met.other == other.character; });
+                                  [&](const CrowdContact& met) { return met.other == other.character; });
     if (!says && other.character != record.character && company_->must_meet(record, other))
       note(Clause::contact_missed, record, fmt::format("met character {}, and does not say so", other.character));
   }
@@ -685,9 +684,8 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::normal, judged.normal_error.value_or(0) > rounding_of_normal,
         [&] { return fmt::format("a normal is {:.3g} degrees off", *judged.normal_error); });
   check(Clause::normal,
-        std::any_of(
-            record.contacts.begin(), record.contacts.end(),
-            [](const Contact<double>& contact) { return std::abs(contact.normal.norm() - 1) > rounding_of_unit; }),
+        std::any_of(record.contacts.begin(), record.contacts.end(),
+                    [](const Contact& contact) { return std::abs(contact.normal.norm() - 1) > rounding_of_unit; }),
         [] { return std::string("a normal is no unit vector"); });
   check(Clause::sensor, judged.sensor_events_missing > 0 || judged.sensor_events_extra > 0, [&] {
     return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
@@ -740,7 +738,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
                        !record.crushed.empty() || record.contacts.empty() || header_.guarantees.empty();
   if (excused) return;
   const detail::TurningJudge& turning = followers_.front().judge->turning();
-  for (const Contact<double>& contact : record.contacts) {
+  for (const Contact& contact : record.contacts) {
     if (detail::side_along(contact.normal, up_in(record, header_)) != contact.side)
       note(Clause::normal, record,
            "has a contact with `" + header_.ids[contact.collider] + "` on another side than its normal says");
@@ -754,10 +752,8 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
       note(fault->clause, record, fault->words);
   }
   for (const ExactContact& exact : judged.contacts) {
-    const auto is_it = [&](const Contact<double>& one) {
-      return one.collider == exact.collider && one.side == exact.side;
-    };
-    const auto on_side = [&](const Contact<double>& one) { return one.side == exact.side; };
+    const auto is_it = [&](const Contact& one) { return one.collider == exact.collider && one.side == exact.side; };
+    const auto on_side = [&](const Contact& one) { return one.side == exact.side; };
     // Of a side where none is reported the metrics tell.
     if (exact.first && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
         std::none_of(record.contacts.begin(), record.contacts.end(), is_it))

@@ -16,14 +16,13 @@
 namespace paperproof::compare {
 namespace {
 
-template <class Scalar>
-bool has_slopes(const Scenery<Scalar>& scenery) {
+bool has_slopes(const Scenery& scenery) {
   for (PieceIndex piece = 0; piece < scenery.sensor_pieces().first; ++piece) {
     if (scenery.pieces()[piece].is_circle()) return true;
     if (scenery.pieces()[piece].is_rectangle()) continue;
     const auto vertices = scenery.vertices_of(piece);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Vec2<Scalar> edge = vertices[(i + 1) % vertices.size()] - vertices[i];
+      const Vec2d edge = vertices[(i + 1) % vertices.size()] - vertices[i];
       if (edge.x() != 0 && edge.y() != 0) return true;
     }
   }
@@ -42,7 +41,7 @@ struct Planned {
   std::unique_ptr<Contender> contender;
 };
 
-Planned make_planned(bool full, const Scene& scene, const Scenery<double>& scenery) {
+Planned make_planned(bool full, const Scene& scene, const Scenery& scenery) {
   const std::size_t before = memory_in_use();
   auto made = make_contender("octagon_sweep", ScalarKind::binary64, scene, scenery, {.full = full});
   return {memory_in_use() - before, std::move(made)};
@@ -50,8 +49,7 @@ Planned make_planned(bool full, const Scene& scene, const Scenery<double>& scene
 
 }  // namespace
 
-template <class Scalar>
-LevelPlan plan_of(const Scenery<Scalar>& scenery, const Planning& planning) {
+LevelPlan plan_of(const Scenery& scenery, const Planning& planning) {
   LevelPlan plan;
   if (planning.full) {
     plan.search = PieceSearch::none;
@@ -70,9 +68,6 @@ LevelPlan plan_of(const Scenery<Scalar>& scenery, const Planning& planning) {
   leave_out(scenery.sensor_pieces().size() > 0, "sensors", "there is no sensor, so no path is searched for one");
   return plan;
 }
-
-template LevelPlan plan_of(const Scenery<float>&, const Planning&);
-template LevelPlan plan_of(const Scenery<double>&, const Planning&);
 
 MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   MetricPlan plan;
@@ -97,7 +92,7 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   return plan;
 }
 
-std::string describe_plan(const Scene& scene, const Scenery<double>& scenery) {
+std::string describe_plan(const Scene& scene, const Scenery& scenery) {
   const LevelPlan plan = plan_of(scenery, {});
   const std::size_t pieces = scenery.pieces().size();
   std::string out = scene.name + "\n";
@@ -111,7 +106,7 @@ std::string describe_plan(const Scene& scene, const Scenery<double>& scenery) {
   return out;
 }
 
-std::string describe_saving(const Scene& scene, const Scenery<double>& scenery, const Script& script) {
+std::string describe_saving(const Scene& scene, const Scenery& scenery, const Script& script) {
   const Planned planned = make_planned(false, scene, scenery);
   const Planned full = make_planned(true, scene, scenery);
   const std::array runs{TimedRun{planned.contender.get(), {}}, TimedRun{full.contender.get(), {}}};

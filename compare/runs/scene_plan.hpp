@@ -19,8 +19,7 @@ struct Planning {
 };
 
 /// What the level has no need of, in the order of a step. It follows from the colliders alone.
-template <class Scalar>
-[[nodiscard]] LevelPlan plan_of(const Scenery<Scalar>& scenery, const Planning& planning);
+[[nodiscard]] LevelPlan plan_of(const Scenery& scenery, const Planning& planning);
 
 struct MetricPlan {
   Measured measured;
@@ -30,11 +29,11 @@ struct MetricPlan {
 
 /// Several lines for `paperproof plan`: what the level has no need of, why that is safe, and which metrics the scene
 /// does not need. Nothing is measured.
-[[nodiscard]] std::string describe_plan(const Scene& scene, const Scenery<double>& scenery);
+[[nodiscard]] std::string describe_plan(const Scene& scene, const Scenery& scenery);
 
 /// One line for `paperproof plan`: time of a step and memory of `octagon_sweep`, as planned and with nothing left out.
 /// Both run the same steps, by turns: see `measure_costs`. Not for tests: machines are shared.
 /// @throws std::logic_error where the two do not end at the same position.
-[[nodiscard]] std::string describe_saving(const Scene& scene, const Scenery<double>& scenery, const Script& script);
+[[nodiscard]] std::string describe_saving(const Scene& scene, const Scenery& scenery, const Script& script);
 
 }  // namespace paperproof::compare

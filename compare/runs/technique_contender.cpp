@@ -3,25 +3,35 @@
 #include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
 
-#include <paperproof/controller.hpp>
+#include <paperproof/in_float.hpp>
 
-#include <algorithm>
+#include <fmt/format.h>
 
 namespace paperproof::compare {
 namespace {
 
-template <class Scalar>
+/// @throws NotApplicable for another technique than octagon_sweep in float.
+TechniqueController controller_for(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene,
+                                   const Scenery& scenery, const Planning& planning) {
+  const CharacterDef character = rules_for(technique, scene, planning.knobs);
+  const TechniqueDef def = definition_of(technique, scene, planning);
+  if (scalar == ScalarKind::binary64) return make_controller(scenery, character, def);
+  if (technique.make != nullptr) throw NotApplicable(fmt::format("{} computes in double alone", technique.name));
+  return TechniqueController(make_controller_in_float(scenery, character, {def.search, def.sweep_iterations}));
+}
+
 class TechniqueContender final : public Contender {
  public:
-  TechniqueContender(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+  /// @param shared by all contenders of a scene; one in float brings its own, rounded.
+  TechniqueContender(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene, const Scenery& shared,
                      const Planning& planning)
-      : scenery_(scenery),
-        controller_(make_controller(scenery_.get(), rules_for(technique, scene, planning.knobs),
-                                    definition_of(technique, scene, planning))),
+      : scalar_(scalar),
+        rounded_(scalar == ScalarKind::binary32 ? std::make_unique<Scenery>(as_run(shared.as_run(), scalar)) : nullptr),
+        controller_(controller_for(technique, scalar, scene, rounded_ ? *rounded_ : shared, planning)),
         scratch_(controller_.make_scratch()),
         sides_(sides_of(technique)),
-        movers_(scene.movers.size(), scenery_.get()),
-        header_(header_of(technique, scenery_.get(), scene, planning)) {
+        movers_(scene.movers.size(), rounded_ ? *rounded_ : shared, scalar),
+        header_(header_of(technique, scalar, rounded_ ? *rounded_ : shared, scene, planning)) {
     place_at_start(*this, scene);
   }
 
@@ -29,7 +39,7 @@ class TechniqueContender final : public Contender {
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
     TraceStep& record = records.front();
-    const Ride<Scalar> ride = state_.ride;
+    const Ride ride = state_.ride;
     step_unrecorded(input);
     write_report(report_, state_, sides_, record);
     record.requested += movers_.carried_by(ride, input.players.front().drop);
@@ -46,28 +56,27 @@ class TechniqueContender final : public Contender {
 
   [[nodiscard]] std::size_t memory_bytes() const override { return controller_.memory_bytes(); }
 
-  void place(const Pose& pose, std::size_t) override { state_ = state_at<Scalar>(pose); }
-  void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = velocity.cast<Scalar>(); }
+  void place(const Pose& pose, std::size_t) override { state_ = state_at(pose, scalar_); }
+  void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = as_run(velocity, scalar_); }
 
  private:
-  OwnScenery<Scalar> scenery_;
-  TechniqueController<Scalar> controller_;
-  Scratch<Scalar> scratch_;
+  ScalarKind scalar_;
+  std::unique_ptr<const Scenery> rounded_;  ///< In double the scene's own runs.
+  TechniqueController controller_;
+  Scratch scratch_;
   Sides sides_;
-  MoverRecord<Scalar> movers_;
+  MoverRecord movers_;
   TraceHeader header_;
-  CharacterState<Scalar> state_;
-  StepReport<Scalar> report_;
+  CharacterState state_;
+  StepReport report_;
 };
 
 }  // namespace
 
 std::unique_ptr<Contender> make_technique_contender(const TechniqueEntry& technique, ScalarKind scalar,
-                                                    const Scene& scene, const Scenery<double>& scenery,
+                                                    const Scene& scene, const Scenery& scenery,
                                                     const Planning& planning) {
-  if (scalar == ScalarKind::binary32)
-    return std::make_unique<TechniqueContender<float>>(technique, scene, scenery, planning);
-  return std::make_unique<TechniqueContender<double>>(technique, scene, scenery, planning);
+  return std::make_unique<TechniqueContender>(technique, scalar, scene, scenery, planning);
 }
 
 }  // namespace paperproof::compare

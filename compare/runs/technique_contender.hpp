@@ -6,7 +6,7 @@
 namespace paperproof::compare {
 
 [[nodiscard]] std::unique_ptr<Contender> make_technique_contender(const TechniqueEntry& technique, ScalarKind scalar,
-                                                                  const Scene& scene, const Scenery<double>& scenery,
+                                                                  const Scene& scene, const Scenery& scenery,
                                                                   const Planning& planning);
 
 }  // namespace paperproof::compare

@@ -11,29 +11,16 @@
 namespace paperproof::compare {
 namespace {
 
-using SensorChange = SensorEvent<double>::Change;
-
-template <class Scalar>
-std::vector<NamedTolerance> tolerances_of() {
-  constexpr Tolerances<Scalar> t{};
+std::vector<NamedTolerance> tolerances_of(ScalarKind scalar) {
+  const Tolerances t = scalar == ScalarKind::binary32 ? tolerances_in_float : Tolerances{};
   return {{"hit", t.hit},         {"stop", t.stop},       {"touch", t.touch}, {"look", t.look},
           {"certain", t.certain}, {"restore", t.restore}, {"range", t.range}};
 }
 
-template <class Scalar>
-Vec2d widened(const Vec2<Scalar>& v) {
-  return v.template cast<double>();
-}
-
 /// The article's techniques name the pair that was tested; all contenders are compared by where the normal points.
-template <class Scalar>
-Contact<double> recorded(const Contact<Scalar>& contact, Sides sides) {
-  return {.collider = contact.collider,
-          .point = widened<Scalar>(contact.point),
-          .normal = widened<Scalar>(contact.normal),
-          .fraction = static_cast<double>(contact.fraction),
-          .separation = static_cast<double>(contact.separation),
-          .side = sides == Sides::as_said ? contact.side : side_of_normal(contact.normal.x(), contact.normal.y())};
+Contact recorded(Contact contact, Sides sides) {
+  if (sides == Sides::of_normals) contact.side = side_of_normal(contact.normal.x(), contact.normal.y());
+  return contact;
 }
 
 /// That the picture techniques take.
@@ -100,6 +87,26 @@ double unit_of(const TechniqueEntry& technique, const Scene& scene, std::span<co
 
 }  // namespace
 
+double as_run(double value, ScalarKind scalar) noexcept {
+  return scalar == ScalarKind::binary32 ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+Vec2d as_run(const Vec2d& value, ScalarKind scalar) noexcept {
+  return {as_run(value.x(), scalar), as_run(value.y(), scalar)};
+}
+
+SceneryDef as_run(SceneryDef scenery, ScalarKind scalar) {
+  const auto round_all = [scalar](std::vector<Vec2d>& points) {
+    for (Vec2d& point : points) point = as_run(point, scalar);
+  };
+  for (ColliderDef& collider : scenery.colliders) {
+    round_all(collider.points);
+    for (std::vector<Vec2d>& hole : collider.holes) round_all(hole);
+    collider.radius = as_run(collider.radius, scalar);
+  }
+  return scenery;
+}
+
 TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Planning& planning) {
   const std::span<const KnobSetting> knobs = planning.knobs;
   TechniqueDef def;
@@ -142,24 +149,6 @@ double jump_rules_in_force(const CharacterDef& character) {
 
 namespace {
 
-/// What a scene says of a scenery, in the number type that runs.
-template <class Scalar>
-SceneryDef rounded(SceneryDef scenery) {
-  const auto round = [](double& value) { value = static_cast<double>(static_cast<Scalar>(value)); };
-  const auto round_all = [&round](std::vector<Vec2d>& points) {
-    for (Vec2d& point : points) {
-      round(point.x());
-      round(point.y());
-    }
-  };
-  for (ColliderDef& collider : scenery.colliders) {
-    round_all(collider.points);
-    for (std::vector<Vec2d>& hole : collider.holes) round_all(hole);
-    round(collider.radius);
-  }
-  return scenery;
-}
-
 /// What runs must be what the scene says: the judge sees the latter.
 /// @throws std::logic_error naming the collider that differs.
 void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vector<std::string>& ids) {
@@ -189,65 +178,54 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
   if (is_guaranteed(header.contender, header.scalar)) header.guarantees = every_clause();
 }
 
-template <class Scalar>
-TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
+TraceHeader header_of(const TechniqueEntry& technique, ScalarKind scalar, const Scenery& scenery, const Scene& scene,
                       const Planning& planning) {
   const std::span<const KnobSetting> knobs = planning.knobs;
   TraceHeader header;
   header.scene = scene.name;
   header.contender = technique.name;
-  header.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
+  header.scalar = name_of(scalar);
   header.knob = turned_knobs(knobs, technique.name);
-  header.dt = static_cast<double>(static_cast<Scalar>(scene.dt));
+  header.dt = as_run(scene.dt, scalar);
   header.characters = character_count(scene);
-  for (const Vec2d& point : scene.character.shape.hull())
-    header.points.push_back(point.cast<Scalar>().template cast<double>());
+  for (const Vec2d& point : scene.character.shape.hull()) header.points.push_back(as_run(point, scalar));
   add_terms(scene, rules_for(technique, scene, knobs), header);
-  header.scenery = rounded<Scalar>(scene.scenery);
+  header.scenery = as_run(scene.scenery, scalar);
   check_as_run(header.scenery, scenery.as_run(), scene.ids);
   header.ids = scene.ids;
   header.plan = plan_of(scenery, planning);
-  header.tolerances = tolerances_of<Scalar>();
+  header.tolerances = tolerances_of(scalar);
   if (const double unit = unit_of(technique, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
   if (technique.draws_level && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
     header.tolerances.push_back({"pixel", 1 / scene.pixels_per_metre});
   return header;
 }
 
-template <class Scalar>
-std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride) {
-  if (ride.ground == Ride<Scalar>::none) return std::nullopt;
-  return TraceRide{ride.ground, widened<Scalar>(ride.velocity)};
+std::optional<TraceRide> recorded_ride(const Ride& ride) {
+  if (ride.ground == Ride::none) return std::nullopt;
+  return TraceRide{ride.ground, ride.velocity};
 }
 
-template <class Scalar>
-void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, Sides sides,
-                  TraceStep& record) {
-  const MoveResult<Scalar>& move = report.move;
+void write_report(const StepReport& report, const CharacterState& state, Sides sides, TraceStep& record) {
+  const MoveResult& move = report.move;
   record.path.clear();
-  for (const PathPoint<Scalar>& corner : move.path)
-    record.path.push_back({widened<Scalar>(corner.position), static_cast<double>(corner.fraction)});
-  record.requested = widened<Scalar>(report.requested);
-  record.steered = static_cast<double>(report.steered);
-  record.velocity = widened<Scalar>(state.velocity);
-  record.remainder = widened<Scalar>(state.technique_memory);
+  record.path.assign(move.path.begin(), move.path.end());
+  record.requested = report.requested;
+  record.steered = report.steered;
+  record.velocity = state.velocity;
+  record.remainder = state.technique_memory;
   record.grounded = state.grounded;
   record.jumping = state.jumping;
   record.ride = recorded_ride(state.ride);
-  record.ground_velocity = widened<Scalar>(state.ground.velocity);
+  record.ground_velocity = state.ground.velocity;
   record.stuck = report.status == StepStatus::stuck;
   record.dropped = report.status == StepStatus::dropped;
   record.capped = false;
   record.crushed.assign(move.crushed.begin(), move.crushed.end());
   record.dropped_through.assign(report.dropped_through.begin(), report.dropped_through.end());
-  record.sensors.clear();
-  for (const SensorEvent<Scalar>& event : report.sensors) {
-    const bool enters = event.change == SensorEvent<Scalar>::Change::enter;
-    record.sensors.push_back(
-        {event.sensor, enters ? SensorChange::enter : SensorChange::exit, static_cast<double>(event.fraction)});
-  }
+  record.sensors.assign(report.sensors.begin(), report.sensors.end());
   record.contacts.clear();
-  for (const Contact<Scalar>& contact : move.contacts) record.contacts.push_back(recorded(contact, sides));
+  for (const Contact& contact : move.contacts) record.contacts.push_back(recorded(contact, sides));
 }
 
 void refuse_unusable(StepStatus status, std::string_view refusal) {
@@ -257,40 +235,25 @@ void refuse_unusable(StepStatus status, std::string_view refusal) {
   if (status == StepStatus::invalid_input) throw std::runtime_error("the motion is not finite");
 }
 
-template <class Scalar>
-Pose pose_of(const CharacterState<Scalar>& state) {
-  return {.position = widened<Scalar>(state.position),
-          .velocity = widened<Scalar>(state.velocity),
+Pose pose_of(const CharacterState& state) {
+  return {.position = state.position,
+          .velocity = state.velocity,
           .grounded = state.grounded,
           .jumping = state.jumping,
           .jump_held = state.jump_held,
           .jump_pending = state.jump_pending,
-          .ride = {.ground = state.ride.ground,
-                   .place = widened<Scalar>(state.ride.place),
-                   .velocity = widened<Scalar>(state.ride.velocity)}};
+          .ride = {.ground = state.ride.ground, .place = state.ride.place, .velocity = state.ride.velocity}};
 }
 
-template <class Scalar>
-CharacterState<Scalar> state_at(const Pose& pose) {
-  CharacterState<Scalar> state;
-  state.position = pose.position.cast<Scalar>();
-  state.velocity = pose.velocity.cast<Scalar>();
+CharacterState state_at(const Pose& pose, ScalarKind scalar) {
+  CharacterState state;
+  state.position = as_run(pose.position, scalar);
+  state.velocity = as_run(pose.velocity, scalar);
   state.grounded = pose.grounded;
   state.jumping = pose.jumping;
   state.jump_held = pose.jump_held;
   state.jump_pending = pose.jump_pending;
   return state;
 }
-
-template TraceHeader header_of(const TechniqueEntry&, const Scenery<float>&, const Scene&, const Planning&);
-template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, const Scene&, const Planning&);
-template std::optional<TraceRide> recorded_ride(const Ride<float>&);
-template std::optional<TraceRide> recorded_ride(const Ride<double>&);
-template void write_report(const StepReport<float>&, const CharacterState<float>&, Sides, TraceStep&);
-template void write_report(const StepReport<double>&, const CharacterState<double>&, Sides, TraceStep&);
-template Pose pose_of(const CharacterState<float>&);
-template Pose pose_of(const CharacterState<double>&);
-template CharacterState<float> state_at(const Pose&);
-template CharacterState<double> state_at(const Pose&);
 
 }  // namespace paperproof::compare

@@ -6,29 +6,12 @@
 
 #include <paperproof/techniques.hpp>
 
-#include <type_traits>
-
 namespace paperproof::compare {
 
-/// `Scenery<double>` is shared by all contenders of a scene; one in float brings its own, rounded.
-template <class Scalar>
-class OwnScenery {
- public:
-  explicit OwnScenery(const Scenery<double>& shared) : own_(shared.as_run()) {}
-  [[nodiscard]] const Scenery<Scalar>& get() const noexcept { return own_; }
-
- private:
-  Scenery<Scalar> own_;
-};
-template <>
-class OwnScenery<double> {
- public:
-  explicit OwnScenery(const Scenery<double>& shared) : shared_(shared) {}
-  [[nodiscard]] const Scenery<double>& get() const noexcept { return shared_; }
-
- private:
-  const Scenery<double>& shared_;
-};
+/// The nearest number of the type that runs.
+[[nodiscard]] double as_run(double value, ScalarKind scalar) noexcept;
+[[nodiscard]] Vec2d as_run(const Vec2d& value, ScalarKind scalar) noexcept;
+[[nodiscard]] SceneryDef as_run(SceneryDef scenery, ScalarKind scalar);
 
 /// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile where it
 ///   would see only the part of the scenery that is in a file of tiles, or with other pixels than those of the file.
@@ -48,13 +31,11 @@ class OwnScenery<double> {
 /// @param character with the jumping rules in force.
 void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& header);
 
-template <class Scalar>
-[[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
-                                    const Planning& planning);
+[[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, ScalarKind scalar, const Scenery& scenery,
+                                    const Scene& scene, const Planning& planning);
 
 /// What carries a character, as a record has it.
-template <class Scalar>
-[[nodiscard]] std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride);
+[[nodiscard]] std::optional<TraceRide> recorded_ride(const Ride& ride);
 
 /// On which side of the character a contact is: the sides of the article's techniques are those that they search, and
 /// a trace has those that their normals say.
@@ -65,19 +46,15 @@ enum class Sides : std::uint8_t { as_said, of_normals };
 
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
 /// to what carries the character.
-template <class Scalar>
-void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, Sides sides,
-                  TraceStep& record);
+void write_report(const StepReport& report, const CharacterState& state, Sides sides, TraceStep& record);
 
 /// @param refusal the technique's own reason, where it refused.
 /// @throws StepRefused for a motion that is too far, std::runtime_error for one that is not finite.
 void refuse_unusable(StepStatus status, std::string_view refusal = {});
 
-template <class Scalar>
-[[nodiscard]] Pose pose_of(const CharacterState<Scalar>& state);
+[[nodiscard]] Pose pose_of(const CharacterState& state);
 
 /// A new story begins there.
-template <class Scalar>
-[[nodiscard]] CharacterState<Scalar> state_at(const Pose& pose);
+[[nodiscard]] CharacterState state_at(const Pose& pose, ScalarKind scalar = ScalarKind::binary64);
 
 }  // namespace paperproof::compare

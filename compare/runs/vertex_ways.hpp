@@ -14,7 +14,7 @@ inline constexpr double most_sag = 1e-4;
 
 /// How a mover goes during a part of a step: offset and angle evenly, each from one end to the other.
 struct TurningMotion {
-  MoverMotion<double> offset{};
+  MoverMotion offset{};
   TurnMotion angle{};
   double begin = 0;  ///< Fractions of the step.
   double end = 1;

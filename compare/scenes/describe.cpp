@@ -14,7 +14,7 @@ namespace {
 
 std::string point(const Vec2d& p) { return fmt::format("({}, {})", p.x(), p.y()); }
 
-std::string box(const Box2<double>& b) { return fmt::format("{} to {} m", point(b.lower), point(b.upper)); }
+std::string box(const Box2& b) { return fmt::format("{} to {} m", point(b.lower), point(b.upper)); }
 
 std::string lengths(const Scene& scene) {
   const StepTimes times(scene);
@@ -89,7 +89,7 @@ std::string joint(const Scene& scene, const Joint& def) {
 }
 
 /// One-way chains with segments that run along `one_way`, which have no side to block from.
-std::vector<std::string> idle_segments(const Scene& scene, const Scenery<double>& built) {
+std::vector<std::string> idle_segments(const Scene& scene, const Scenery& built) {
   std::vector<std::size_t> blocking(scene.ids.size(), 0);
   for (const PieceInfo& piece : built.pieces()) ++blocking[piece.collider];
   std::vector<std::string> notes;
@@ -107,7 +107,7 @@ std::vector<std::string> idle_segments(const Scene& scene, const Scenery<double>
 }  // namespace
 
 std::string describe(const Scene& scene) {
-  const Scenery<double> built(scenery_at(scene, 0));
+  const Scenery built(scenery_at(scene, 0));
   std::string out = scene.name + "\n";
   const auto line = [&](std::string_view what, const std::string& text) {
     out += fmt::format("  {:<10} {}\n", what, text);
@@ -116,8 +116,8 @@ std::string describe(const Scene& scene) {
   line("colliders", fmt::format("{}: {}", scene.scenery.colliders.size(), colliders(scene.scenery)));
   line("pieces", fmt::format("{} convex", built.pieces().size()));
   if (!built.boxes().empty()) {
-    Box2<double> bounds = built.boxes().front();
-    for (const Box2<double>& piece : built.boxes()) bounds = bounds.merged(piece);
+    Box2 bounds = built.boxes().front();
+    for (const Box2& piece : built.boxes()) bounds = bounds.merged(piece);
     line("bounds", box(bounds));
   }
   line("start", fmt::format("{} m, {} m/s{}", point(scene.start.position), point(scene.start.velocity),

@@ -7,7 +7,7 @@
 
 namespace paperproof::compare {
 
-/// A point within 2e6 m of the origin, the range of a sweep: see Tolerances<double>::range.
+/// A point within 2e6 m of the origin, the range of a sweep: see Tolerances::range.
 [[nodiscard]] Vec2d read_place(const JsonCursor& at);
 
 /// [m/s]. @param dt of the longest step [s]. @throws InputError for more than 1e6 m in such a step.

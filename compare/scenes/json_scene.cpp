@@ -55,7 +55,7 @@ double read_speed(const JsonCursor& object, std::string_view key, double otherwi
 }
 
 std::vector<std::string> read_sprite(const JsonCursor& at, const Scene& scene) {
-  const Box2<double>& box = scene.character.shape.box();
+  const Box2& box = scene.character.shape.box();
   const Vec2d size = (box.upper - box.lower) * scene.pixels_per_metre;
   const Vec2d whole(std::round(size.x()), std::round(size.y()));
   if ((size - whole).cwiseAbs().maxCoeff() > 1e-6) at.refuse("expected a character as large as whole pixels");

@@ -209,7 +209,7 @@ class SceneryReader {
     scene_.has_pixels = true;
   }
 
-  void extend_respawn_box(const Box2<double>& box) {
+  void extend_respawn_box(const Box2& box) {
     scene_.respawn_box = scene_.respawn_box ? scene_.respawn_box->merged(box) : box;
   }
 

@@ -62,7 +62,7 @@ TurnMotion turn_between(const MoverDef& mover, double begin, double end) {
   return {angle_at(mover, begin), angle_at(mover, end)};
 }
 
-MoverMotion<double> motion_between(const MoverDef& mover, double begin, double end) {
+MoverMotion motion_between(const MoverDef& mover, double begin, double end) {
   return {offset_at(mover, begin), offset_at(mover, end)};
 }
 

@@ -71,6 +71,6 @@ struct Joint {
 [[nodiscard]] TurnMotion turn_between(const MoverDef& mover, double begin, double end);
 
 /// How the mover goes in a step from one absolute time to another [s].
-[[nodiscard]] MoverMotion<double> motion_between(const MoverDef& mover, double begin, double end);
+[[nodiscard]] MoverMotion motion_between(const MoverDef& mover, double begin, double end);
 
 }  // namespace paperproof::compare

@@ -99,8 +99,7 @@ void scale_by(Scene& scene, double scale) {
     joint.end *= scale;
     joint.length *= scale;
   }
-  if (scene.respawn_box)
-    scene.respawn_box = Box2<double>{scene.respawn_box->lower * scale, scene.respawn_box->upper * scale};
+  if (scene.respawn_box) scene.respawn_box = Box2{scene.respawn_box->lower * scale, scene.respawn_box->upper * scale};
 }
 
 void shift_by(Scene& scene, double along) {
@@ -122,8 +121,7 @@ void shift_by(Scene& scene, double along) {
     joint.point += way;
     joint.end += way;
   }
-  if (scene.respawn_box)
-    scene.respawn_box = Box2<double>{scene.respawn_box->lower + way, scene.respawn_box->upper + way};
+  if (scene.respawn_box) scene.respawn_box = Box2{scene.respawn_box->lower + way, scene.respawn_box->upper + way};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace paperproof::compare {
 struct PixelScenery {
   SceneryDef scenery;
   std::vector<std::string> ids;  ///< `column,row` of the upper left pixel of each, counted from the picture's own.
-  Box2<double> box;              ///< Of the whole picture [m].
+  Box2 box;                      ///< Of the whole picture [m].
 };
 
 /// A picture of solid pixels and others.

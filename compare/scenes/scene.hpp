@@ -94,7 +94,7 @@ struct Scene {
   /// pictures. Its size is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
   std::vector<std::string> sprite{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
-  std::optional<Box2<double>> respawn_box;
+  std::optional<Box2> respawn_box;
   /// Its numbers, by the keys that rows have (`dt_s`, `thickness_m`), in order.
   std::vector<std::pair<std::string, double>> parameters{};
   std::string given{};   ///< Name or file as it was asked for.

@@ -8,10 +8,10 @@
 
 namespace paperproof::compare {
 
-std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, double column) {
+std::optional<Vec2d> first_ground(const Scene& scene, const Box2& box, double column) {
   const SceneryDef scenery = scenery_at(scene, 0);
   const FreePlaces places(scenery, scene.character.shape);
-  const Box2<double>& body = scene.character.shape.box();
+  const Box2& body = scene.character.shape.box();
   constexpr double above = 1.0 / 16;
   for (int i = 0;; ++i) {
     const double x = box.lower.x() + (i + 0.5) * column;
@@ -28,7 +28,7 @@ std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, d
   }
 }
 
-std::optional<Vec2d> free_place_near(const Scene& scene, const Box2<double>& box, const Vec2d& wanted) {
+std::optional<Vec2d> free_place_near(const Scene& scene, const Box2& box, const Vec2d& wanted) {
   const SceneryDef scenery = scenery_at(scene, 0);
   const FreePlaces places(scenery, scene.character.shape);
   constexpr double pixel = 1.0 / 32;

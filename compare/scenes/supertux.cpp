@@ -74,7 +74,7 @@ class SectorBuilder {
     for (const SuperTuxPlatform& platform : sector_.platforms) add_platform(platform);
     if (still_colliders_ == 0 || sector_.spawns.empty()) return std::nullopt;
     check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex) { return sector_.where; });
-    scene_.respawn_box = Box2<double>{{0, -size_.y()}, {size_.x(), 0}};
+    scene_.respawn_box = Box2{{0, -size_.y()}, {size_.x(), 0}};
     add_counted_notes();
     place_start();
     return std::move(scene_);
@@ -173,7 +173,7 @@ class SectorBuilder {
     const auto main =
         std::find_if(sector_.spawns.begin(), sector_.spawns.end(), [](const auto& s) { return s.name == "main"; });
     const SuperTuxSpawn& spawn = main == sector_.spawns.end() ? sector_.spawns.front() : *main;
-    const Box2<double>& body = scene_.character.shape.box();
+    const Box2& body = scene_.character.shape.box();
     const Vec2d wanted{spawn.at.x() / tile_pixels - body.lower.x(), 0 - spawn.at.y() / tile_pixels - body.upper.y()};
     const std::optional<Vec2d> found = free_place_near(scene_, *scene_.respawn_box, wanted);
     if (!found)

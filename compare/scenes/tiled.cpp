@@ -264,7 +264,7 @@ class MapBuilder {
     return path;
   }
 
-  Box2<double> box() const {
+  Box2 box() const {
     if (!map_.infinite) {
       const Vec2d size{map_.width * map_.tile_size.x(), map_.height * map_.tile_size.y()};
       return {to_metres({0, size.y()}), to_metres({size.x(), 0})};
@@ -272,7 +272,7 @@ class MapBuilder {
     const std::vector<ColliderDef>& colliders = scene_.scenery.colliders;
     const auto still =
         std::find_if(colliders.begin(), colliders.end(), [](const auto& each) { return each.mover == no_mover; });
-    Box2<double> all = box_of(*still);
+    Box2 all = box_of(*still);
     for (const ColliderDef& collider : colliders) {
       if (collider.mover == no_mover) all = all.merged(box_of(collider));
     }
@@ -311,7 +311,7 @@ class MapBuilder {
       scene_.notes.emplace_back("no spawn is marked; the character begins above the first ground");
       return;
     }
-    const Box2<double>& body = scene_.character.shape.box();
+    const Box2& body = scene_.character.shape.box();
     const Vec2d at = to_metres(upper_left(map_, *marked.object, marked.offset));
     if (marked.object->shape == TiledObject::Shape::point)
       scene_.start.position = {at.x() - (body.lower.x() + body.upper.x()) / 2, place_above(at.y(), body.lower.y())};

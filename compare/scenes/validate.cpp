@@ -44,19 +44,17 @@ void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& id
                                    ids[i], most_corners, corners));
   }
   try {
-    const Scenery<double> built(scenery);
+    const Scenery built(scenery);
   } catch (const InvalidScenery& error) {
     refuse(where(error.collider()), fmt::format("\"{}\": {}", ids[error.collider()], error.what()));
   }
 }
 
-Box2<double> box_of(const ColliderDef& collider) {
-  return Box2<double>::around(collider.points).inflated(collider.radius);
-}
+Box2 box_of(const ColliderDef& collider) { return Box2::around(collider.points).inflated(collider.radius); }
 
 FreePlaces::FreePlaces(const SceneryDef& scenery, const CharacterShape& shape)
     : scenery_(scenery), hull_(shape.hull().begin(), shape.hull().end()), character_box_(shape.box()) {
-  std::vector<Box2<double>> boxes;
+  std::vector<Box2> boxes;
   std::vector<ColliderIndex> solids;
   for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i) {
     if (scenery.colliders[i].sensor) continue;
@@ -70,8 +68,7 @@ std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
   // Only what is near goes to the exact judge: a level has 100,000 tiles, a character meets a dozen. The rounding of
   // the box's corners is far below the margin.
   constexpr double margin = 1.0 / 1024;
-  const Box2<double> box =
-      Box2<double>{character_box_.lower + position, character_box_.upper + position}.inflated(margin);
+  const Box2 box = Box2{character_box_.lower + position, character_box_.upper + position}.inflated(margin);
   const std::vector<ColliderIndex> original = near(box);
   if (original.empty()) return {};
   SceneryDef nearby;

@@ -38,18 +38,18 @@ class FreePlaces {
   /// never listed.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const Vec2d& position) const;
   /// The colliders whose boxes meet this one; no sensors.
-  [[nodiscard]] std::vector<ColliderIndex> near(const Box2<double>& box) const { return solids_.meeting(box); }
+  [[nodiscard]] std::vector<ColliderIndex> near(const Box2& box) const { return solids_.meeting(box); }
   [[nodiscard]] bool is_free(const Vec2d& position) const { return overlapped(position).empty(); }
 
  private:
   const SceneryDef& scenery_;
   detail::BoxTree solids_;
   std::vector<Vec2d> hull_;
-  Box2<double> character_box_;
+  Box2 character_box_;
 };
 
 /// Smallest box around a collider [m]. It has at least one point.
-[[nodiscard]] Box2<double> box_of(const ColliderDef& collider);
+[[nodiscard]] Box2 box_of(const ColliderDef& collider);
 
 /// Refuses a start inside a solid, where movers are when the scene begins, unless the scene asks to resolve it; and one
 /// that overlaps a character of a lower index.

@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 
 /// From the middle of the box, y up, in metres, to the corner of the sprite, y down, in pixels.
 ordered_json pixels_of(const Scene& scene) {
-  const Box2<double>& box = scene.character.shape.box();
+  const Box2& box = scene.character.shape.box();
   if (box.lower != Vec2d(-box.upper))
     refuse(scene.name, "expected a character whose position is the middle of its box: the format has no other");
   ordered_json list = ordered_json::array();

@@ -49,9 +49,9 @@ std::vector<Input> inputs() {
 /// One search in one level, ready to run again and again.
 class Subject {
  public:
-  Subject(PieceSearch search, const Scenery<double>& scenery) {
+  Subject(PieceSearch search, const Scenery& scenery) {
     const auto begin = Clock::now();
-    controller_ = std::make_unique<Controller<double>>(scenery, CharacterDef{}, SweepDef{.search = search});
+    controller_ = std::make_unique<Controller>(scenery, CharacterDef{}, SweepDef{.search = search});
     point_.build_ms = milliseconds_since(begin);
     point_.search = search;
     point_.pieces = scenery.pieces().size();
@@ -62,7 +62,7 @@ class Subject {
   /// From the start, with every position kept.
   std::vector<Vec2d> positions(const std::vector<Input>& inputs) {
     std::vector<Vec2d> all;
-    CharacterState<double> hero = start();
+    CharacterState hero = start();
     for (const Input& input : inputs) {
       step(hero, input);
       all.push_back(hero.position);
@@ -71,7 +71,7 @@ class Subject {
   }
 
   void time(const std::vector<Input>& inputs) {
-    CharacterState<double> hero = start();
+    CharacterState hero = start();
     const auto begin = Clock::now();
     for (const Input& input : inputs) step(hero, input);
     costs_.push_back(milliseconds_since(begin) * 1e6 / static_cast<double>(inputs.size()));
@@ -87,24 +87,24 @@ class Subject {
   }
 
  private:
-  static CharacterState<double> start() {
-    CharacterState<double> hero;
+  static CharacterState start() {
+    CharacterState hero;
     hero.position = {0, 1};
     return hero;
   }
-  void step(CharacterState<double>& hero, const Input& input) {
+  void step(CharacterState& hero, const Input& input) {
     controller_->step(hero, input, {{0, -30}, 1.0 / 60}, scratch_, report_);
   }
 
-  std::unique_ptr<Controller<double>> controller_;
-  Scratch<double> scratch_;
-  StepReport<double> report_;
+  std::unique_ptr<Controller> controller_;
+  Scratch scratch_;
+  StepReport report_;
   ScalePoint point_;
   std::vector<double> costs_;
 };
 
 void study_level(std::size_t pieces, const std::vector<Input>& inputs, std::vector<ScalePoint>& points) {
-  const Scenery<double> scenery(floors(pieces));
+  const Scenery scenery(floors(pieces));
   std::vector<Subject> subjects;
   for (const PieceSearch search : scale_searches) subjects.emplace_back(search, scenery);
   // The warm-up, and what both have to give.

@@ -154,7 +154,7 @@ class MotionStudy {
           places_without_friction(continuous_places(scene, continuous::Law::frictionless)) {}
     Scene scene;
     Script script;
-    Scenery<double> scenery;
+    Scenery scenery;
     std::vector<Vec2d> places;  ///< Where the continuous motion is at the end of every step.
     std::vector<Vec2d> places_without_friction;
   };

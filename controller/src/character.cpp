@@ -25,7 +25,7 @@ Points checked_points(std::span<const Vec2d> points) {
   check_count(points.size());
   Points checked;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double range = Tolerances<double>{}.range;
+    const double range = Tolerances{}.range;
     // Written so that NaN fails.
     if (!(std::abs(points[i].x()) <= range && std::abs(points[i].y()) <= range)) {
       throw InvalidCharacter(point_name(i) + " is not a finite length of at most 2e6 m");
@@ -94,7 +94,7 @@ CharacterShape CharacterShape::article(double pixels_per_metre) {
 CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, double pixels_per_metre) {
   require(std::isfinite(pixels_per_metre) && pixels_per_metre > 0, "pixels_per_metre", "a finite number above zero");
   check_count(points_px.size());
-  const Box2<double> sprite = Box2<double>::around(points_px);
+  const Box2 sprite = Box2::around(points_px);
   const Vec2d centre = 0.5 * sprite.lower + 0.5 * sprite.upper;
   Points points;
   for (const Vec2d& at : points_px) {
@@ -104,7 +104,7 @@ CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, dou
 }
 
 CharacterShape::CharacterShape(std::span<const Vec2d> points)
-    : points_(checked_points(points)), hull_(outline_of(points_)), box_(Box2<double>::around(this->points())) {
+    : points_(checked_points(points)), hull_(outline_of(points_)), box_(Box2::around(this->points())) {
   check_all_corners(hull_);
   pairs_[static_cast<std::size_t>(Side::top)] = extreme_pair(this->points(), 0, 1);
   pairs_[static_cast<std::size_t>(Side::bottom)] = extreme_pair(this->points(), 0, -1);
@@ -127,12 +127,8 @@ void CharacterDef::validate() const {
   require_not_negative(wall_reach, "wall_reach");
 }
 
-template <class Scalar>
-Scalar CharacterDef::walkable_cosine() const noexcept {
-  const double margin = static_cast<double>(Tolerances<Scalar>{}.climb);
-  return static_cast<Scalar>(std::cos(max_climb_degrees * std::numbers::pi / 180 + margin));
+double CharacterDef::walkable_cosine(double climb) const noexcept {
+  return std::cos(max_climb_degrees * std::numbers::pi / 180 + climb);
 }
-template float CharacterDef::walkable_cosine<float>() const noexcept;
-template double CharacterDef::walkable_cosine<double>() const noexcept;
 
 }  // namespace paperproof

@@ -8,19 +8,17 @@
 
 namespace paperproof {
 
-template <class Scalar>
-struct Crowd<Scalar>::Rules {
+struct Crowd::Rules {
   bool may_ride;  ///< Some ground may carry a character.
-  crowd::SweepRules<Scalar> sweep;
+  crowd::SweepRules sweep;
 };
 
 namespace {
 
 /// Any number of movers may crush one character.
-template <class Scalar>
-void make_room_for_movers(std::size_t count, crowd::CrowdMemory<Scalar>& memory) {
+void make_room_for_movers(std::size_t count, crowd::CrowdMemory& memory) {
   memory.path.crushed.reserve(count);
-  for (crowd::Member<Scalar>& member : memory.members) {
+  for (crowd::Member& member : memory.members) {
     member.plan.crushed.reserve(count);
     member.crushed_memory = ReportMemory<ColliderIndex>(count);
   }
@@ -28,32 +26,26 @@ void make_room_for_movers(std::size_t count, crowd::CrowdMemory<Scalar>& memory)
 
 }  // namespace
 
-template <class Scalar>
-Crowd<Scalar>::Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> controller)
+Crowd::Crowd(std::unique_ptr<const Rules> rules, Controller controller)
     : rules_(std::move(rules)), controller_(std::move(controller)) {}
 
-template <class Scalar>
-Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
+Crowd::Crowd(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep)
     : Crowd([&] {
         auto rules = std::make_unique<Rules>(
             Rules{scenery.mover_count() > 0 || has_conveyors(scenery), {scenery, character, sweep.iterations}});
         CharacterDef walker = character;
         walker.step_height = 0;  // a path that goes up at once is not swept against the paths of others
-        auto in_parts = octagon_sweep::make_sweep_in_parts(sweep, rules->sweep.scenery, walker);
+        auto in_parts = octagon_sweep::in_double::make_sweep(sweep, rules->sweep.scenery, walker);
         rules->sweep.sweep = in_parts.get();
-        return Crowd(std::move(rules), Controller<Scalar>(scenery, character, std::move(in_parts), sweep.search));
+        return Crowd(std::move(rules), Controller(scenery, character, std::move(in_parts), sweep.search));
       }()) {}
 
-template <class Scalar>
-Crowd<Scalar>::~Crowd() = default;
-template <class Scalar>
-Crowd<Scalar>::Crowd(Crowd&&) noexcept = default;
-template <class Scalar>
-Crowd<Scalar>& Crowd<Scalar>::operator=(Crowd&&) noexcept = default;
+Crowd::~Crowd() = default;
+Crowd::Crowd(Crowd&&) noexcept = default;
+Crowd& Crowd::operator=(Crowd&&) noexcept = default;
 
-template <class Scalar>
-CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
-  auto memory = std::make_unique<crowd::CrowdMemory<Scalar>>();
+CrowdScratch Crowd::make_scratch(std::size_t most_characters) const {
+  auto memory = std::make_unique<crowd::CrowdMemory>();
   memory->states.resize(most_characters);
   memory->requests.resize(most_characters);
   memory->scratch = controller_.make_scratch();
@@ -65,33 +57,31 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
 }
 
 /// Writes no state before it is certain that no state is refused.
-template <class Scalar>
-StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                               const StepContext<Scalar>& given, CrowdScratch& scratch,
-                               CrowdReport<Scalar>& report) const noexcept {
+StepStatus Crowd::step(std::span<CharacterState> states, std::span<const Input> inputs, const StepContext& given,
+                       CrowdScratch& scratch, CrowdReport& report) const noexcept {
   const std::size_t count = states.size();
   if (scratch.most_characters < count || report.members.size() < count || inputs.size() != count ||
       !step_parts::is_made_by(rules_, scratch.maker))
     return report.status = StepStatus::invalid_input;
-  StepContext<Scalar> context = given;
+  StepContext context = given;
   ColliderFilter filter;
   if (const ColliderFilter* used = controller_.filter_of(given)) {
     filter = *used;
     filter.end = rules_->sweep.first_slot;
     context.filter = &filter;
   }
-  auto& memory = static_cast<crowd::CrowdMemory<Scalar>&>(*scratch.own);
+  auto& memory = static_cast<crowd::CrowdMemory&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};
     report.members[i].island = static_cast<CharacterIndex>(i);
-    const bool rides = states[i].ride.ground != Ride<Scalar>::none;
+    const bool rides = states[i].ride.ground != Ride::none;
     if ((rides && !rules_->may_ride) || !controller_.begin_together(states[i], inputs[i], context, memory.states[i],
                                                                     memory.requests[i], report.members[i].step))
       return report.status = StepStatus::invalid_input;
   }
-  if (!crowd::sweep_together<Scalar>({rules_->sweep, memory, report, std::span(memory.members).first(count),
-                                      context.gravity, context.dt, context.movers, context.filter, context.up},
-                                     states))
+  if (!crowd::sweep_together({rules_->sweep, memory, report, std::span(memory.members).first(count), context.gravity,
+                              context.dt, context.movers, context.filter, context.up},
+                             states))
     return report.status = StepStatus::out_of_range;
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i].sort_contacts();
@@ -100,8 +90,5 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
   }
   return report.status = StepStatus::moved;
 }
-
-template class Crowd<float>;
-template class Crowd<double>;
 
 }  // namespace paperproof

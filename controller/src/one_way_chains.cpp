@@ -16,11 +16,9 @@ namespace {
 constexpr double margin_share = 1e-6;
 
 /// Rounding error of the height over a segment, as a share of the coordinates.
-template <class Scalar>
-inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 24;
+inline constexpr double height_rounding = std::numeric_limits<double>::epsilon() * 24;
 
-template <class Scalar>
-std::vector<PieceIndex> one_way_pieces(const Scenery<Scalar>& scenery) {
+std::vector<PieceIndex> one_way_pieces(const Scenery& scenery) {
   std::vector<PieceIndex> pieces;
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
     if (scenery.pieces()[piece].one_way) pieces.push_back(piece);
@@ -36,55 +34,48 @@ void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& cha
 
 }  // namespace
 
-template <class Scalar>
-OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search)
+OneWayChains::OneWayChains(const Scenery& scenery, const CharacterShape& shape, PieceSearch search)
     : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery), search), surfaces_(scenery, shape) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {
     const Vec2d grown = corner + margin_share * (corner - middle);
-    outline_.push_back(corner.cast<Scalar>());
-    grown_.push_back(grown.cast<Scalar>());
+    outline_.push_back(corner);
+    grown_.push_back(grown);
   }
 }
 
-template <class Scalar>
-void OneWayChains<Scalar>::find_passed(std::span<const PathPoint<Scalar>> path,
-                                       std::span<const MoverMotion<Scalar>> movers, Candidates<Scalar>& candidates,
-                                       Passed& passed, const ColliderFilter* filter) const noexcept {
+void OneWayChains::find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers,
+                               Candidates& candidates, Passed& passed, const ColliderFilter* filter) const noexcept {
   passed.clear();
-  const auto look_at = [&](PieceIndex piece, const MoverMotion<Scalar>& motion) {
+  const auto look_at = [&](PieceIndex piece, const MoverMotion& motion) {
     const ColliderIndex chain = scenery_->pieces()[piece].collider;
     if (std::binary_search(passed.begin(), passed.end(), chain)) return;
     if (filter != nullptr && !(*filter)(*scenery_, chain)) return;
     for (std::size_t i = 1; i < path.size(); ++i) {
-      const Vec2<Scalar> from = path[i - 1].position - motion.at(path[i - 1].fraction);
-      const Vec2<Scalar> to = path[i].position - motion.at(path[i].fraction);
+      const Vec2d from = path[i - 1].position - motion.at(path[i - 1].fraction);
+      const Vec2d to = path[i].position - motion.at(path[i].fraction);
       if (passes(piece, from, to)) return add_in_order(chain, passed);
     }
   };
-  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
+  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion& motion) {
     for (const PieceIndex piece : near) look_at(piece, motion);
   });
 }
 
 /// A segment runs so that its blocking normal is on its left.
-template <class Scalar>
-bool OneWayChains<Scalar>::passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
-  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
-  const Vec2<Scalar> along = ends[1] - ends[0];
-  const bool against = Vec2<Scalar>(-along.y(), along.x()).dot(to - from) < 0;
-  const typename OneWaySurfaces<Scalar>::Index surface = surfaces_.of(piece);
+bool OneWayChains::passes(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept {
+  const PieceVertices ends = scenery_->vertices_of(piece);
+  const Vec2d along = ends[1] - ends[0];
+  const bool against = Vec2d(-along.y(), along.x()).dot(to - from) < 0;
+  const OneWaySurfaces::Index surface = surfaces_.of(piece);
   // A character above a straight surface does not pass it along the normal, but another part of a bent surface may be
   // in the way. A segment that is not met against its normal is tested without the margin.
   if (!against && surfaces_.is_straight(surface)) return false;
   const auto& outline = against ? grown_ : outline_;
-  if (!geometry::overlap_time<Scalar>({outline.begin(), outline.end()}, ends, from, to).any()) return false;
-  const Scalar size = from.cwiseAbs().maxCoeff() + ends[0].cwiseAbs().maxCoeff() + ends[1].cwiseAbs().maxCoeff();
-  return surfaces_.may_be_above(surface, from, height_rounding<Scalar> * size);
+  if (!geometry::overlap_time({outline.begin(), outline.end()}, ends, from, to).any()) return false;
+  const double size = from.cwiseAbs().maxCoeff() + ends[0].cwiseAbs().maxCoeff() + ends[1].cwiseAbs().maxCoeff();
+  return surfaces_.may_be_above(surface, from, height_rounding * size);
 }
-
-template class OneWayChains<float>;
-template class OneWayChains<double>;
 
 }  // namespace paperproof

@@ -12,15 +12,14 @@ namespace paperproof {
 
 /// The one-way chains of one scenery, for one character. Immutable; shareable between threads; a search never
 /// allocates.
-template <class Scalar>
 class OneWayChains {
  public:
-  using Passed = decltype(StepReport<Scalar>::dropped_through);
+  using Passed = decltype(StepReport::dropped_through);
 
   /// `scenery` must outlive the chains.
-  OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search);
+  OneWayChains(const Scenery& scenery, const CharacterShape& shape, PieceSearch search);
 
-  [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
+  [[nodiscard]] Candidates make_candidates() const { return finder_.make_candidates(); }
 
   /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
@@ -28,21 +27,17 @@ class OneWayChains {
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
   /// @param candidates made by these chains, or by others of the same scenery and character.
   /// @param filter null: all chains are there.
-  void find_passed(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-                   Candidates<Scalar>& candidates, Passed& passed,
-                   const ColliderFilter* filter = nullptr) const noexcept;
+  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Candidates& candidates,
+                   Passed& passed, const ColliderFilter* filter = nullptr) const noexcept;
 
  private:
-  [[nodiscard]] bool passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
+  [[nodiscard]] bool passes(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
-  PieceFinder<Scalar> finder_;
-  OneWaySurfaces<Scalar> surfaces_;
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;  ///< The character's outline,
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
+  const Scenery* scenery_;
+  PieceFinder finder_;
+  OneWaySurfaces surfaces_;
+  FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
+  FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
 };
-
-extern template class OneWayChains<float>;
-extern template class OneWayChains<double>;
 
 }  // namespace paperproof

@@ -18,13 +18,12 @@
 namespace paperproof {
 
 /// Immutable after construction; may be shared between threads; a query never allocates.
-template <class Scalar>
 class OneWaySurfaces {
  public:
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
 
-  OneWaySurfaces(const Scenery<Scalar>& scenery, const CharacterShape& shape);
+  OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape);
 
   /// The surface that a piece is part of; `none` for a piece that blocks from both sides.
   [[nodiscard]] Index of(PieceIndex piece) const noexcept { return of_piece_.empty() ? none : of_piece_[piece]; }
@@ -34,26 +33,26 @@ class OneWaySurfaces {
   /// Whether the octagon at `position` (relative to the offset of the surface's mover) is above the surface; exact for
   /// position + rest. A binary search finds the edges that the octagon covers across `one_way`; only these are tested.
   /// @param rest the rounding error of the subtraction of the mover's offset: see `lost_by`.
-  [[nodiscard, gnu::noinline]] bool is_above(Index surface, const Vec2<Scalar>& position,
-                                             const Vec2<Scalar>& rest = Vec2<Scalar>::Zero()) const noexcept;
+  [[nodiscard, gnu::noinline]] bool is_above(Index surface, const Vec2d& position,
+                                             const Vec2d& rest = Vec2d::Zero()) const noexcept;
   /// The same for a position that may be wrong by `slack` [m]: true wherever it could be above.
-  [[nodiscard]] bool may_be_above(Index surface, const Vec2<Scalar>& position, Scalar slack) const noexcept;
+  [[nodiscard]] bool may_be_above(Index surface, const Vec2d& position, double slack) const noexcept;
 
  private:
   /// A direction in which the octagon can be separated from an edge, above or beside it.
   struct Axis {
-    Vec2<Scalar> normal;  ///< Unit, towards the octagon.
-    Scalar low;           ///< Least of normal · o over the octagon [m].
+    Vec2d normal;  ///< Unit, towards the octagon.
+    double low;    ///< Least of normal · o over the octagon [m].
   };
   /// Data that depends on `one_way` and the octagon alone. The octagon and the open region above it are bounded by the
   /// octagon's edges that face down and by two sides along `one_way`.
   struct Frame {
     Vec2d one_way;
-    Vec2<Scalar> across;  ///< Unit: a coordinate across `one_way`, in which every segment ascends.
+    Vec2d across;  ///< Unit: a coordinate across `one_way`, in which every segment ascends.
     FixedVector<Axis, CharacterShape::max_points + 2> axes;
     FixedVector<std::uint8_t, CharacterShape::max_points> lower;  ///< Edges k -> k + 1 of the hull that face down.
-    Scalar first;                                                 ///< The octagon covers, across `one_way` [m],
-    Scalar last;                                                  ///< from `first` to `last`.
+    double first;                                                 ///< The octagon covers, across `one_way` [m],
+    double last;                                                  ///< from `first` to `last`.
   };
   struct Surface {
     std::uint32_t frame = 0;
@@ -63,23 +62,22 @@ class OneWaySurfaces {
   /// Edge i of a surface goes from the vertex of edge i to that of edge i + 1: after the last edge of each surface
   /// stands one more entry, for its last vertex.
   struct Edge {
-    Vec2<Scalar> from;
-    Scalar begins;        ///< Across `one_way` [m].
-    Vec2<Scalar> normal;  ///< Unit, to the left.
-    Scalar offset;        ///< Of `normal · position` where the octagon touches the line of the edge [m].
+    Vec2d from;
+    double begins;  ///< Across `one_way` [m].
+    Vec2d normal;   ///< Unit, to the left.
+    double offset;  ///< Of `normal · position` where the octagon touches the line of the edge [m].
   };
 
   [[nodiscard]] std::uint32_t find_frame(const Vec2d& one_way);
   void add_surface(std::span<const Vec2d> line, const Vec2d& one_way);
   template <class Visit>
-  [[nodiscard]] bool all_edges_below(const Surface& surface, const Vec2<Scalar>& position,
+  [[nodiscard]] bool all_edges_below(const Surface& surface, const Vec2d& position,
                                      const Visit& is_below) const noexcept;
-  [[nodiscard]] Scalar separation(const Surface& surface, std::uint32_t edge,
-                                  const Vec2<Scalar>& position) const noexcept;
-  [[nodiscard]] bool is_below_exactly(const Surface& surface, std::uint32_t edge, const Vec2<Scalar>& position,
-                                      const Vec2<Scalar>& rest) const noexcept;
+  [[nodiscard]] double separation(const Surface& surface, std::uint32_t edge, const Vec2d& position) const noexcept;
+  [[nodiscard]] bool is_below_exactly(const Surface& surface, std::uint32_t edge, const Vec2d& position,
+                                      const Vec2d& rest) const noexcept;
 
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> hull_;  ///< Counter-clockwise, rounded [m].
+  FixedVector<Vec2d, CharacterShape::max_points> hull_;  ///< Counter-clockwise, rounded [m].
   std::vector<Frame> frames_;
   std::vector<Surface> surfaces_;
   std::vector<Edge> edges_;
@@ -89,17 +87,13 @@ class OneWaySurfaces {
 /// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference (D. E.
 /// Knuth). Without the error, a character that touches a mover to the last bit would be above it in one step and not in
 /// the next.
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> lost_by(const Vec2<Scalar>& position, const Vec2<Scalar>& offset) noexcept {
-  const auto lost = [](Scalar a, Scalar b) {
-    const Scalar difference = a - b;
-    const Scalar part = difference - a;
+[[nodiscard]] inline Vec2d lost_by(const Vec2d& position, const Vec2d& offset) noexcept {
+  const auto lost = [](double a, double b) {
+    const double difference = a - b;
+    const double part = difference - a;
     return (a - (difference - part)) - (b + part);
   };
   return {lost(position.x(), offset.x()), lost(position.y(), offset.y())};
 }
-
-extern template class OneWaySurfaces<float>;
-extern template class OneWaySurfaces<double>;
 
 }  // namespace paperproof

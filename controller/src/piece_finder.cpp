@@ -11,15 +11,13 @@ constexpr double reach_share = 1e-5;
 
 }  // namespace
 
-template <class Scalar>
-PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                                 std::span<const PieceIndex> pieces, PieceSearch search)
+PieceFinder::PieceFinder(const Scenery& scenery, const CharacterShape& shape, std::span<const PieceIndex> pieces,
+                         PieceSearch search)
     : asks_all_(search == PieceSearch::none) {
-  const Box2<double>& box = shape.box();
+  const Box2& box = shape.box();
   const double size = (box.upper - box.lower).maxCoeff();
-  look_ahead_ = static_cast<Scalar>(look_ahead_share * size);
-  reach_ = Box2<Scalar>{box.lower.cast<Scalar>(), box.upper.cast<Scalar>()}.inflated(
-      Tolerances<Scalar>{}.look + static_cast<Scalar>(reach_share * size));
+  look_ahead_ = look_ahead_share * size;
+  reach_ = Box2{box.lower, box.upper}.inflated(Tolerances{}.look + reach_share * size);
   std::vector<Group> of_mover(scenery.mover_count());
   for (const PieceIndex piece : pieces) {
     const MoverIndex mover = scenery.pieces()[piece].mover;
@@ -39,52 +37,42 @@ PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const Character
   }
 }
 
-template <class Scalar>
-Candidates<Scalar> PieceFinder<Scalar>::make_candidates() const {
+Candidates PieceFinder::make_candidates() const {
   std::size_t most_of_a_mover = 0;
   for (const Group& group : moving_) most_of_a_mover = std::max(most_of_a_mover, group.pieces.size());
-  Candidates<Scalar> candidates;
+  Candidates candidates;
   candidates.pieces = PieceBuffer(standing_.pieces.size() + most_of_a_mover);
   return candidates;
 }
 
-template <class Scalar>
-std::span<const PieceIndex> PieceFinder<Scalar>::Group::query(const Box2<Scalar>& box,
-                                                              std::span<PieceIndex> found) const noexcept {
+std::span<const PieceIndex> PieceFinder::Group::query(const Box2& box, std::span<PieceIndex> found) const noexcept {
   const std::size_t count = tree->query(box, found);
   for (PieceIndex& piece : found.first(count)) piece = pieces[piece];
   return found.first(count);
 }
 
-template <class Scalar>
-Box2<Scalar> PieceFinder<Scalar>::positions_seen(std::span<const PathPoint<Scalar>> path,
-                                                 const MoverMotion<Scalar>& motion) noexcept {
-  const Vec2<Scalar> first = path.front().position - motion.at(path.front().fraction);
-  Box2<Scalar> positions{first, first};
-  for (const PathPoint<Scalar>& corner : path.subspan(1)) {
-    const Vec2<Scalar> at = corner.position - motion.at(corner.fraction);
+Box2 PieceFinder::positions_seen(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
+  const Vec2d first = path.front().position - motion.at(path.front().fraction);
+  Box2 positions{first, first};
+  for (const PathPoint& corner : path.subspan(1)) {
+    const Vec2d at = corner.position - motion.at(corner.fraction);
     positions = positions.merged({at, at});
   }
   return positions;
 }
 
-template <class Scalar>
-std::span<const PieceIndex> PieceFinder<Scalar>::near_standing(std::span<const PathPoint<Scalar>> path,
-                                                               Candidates<Scalar>& candidates) const noexcept {
-  Box2<Scalar> positions{path.front().position, path.front().position};
-  for (const PathPoint<Scalar>& corner : path.subspan(1))
-    positions = positions.merged({corner.position, corner.position});
+std::span<const PieceIndex> PieceFinder::near_standing(std::span<const PathPoint> path,
+                                                       Candidates& candidates) const noexcept {
+  Box2 positions{path.front().position, path.front().position};
+  for (const PathPoint& corner : path.subspan(1)) positions = positions.merged({corner.position, corner.position});
   if (!asks_all_ && (positions.lower == positions.upper || candidates.quiet.contains(positions))) return {};
   if (!candidates.valid || !candidates.box.contains(positions)) {
-    const Vec2<Scalar> way = path.back().position - path.front().position;
+    const Vec2d way = path.back().position - path.front().position;
     candidates.box = positions_ahead(positions, way, look_ahead_);
     candidates.count = standing_.query(touched_from(candidates.box), candidates.pieces).size();
     candidates.valid = true;
   }
   return std::span<const PieceIndex>(candidates.pieces).first(candidates.count);
 }
-
-template class PieceFinder<float>;
-template class PieceFinder<double>;
 
 }  // namespace paperproof

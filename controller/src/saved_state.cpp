@@ -49,14 +49,13 @@ struct Cursor {
 
 }  // namespace
 
-template <class Scalar>
-SavedState<Scalar> save(const CharacterState<Scalar>& state) noexcept {
-  SavedState<Scalar> saved{};
-  Cursor<SavedState<Scalar>> to{saved};
+SavedState save(const CharacterState& state) noexcept {
+  SavedState saved{};
+  Cursor<SavedState> to{saved};
   auto count = static_cast<std::uint32_t>(state.crushers.size());
   for_each_member(state, count, [&to]<class T>(const T& value) {
-    if constexpr (std::is_same_v<T, Scalar>)
-      to.saved.numbers[to.number++] = value + Scalar(0);  // a negative zero becomes a positive one
+    if constexpr (std::is_same_v<T, double>)
+      to.saved.numbers[to.number++] = value + 0.0;  // a negative zero becomes a positive one
     else if constexpr (std::is_same_v<T, std::uint32_t>)
       to.saved.indices[to.index++] = value;
     else
@@ -65,16 +64,15 @@ SavedState<Scalar> save(const CharacterState<Scalar>& state) noexcept {
   return saved;
 }
 
-template <class Scalar>
-CharacterState<Scalar> restored(const SavedState<Scalar>& saved) noexcept {
-  CharacterState<Scalar> state;
-  Cursor<const SavedState<Scalar>> from{saved};
+CharacterState restored(const SavedState& saved) noexcept {
+  CharacterState state;
+  Cursor<const SavedState> from{saved};
   constexpr std::size_t where_the_count_is = 2;
   const std::size_t count = std::min<std::size_t>(saved.indices[where_the_count_is], state.crushers.capacity());
   for (std::size_t i = 0; i < count; ++i) state.crushers.push_back({});
   std::uint32_t ignored = 0;
   for_each_member(state, ignored, [&from]<class T>(T& value) {
-    if constexpr (std::is_same_v<T, Scalar>)
+    if constexpr (std::is_same_v<T, double>)
       value = from.saved.numbers[from.number++];
     else if constexpr (std::is_same_v<T, std::uint32_t>)
       value = from.saved.indices[from.index++];
@@ -85,10 +83,5 @@ CharacterState<Scalar> restored(const SavedState<Scalar>& saved) noexcept {
   });
   return state;
 }
-
-template SavedState<float> save(const CharacterState<float>&) noexcept;
-template SavedState<double> save(const CharacterState<double>&) noexcept;
-template CharacterState<float> restored(const SavedState<float>&) noexcept;
-template CharacterState<double> restored(const SavedState<double>&) noexcept;
 
 }  // namespace paperproof

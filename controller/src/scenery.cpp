@@ -18,38 +18,28 @@ class Refused : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Volatile, because g++ 12 takes two coordinates that are rounded side by side for one vector of them, and then drops
-/// the way to `float` and back: the doubles were not rounded.
-template <class Scalar>
-double rounded_coordinate(double value) noexcept {
-  if constexpr (std::is_same_v<Scalar, double>) return geometry::without_traces(value);
-  const volatile Scalar rounded = static_cast<Scalar>(value);
-  return geometry::without_traces(static_cast<double>(rounded));
-}
-
 /// @param name called only if the point is refused: a level has hundreds of thousands of points.
-template <class Scalar, class Name>
-Vec2d rounded_point(const Vec2d& point, const Name& name) {
-  const double range = Tolerances<double>{}.range;
+template <class Name>
+Vec2d accepted_point(const Vec2d& point, const Name& name) {
+  const double range = Tolerances{}.range;
   // Written so that NaN fails.
   if (!(std::abs(point.x()) <= range && std::abs(point.y()) <= range)) {
     throw Refused(name() + " has a coordinate that is not a finite number of at most 2e6 m");
   }
-  return {rounded_coordinate<Scalar>(point.x()), rounded_coordinate<Scalar>(point.y())};
+  return {geometry::without_traces(point.x()), geometry::without_traces(point.y())};
 }
 
 /// The definition as it runs, in memory that is used for one collider after the other.
-template <class Scalar>
-void round_to(const ColliderDef& def, ColliderDef& result) {
+void copy_accepted(const ColliderDef& def, ColliderDef& result) {
   result = def;
   for (std::size_t i = 0; i < def.points.size(); ++i)
-    result.points[i] = rounded_point<Scalar>(def.points[i], [&] { return "point " + std::to_string(i); });
+    result.points[i] = accepted_point(def.points[i], [&] { return "point " + std::to_string(i); });
   for (std::size_t hole = 0; hole < def.holes.size(); ++hole)
     for (std::size_t i = 0; i < def.holes[hole].size(); ++i)
-      result.holes[hole][i] = rounded_point<Scalar>(
+      result.holes[hole][i] = accepted_point(
           def.holes[hole][i], [&] { return "point " + std::to_string(i) + " of hole " + std::to_string(hole); });
-  if (def.one_way) result.one_way = rounded_point<Scalar>(*def.one_way, [] { return std::string("one_way"); });
-  if (def.radius != 0) result.radius = rounded_coordinate<Scalar>(def.radius);
+  if (def.one_way) result.one_way = accepted_point(*def.one_way, [] { return std::string("one_way"); });
+  if (def.radius != 0) result.radius = geometry::without_traces(def.radius);
 }
 
 void check_chain(const ColliderDef& chain) {
@@ -71,7 +61,7 @@ void check_circle(const ColliderDef& circle) {
     throw Refused("a circle needs exactly 1 point, its centre; it has " + std::to_string(circle.points.size()));
   if (circle.one_way) throw Refused("a circle cannot be one-way: give a chain or a polygon the shape of its top");
   // Written so that NaN fails.
-  if (!(circle.radius > 0 && circle.radius <= Tolerances<double>{}.range))
+  if (!(circle.radius > 0 && circle.radius <= Tolerances{}.range))
     throw Refused("the radius of a circle must be above 0 and at most 2e6 m, not " + std::to_string(circle.radius));
 }
 
@@ -102,31 +92,29 @@ bool is_upright_rectangle(std::span<const Vec2d> ring) {
 }
 
 /// Index of a corner of the box, counter-clockwise from the lower left one.
-std::uint8_t corner_of(const Box2<double>& box, const Vec2d& corner) {
+std::uint8_t corner_of(const Box2& box, const Vec2d& corner) {
   const bool right = corner.x() == box.upper.x();
   return corner.y() == box.lower.y() ? (right ? 1 : 0) : (right ? 2 : 3);
 }
 
 /// The collected pieces of all colliders.
-template <class Scalar>
 struct Pieces {
   std::vector<PieceInfo>& infos;
-  std::vector<Vec2<Scalar>>& vertices;
-  std::vector<Box2<Scalar>>& boxes;
+  std::vector<Vec2d>& vertices;
+  std::vector<Box2>& boxes;
 
-  /// Casting back is exact: the vertices were rounded before.
   void add(ColliderIndex collider, const ColliderDef& def, std::span<const Vec2d> outline) {
     PieceInfo info{.collider = collider,
                    .mover = def.mover,
                    .first_vertex = static_cast<std::uint32_t>(vertices.size()),
                    .vertex_count = static_cast<std::uint8_t>(outline.size()),
                    .one_way = def.one_way.has_value()};
-    const Box2<double> box = Box2<double>::around(outline);
-    boxes.push_back({box.lower.template cast<Scalar>(), box.upper.template cast<Scalar>()});
+    const Box2 box = Box2::around(outline);
+    boxes.push_back({box.lower, box.upper});
     if (is_upright_rectangle(outline))
       info.rectangle_corner = corner_of(box, outline[0]);
     else
-      for (const Vec2d& vertex : outline) vertices.push_back(vertex.template cast<Scalar>());
+      for (const Vec2d& vertex : outline) vertices.push_back(vertex);
     infos.push_back(info);
   }
 
@@ -159,7 +147,7 @@ struct Pieces {
   void add_circle(ColliderIndex collider, const ColliderDef& def) {
     check_circle(def);
     add(collider, def, def.points);
-    const Scalar radius = static_cast<Scalar>(def.radius);
+    const double radius = def.radius;
     boxes.back() = boxes.back().inflated(radius);
     vertices.push_back({radius, 0});
   }
@@ -197,14 +185,6 @@ struct Pieces {
   }
 };
 
-template <class To, class Points>
-std::vector<Vec2<To>> cast_points(const Points& points) {
-  std::vector<Vec2<To>> result;
-  result.reserve(points.size());
-  for (const auto& point : points) result.push_back(point.template cast<To>());
-  return result;
-}
-
 void check_role(const ColliderDef& def, std::size_t colliders) {
   if (def.mover != no_mover && def.mover >= colliders)
     throw Refused("the number of its mover is " + std::to_string(def.mover) + ", and there are only " +
@@ -212,12 +192,6 @@ void check_role(const ColliderDef& def, std::size_t colliders) {
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");
   if (def.radius != 0 && def.shape != ColliderDef::Shape::circle) throw Refused("only a circle has a radius");
-}
-
-/// Rounding to `float` can make neighbours one point, or a thin polygon cross itself.
-std::string explained(const std::string& reason, const ColliderDef& given, const ColliderDef& as_run) {
-  const bool same = given.points == as_run.points && given.holes == as_run.holes && given.radius == as_run.radius;
-  return same ? reason : reason + " (after rounding the coordinates to the scalar type that runs)";
 }
 
 }  // namespace
@@ -244,24 +218,19 @@ std::vector<std::vector<Vec2d>> one_way_lines(const ColliderDef& def) {
   return lines;
 }
 
-template <class Scalar>
-Scenery<Scalar>::Scenery(const SceneryDef& def) {
+Scenery::Scenery(const SceneryDef& def) {
   colliders_.resize(def.colliders.size());
   pieces_.reserve(def.colliders.size());
   boxes_.reserve(def.colliders.size());
-  ColliderDef rounded;
+  ColliderDef accepted;
   const auto add = [&](ColliderIndex i) {
     const ColliderDef& given = def.colliders[i];
     try {
       check_role(given, def.colliders.size());
-      round_to<Scalar>(given, rounded);
-    } catch (const Refused& refused) {
-      throw InvalidScenery(i, refused.what());
-    }
-    try {
-      this->add(i, rounded);
+      copy_accepted(given, accepted);
+      this->add(i, accepted);
     } catch (const std::invalid_argument& refused) {
-      throw InvalidScenery(i, explained(refused.what(), given, rounded));
+      throw InvalidScenery(i, refused.what());
     }
     return static_cast<PieceIndex>(pieces_.size());
   };
@@ -293,8 +262,7 @@ Scenery<Scalar>::Scenery(const SceneryDef& def) {
   vertices_.shrink_to_fit();
 }
 
-template <class Scalar>
-void Scenery<Scalar>::add(ColliderIndex collider, const ColliderDef& def) {
+void Scenery::add(ColliderIndex collider, const ColliderDef& def) {
   const ColliderInfo info{.shape = def.shape,
                           .sensor = def.sensor,
                           .mover = def.mover,
@@ -305,37 +273,29 @@ void Scenery<Scalar>::add(ColliderIndex collider, const ColliderDef& def) {
   if (infos_.empty() || infos_.back() != info) infos_.push_back(info);
   colliders_[collider].info = static_cast<std::uint32_t>(infos_.size() - 1);
   colliders_[collider].first_piece = static_cast<PieceIndex>(pieces_.size());
-  Pieces<Scalar>{pieces_, vertices_, boxes_}.add(collider, def);
+  Pieces{pieces_, vertices_, boxes_}.add(collider, def);
   colliders_[collider].shape = shape_of(collider, def);
 }
 
 /// Decides how the points of a collider are stored, once its pieces exist.
-template <class Scalar>
-std::uint32_t Scenery<Scalar>::shape_of(ColliderIndex collider, const ColliderDef& def) {
-  const auto same = [](const Vec2<Scalar>& vertex, const Vec2d& point) {
-    return vertex.template cast<double>() == point;
-  };
+std::uint32_t Scenery::shape_of(ColliderIndex collider, const ColliderDef& def) {
   if (const PieceRange range = pieces_of(collider); range.size() == 1 && def.holes.empty()) {
-    const PieceVertices<Scalar> vertices = vertices_of(range.first);
-    if (std::equal(vertices.begin(), vertices.end(), def.points.begin(), def.points.end(), same))
-      return Collider::piece;
-    if (std::equal(vertices.begin(), vertices.end(), def.points.rbegin(), def.points.rend(), same))
+    const PieceVertices vertices = vertices_of(range.first);
+    if (std::equal(vertices.begin(), vertices.end(), def.points.begin(), def.points.end())) return Collider::piece;
+    if (std::equal(vertices.begin(), vertices.end(), def.points.rbegin(), def.points.rend()))
       return Collider::piece_backwards;
   }
-  shapes_.push_back({cast_points<Scalar>(def.points), {}});
-  for (const std::vector<Vec2d>& hole : def.holes) shapes_.back().holes.push_back(cast_points<Scalar>(hole));
+  shapes_.push_back({def.points, def.holes});
   return static_cast<std::uint32_t>(shapes_.size() - 1);
 }
 
-template <class Scalar>
-PieceRange Scenery<Scalar>::pieces_of(ColliderIndex collider) const noexcept {
+PieceRange Scenery::pieces_of(ColliderIndex collider) const noexcept {
   PieceRange range{colliders_[collider].first_piece, colliders_[collider].first_piece};
   while (range.end < pieces_.size() && pieces_[range.end].collider == collider) ++range.end;
   return range;
 }
 
-template <class Scalar>
-ColliderDef Scenery<Scalar>::as_run(ColliderIndex collider) const {
+ColliderDef Scenery::as_run(ColliderIndex collider) const {
   const Collider& kept = colliders_[collider];
   const ColliderInfo& info = infos_[kept.info];
   ColliderDef def{.shape = info.shape,
@@ -347,26 +307,22 @@ ColliderDef Scenery<Scalar>::as_run(ColliderIndex collider) const {
                   .carries = info.carries,
                   .filter = info.filter};
   if (kept.shape == Collider::piece || kept.shape == Collider::piece_backwards) {
-    def.points = cast_points<double>(vertices_of(kept.first_piece));
+    const PieceVertices vertices = vertices_of(kept.first_piece);
+    def.points.assign(vertices.begin(), vertices.end());
     if (kept.shape == Collider::piece_backwards) std::reverse(def.points.begin(), def.points.end());
-    if (info.shape == ColliderDef::Shape::circle) def.radius = static_cast<double>(circle(kept.first_piece).radius);
+    if (info.shape == ColliderDef::Shape::circle) def.radius = circle(kept.first_piece).radius;
     return def;
   }
-  const Shape& shape = shapes_[kept.shape];
-  def.points = cast_points<double>(shape.points);
-  for (const std::vector<Vec2<Scalar>>& hole : shape.holes) def.holes.push_back(cast_points<double>(hole));
+  def.points = shapes_[kept.shape].points;
+  def.holes = shapes_[kept.shape].holes;
   return def;
 }
 
-template <class Scalar>
-SceneryDef Scenery<Scalar>::as_run() const {
+SceneryDef Scenery::as_run() const {
   SceneryDef def;
   def.colliders.reserve(colliders_.size());
   for (ColliderIndex i = 0; i < colliders_.size(); ++i) def.colliders.push_back(as_run(i));
   return def;
 }
-
-template class Scenery<float>;
-template class Scenery<double>;
 
 }  // namespace paperproof

@@ -20,15 +20,14 @@ namespace paperproof {
 /// end of a path depends on the bits of its position and of the sensor's offset there, and on nothing else. A path that
 /// begins where the last path ended therefore begins in the same sensors: nothing has to be remembered, and no event is
 /// lost or doubled between steps. A path that begins in a sensor does not enter it, not even after a teleport.
-template <class Scalar>
 class Sensors {
  public:
-  using Events = decltype(StepReport<Scalar>::sensors);
+  using Events = decltype(StepReport::sensors);
 
   /// `scenery` must outlive the sensors.
-  Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::tree);
+  Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::tree);
 
-  [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
+  [[nodiscard]] Candidates make_candidates() const { return finder_.make_candidates(); }
 
   /// Every event on the way, in order of time (ties: the lower sensor first). If `events` is full, it keeps the
   /// earliest events and has overflowed.
@@ -38,53 +37,49 @@ class Sensors {
   /// @param path straight between its corners, fractions ascending.
   /// @param movers one for each mover of the scenery. @param filter null: all sensors are there.
   /// @param candidates made by these sensors, or by others of the same scenery and character.
-  void observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-               Candidates<Scalar>& candidates, Events& events, const ColliderFilter* filter = nullptr) const noexcept;
+  void observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Candidates& candidates,
+               Events& events, const ColliderFilter* filter = nullptr) const noexcept;
 
  private:
   /// A straight motion as seen from a sensor that stands still.
   struct Segment {
-    Vec2<Scalar> from;
-    Vec2<Scalar> to;
-    Box2<Scalar> positions;  ///< Around both.
-    Scalar begin = 0;        ///< Fractions of the step.
-    Scalar end = 1;
+    Vec2d from;
+    Vec2d to;
+    Box2 positions;    ///< Around both.
+    double begin = 0;  ///< Fractions of the step.
+    double end = 1;
 
-    [[nodiscard]] Scalar fraction(Scalar of_segment) const noexcept {
+    [[nodiscard]] double fraction(double of_segment) const noexcept {
       return std::min(end, begin + (end - begin) * of_segment);
     }
   };
 
-  [[nodiscard]] static Segment seen_by(const MoverMotion<Scalar>& motion, const PathPoint<Scalar>& begin,
-                                       const PathPoint<Scalar>& end) noexcept;
+  [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin,
+                                       const PathPoint& end) noexcept;
   /// @param near pieces that stand still, or go along with `motion`, ascending.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
-  Box2<Scalar> observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
-                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet, const ColliderFilter* filter,
-                       Events& events) const noexcept;
+  Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
+               const ColliderFilter* filter, Events& events) const noexcept;
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
                Events& events) const noexcept;
   /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.
   /// Returns false if this may change on the way.
-  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2<Scalar>& way, Box2<Scalar>& quiet) const noexcept;
+  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
-  PieceFinder<Scalar> finder_;
+  const Scenery* scenery_;
+  PieceFinder finder_;
   /// How a sensor's piece and the character overlap.
   struct Overlap {
-    Box2<Scalar> any;          ///< Positions at which they may overlap; at all others they do not [m].
-    Box2<Scalar> well_inside;  ///< Positions at which they certainly overlap [m]. Of a circle none are known.
-    std::vector<geometry::SeparatingAxis<Scalar>> axes;  ///< None for a circle.
+    Box2 any;          ///< Positions at which they may overlap; at all others they do not [m].
+    Box2 well_inside;  ///< Positions at which they certainly overlap [m]. Of a circle none are known.
+    std::vector<geometry::SeparatingAxis> axes;  ///< None for a circle.
   };
   [[nodiscard]] const Overlap& overlap_with(PieceIndex piece) const noexcept {
     return overlaps_[piece - scenery_->sensor_pieces().first];
   }
 
-  std::vector<Overlap> overlaps_;      ///< By piece.
-  std::vector<Vec2<Scalar>> outline_;  ///< Of the character.
+  std::vector<Overlap> overlaps_;  ///< By piece.
+  std::vector<Vec2d> outline_;     ///< Of the character.
 };
-
-extern template class Sensors<float>;
-extern template class Sensors<double>;
 
 }  // namespace paperproof

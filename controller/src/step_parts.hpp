@@ -14,47 +14,42 @@ namespace paperproof::step_parts {
 
 /// Tests all given numbers together: x - x is zero for a finite number and NaN for any other. So one branch replaces a
 /// branch for each number (a twentieth of a step).
-template <class Scalar>
 class FiniteCheck {
  public:
-  FiniteCheck& add(const Vec2<Scalar>& v) noexcept {
+  FiniteCheck& add(const Vec2d& v) noexcept {
     zero_ += v - v;
     return *this;
   }
   [[nodiscard]] bool passed() const noexcept { return zero_.x() == 0 && zero_.y() == 0; }
 
  private:
-  Vec2<Scalar> zero_{Vec2<Scalar>::Zero()};
+  Vec2d zero_{Vec2d::Zero()};
 };
 
 /// Positions and offsets [m]. Written so that NaN is out of range.
-template <class Scalar>
-[[nodiscard]] bool in_range(const Vec2<Scalar>& at) noexcept {
-  constexpr Scalar range = Tolerances<Scalar>{}.range;
+[[nodiscard]] inline bool in_range(const Vec2d& at) noexcept {
+  constexpr double range = Tolerances{}.range;
   return std::abs(at.x()) <= range && std::abs(at.y()) <= range;
 }
 
 /// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that
 /// they carry.
-template <class Scalar>
-[[nodiscard]] bool finite(std::span<const MoverMotion<Scalar>> movers, Scalar dt) noexcept {
-  return std::all_of(movers.begin(), movers.end(), [dt](const MoverMotion<Scalar>& mover) {
-    return in_range(mover.from) && in_range(mover.to) &&
-           FiniteCheck<Scalar>().add((mover.to - mover.from) / dt).passed();
+[[nodiscard]] inline bool finite(std::span<const MoverMotion> movers, double dt) noexcept {
+  return std::all_of(movers.begin(), movers.end(), [dt](const MoverMotion& mover) {
+    return in_range(mover.from) && in_range(mover.to) && FiniteCheck().add((mover.to - mover.from) / dt).passed();
   });
 }
 
 /// Whether a step can begin with these numbers.
 /// @param dt greater than zero.
-template <class Scalar>
-[[nodiscard]] bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                          Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept {
-  FiniteCheck<Scalar> check;
+[[nodiscard]] inline bool finite(const CharacterState& state, const Input& input, const Vec2d& gravity, double dt,
+                                 std::span<const MoverMotion> movers) noexcept {
+  FiniteCheck check;
   check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity).add({state.coyote_left, state.pending_left});
   if (state.has_last_free) check.add(state.last_free);
-  for (const Crusher<Scalar>& crusher : state.crushers) check.add(crusher.last_free).add(crusher.displacement);
-  return check.passed() && dt <= std::numeric_limits<Scalar>::max() && std::isfinite(input.move.value_or(0)) &&
+  for (const Crusher& crusher : state.crushers) check.add(crusher.last_free).add(crusher.displacement);
+  return check.passed() && dt <= std::numeric_limits<double>::max() && std::isfinite(input.move.value_or(0)) &&
          (movers.empty() || finite(movers, dt));
 }
 
@@ -83,22 +78,19 @@ template <class Maker>
 }
 
 /// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.
-template <class Scalar>
-[[nodiscard]] bool asks_for_wall(const CharacterDef& character, const Input& input,
-                                 const CharacterState<Scalar>& state) noexcept {
+[[nodiscard]] inline bool asks_for_wall(const CharacterDef& character, const Input& input,
+                                        const CharacterState& state) noexcept {
   const bool may_press = input.jump || state.jump_pending;
   return character.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0;
 }
 
-template <class Scalar>
-[[nodiscard]] bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
+[[nodiscard]] inline bool touches(const MoveResult& move, Side side) noexcept {
   return std::any_of(move.contacts.begin(), move.contacts.end(),
-                     [side](const Contact<Scalar>& contact) { return contact.side == side; });
+                     [side](const Contact& contact) { return contact.side == side; });
 }
 
 /// Notes whether a solid still overlaps the character after a move. If none does, the position is its last free one.
-template <class Scalar>
-void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
+inline void note_freedom(const MoveResult& move, CharacterState& state) noexcept {
   state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
   if (state.crushed || move.status == MoveStatus::stuck) return;
   state.last_free = move.position;
@@ -106,12 +98,11 @@ void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state)
 }
 
 /// Writes the result of the move into the state for the next step.
-template <class Scalar>
-void adopt(const CharacterDef& character, const Vec2<Scalar>& up, const MoveResult<Scalar>& move,
-           CharacterState<Scalar>& state) noexcept {
+inline void adopt(const CharacterDef& character, const Vec2d& up, const MoveResult& move,
+                  CharacterState& state) noexcept {
   // Zeros have no sign: states are compared as bytes.
-  state.position = move.position.array() + Scalar(0);
-  state.velocity = move.velocity.array() + Scalar(0);
+  state.position = move.position.array() + 0.0;
+  state.velocity = move.velocity.array() + 0.0;
   state.technique_memory = move.technique_memory;
   state.grounded = move.grounded;
   state.ride = move.ride;
@@ -123,11 +114,14 @@ void adopt(const CharacterDef& character, const Vec2<Scalar>& up, const MoveResu
   state.crushers.clear();
   if (state.crushed) state.crushers = move.crushers;
   if (move.grounded) state.jumping = false;
-  state.wall_left = touches(move, Side::left);
-  state.wall_right = touches(move, Side::right);
+  state.wall_left = state.wall_right = false;
+  for (const Contact& contact : move.contacts) {
+    state.wall_left = state.wall_left || contact.side == Side::left;
+    state.wall_right = state.wall_right || contact.side == Side::right;
+  }
   if (character.side_hit_ends_rise && (state.wall_left || state.wall_right)) {
-    const UpFrame<Scalar> frame = up;
-    const Scalar rise = frame.up_of(state.velocity);
+    const UpFrame frame = up;
+    const double rise = frame.up_of(state.velocity);
     if (rise > 0) state.velocity = frame.in_world({frame.across_of(state.velocity), 0});
   }
   const int stuck_steps = move.status == MoveStatus::stuck ? std::min(state.stuck_steps + 1, 255) : 0;

@@ -6,11 +6,9 @@ namespace paperproof::article {
 namespace {
 
 /// One frame while it is worked out.
-template <class Scalar>
 class Frame {
  public:
-  Frame(const Parts<Scalar>& parts, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-        MoveResult<Scalar>& result) noexcept
+  Frame(const Parts& parts, const MoveRequest& request, Scratch& scratch, MoveResult& result) noexcept
       : parts_(parts),
         request_(request),
         scratch_(scratch),
@@ -22,7 +20,7 @@ class Frame {
     if (moves_) measure_reach();
   }
 
-  void run(ImpactSearch<Scalar> search) noexcept {
+  void run(ImpactSearch search) noexcept {
     for (int iteration = 0; iteration < parts_.knobs.iterations; ++iteration) {
       look_around();
       if (iteration == 0) see_where_it_begins();
@@ -38,24 +36,24 @@ class Frame {
   }
 
  private:
-  using Group = PieceGroup<Scalar>;
+  using Group = PieceGroup;
 
   /// Where the character may come during the frame by itself.
-  [[nodiscard]] Box2<Scalar> total_box() const noexcept {
-    const Box2<Scalar>& body = parts_.points.box;
-    const Vec2<Scalar> there = position_ + movement_;
+  [[nodiscard]] Box2 total_box() const noexcept {
+    const Box2& body = parts_.points.box;
+    const Vec2d there = position_ + movement_;
     return {position_.cwiseMin(there) + body.lower, position_.cwiseMax(there) + body.upper};
   }
 
   /// How far penetration resolution may push beyond it.
-  [[nodiscard]] Scalar most_push() const noexcept {
-    const Vec2<Scalar> extent = parts_.points.box.upper - parts_.points.box.lower;
+  [[nodiscard]] double most_push() const noexcept {
+    const Vec2d extent = parts_.points.box.upper - parts_.points.box.lower;
     return extent.maxCoeff() + parts_.unit;
   }
 
   /// What moves elsewhere changes nothing here: the frame is that of scenery that stands still.
   [[nodiscard]] bool something_moves_near() noexcept {
-    if (request_.ride.ground != Ride<Scalar>::none) return true;
+    if (request_.ride.ground != Ride::none) return true;
     groups_ = parts_.groups_near(total_box().inflated(most_push()), record_.frame(), scratch_);
     return std::any_of(groups_.begin(), groups_.end(), [&](const Group& group) {
       const std::span<const PieceIndex> pieces = group.pieces.pieces();
@@ -67,21 +65,21 @@ class Frame {
 
   /// How far the movement can lead: each component is at any time the one that was wanted, or that of something hit.
   void measure_reach() noexcept {
-    reach_ = {movement_.cwiseMin(Vec2<Scalar>::Zero()), movement_.cwiseMax(Vec2<Scalar>::Zero())};
+    reach_ = {movement_.cwiseMin(Vec2d::Zero()), movement_.cwiseMax(Vec2d::Zero())};
     const auto include = [&](MoverIndex mover) {
-      const Vec2<Scalar> motion = record_.frame().shift_at_start(mover) - record_.frame().shift_at_end(mover);
+      const Vec2d motion = record_.frame().shift_at_start(mover) - record_.frame().shift_at_end(mover);
       reach_ = reach_.merged({motion, motion});
     };
     include(no_mover);
     for (MoverIndex mover = 0; mover < request_.movers.size(); ++mover) include(mover);
-    const Vec2<Scalar> surface{parts_.fastest_surface * request_.dt, 0};
+    const Vec2d surface{parts_.fastest_surface * request_.dt, 0};
     reach_ = {reach_.lower - surface, reach_.upper + surface};
   }
 
   /// Finds the pieces near the total bounding box: anew in every iteration.
   void look_around() noexcept {
-    const Box2<Scalar>& body = parts_.points.box;
-    Box2<Scalar> total = total_box();
+    const Box2& body = parts_.points.box;
+    Box2 total = total_box();
     if (moves_)
       total = total
                   .merged({record_.frame().start() + reach_.lower + body.lower,
@@ -99,17 +97,16 @@ class Frame {
   }
 
   /// Speculative contacts: shortens the movement, in each direction in turn, to where its pair would hit.
-  bool shorten_along(ImpactSearch<Scalar> search) noexcept {
+  bool shorten_along(ImpactSearch search) noexcept {
     bool hit = false;
-    Vec2<Scalar> free{1, 1};  // the fraction of the frame after which each component stops
+    Vec2d free{1, 1};  // the fraction of the frame after which each component stops
     for (const Side side : all_sides) {
       if (groups_.empty() || !record_.is_tested(side, groups_.front()) || movement_.isZero(0)) continue;
-      const PairImpact<Scalar> impact =
-          search(parts_, groups_.front().pieces, record_.pair(side), position_, movement_);
+      const PairImpact impact = search(parts_, groups_.front().pieces, record_.pair(side), position_, movement_);
       if (impact.hits.empty()) continue;
       hit = true;
-      const Scalar fraction = shorten(side, impact, free);
-      for (const CollisionPointHit<Scalar>& each : impact.hits) record_.report(each, groups_.front(), side, fraction);
+      const double fraction = shorten(side, impact, free);
+      for (const CollisionPointHit& each : impact.hits) record_.report(each, groups_.front(), side, fraction);
       record_.stop(side, groups_.front(), impact.hits[0].on);
     }
     record_way(free);
@@ -117,7 +114,7 @@ class Frame {
   }
 
   /// @return the fraction of the frame at which the pair hit.
-  Scalar shorten(Side side, const PairImpact<Scalar>& impact, Vec2<Scalar>& free) noexcept {
+  double shorten(Side side, const PairImpact& impact, Vec2d& free) noexcept {
     if (record_.shortens()) {
       movement_ = impact.reached;
       free *= impact.fraction;
@@ -130,12 +127,12 @@ class Frame {
   }
 
   /// The corners of the way: each component moves at its own pace until it stops.
-  void record_way(const Vec2<Scalar>& free) noexcept {
-    const Scalar first = std::min(free.x(), free.y());
-    const Scalar last = std::max(free.x(), free.y());
-    for (const Scalar fraction : {first, last}) {
+  void record_way(const Vec2d& free) noexcept {
+    const double first = std::min(free.x(), free.y());
+    const double last = std::max(free.x(), free.y());
+    for (const double fraction : {first, last}) {
       if (!(fraction > result_.path.back().fraction) || !(fraction < 1)) continue;
-      Vec2<Scalar> way = movement_;
+      Vec2d way = movement_;
       for (const Eigen::Index i : {0, 1}) {
         if (fraction < free[i]) way[i] = record_.frame().wanted()[i] * fraction;
       }
@@ -144,7 +141,7 @@ class Frame {
   }
 
   /// What is left for penetration resolution is a movement of zero.
-  bool meet_in_order_of_time(ImpactSearch<Scalar> search) noexcept {
+  bool meet_in_order_of_time(ImpactSearch search) noexcept {
     position_ = article::meet_in_order_of_time(parts_, search, groups_, request_, record_);
     movement_.setZero();
     return !result_.contacts.empty();
@@ -172,15 +169,14 @@ class Frame {
   /// @param others what the pair is free of afterwards: the group among them.
   bool resolve_pair(const Group& group, Side side, std::span<const Group> others) noexcept {
     if (!record_.is_tested(side, group)) return false;
-    const std::optional<PointHit<Scalar>> found = report_penetration(group, side);
+    const std::optional<PointHit> found = report_penetration(group, side);
     if (!found) return false;
     push_back(group, side, *found, others);
     record_.stop(side, group, *found);
     return true;
   }
 
-  [[nodiscard]] bool pair_is_inside(Side side, const Vec2<Scalar>& position,
-                                    std::span<const Group> groups) const noexcept {
+  [[nodiscard]] bool pair_is_inside(Side side, const Vec2d& position, std::span<const Group> groups) const noexcept {
     const std::span<const std::size_t> points = distinct(record_.pair(side));
     return std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
       return std::any_of(points.begin(), points.end(), [&](std::size_t i) {
@@ -190,15 +186,15 @@ class Frame {
   }
 
   /// @return the first of the hits.
-  std::optional<PointHit<Scalar>> report_penetration(const Group& group, Side side) noexcept {
-    Vec2<Scalar> back{Vec2<Scalar>::Zero()};
-    back[component_of(side)] = static_cast<Scalar>(-outwards(side));
-    std::optional<PointHit<Scalar>> first;
+  std::optional<PointHit> report_penetration(const Group& group, Side side) noexcept {
+    Vec2d back{Vec2d::Zero()};
+    back[component_of(side)] = static_cast<double>(-outwards(side));
+    std::optional<PointHit> first;
     for (const std::size_t i : distinct(record_.pair(side))) {
-      const Vec2<Scalar> point = group.seen(position_ + movement_, 1) + parts_.points.offsets[i];
+      const Vec2d point = group.seen(position_ + movement_, 1) + parts_.points.offsets[i];
       const std::optional<PieceIndex> piece = group.pieces.containing(point);
       if (!piece) continue;
-      const CollisionPointHit<Scalar> hit{group.pieces.way_out(*piece, point, back), i};
+      const CollisionPointHit hit{group.pieces.way_out(*piece, point, back), i};
       record_.report(hit, group, side, 1);
       if (!first) first = hit.on;
     }
@@ -207,22 +203,22 @@ class Frame {
 
   /// Unit by unit towards the start and, where needed, beyond it by as much as the character is long in that direction.
   /// What is not free then (something larger than the character is in the way) does not move in that direction at all.
-  void push_back(const Group& group, Side side, const PointHit<Scalar>& hit, std::span<const Group> others) noexcept {
+  void push_back(const Group& group, Side side, const PointHit& hit, std::span<const Group> others) noexcept {
     const Eigen::Index component = component_of(side);
-    const Scalar extent = parts_.points.box.upper[component] - parts_.points.box.lower[component];
-    const Vec2<Scalar> drift = group.drift();
-    const Scalar wanted = record_.shortens() ? length<Scalar>(movement_ + drift)
-                                             : std::abs(movement_[component]) + std::abs(drift[component]);
-    const Scalar steps = std::ceil((wanted + extent) / parts_.unit);
+    const double extent = parts_.points.box.upper[component] - parts_.points.box.lower[component];
+    const Vec2d drift = group.drift();
+    const double wanted =
+        record_.shortens() ? length(movement_ + drift) : std::abs(movement_[component]) + std::abs(drift[component]);
+    const double steps = std::ceil((wanted + extent) / parts_.unit);
     const int limit = steps < max_search_steps ? static_cast<int>(steps) : max_search_steps;
     if (record_.shortens() && !(wanted > 0)) return;
     for (int step = 1; step <= limit; ++step) {
-      const Scalar back = static_cast<Scalar>(step) * parts_.unit;
-      Vec2<Scalar> adjusted = movement_;
+      const double back = static_cast<double>(step) * parts_.unit;
+      Vec2d adjusted = movement_;
       if (record_.shortens())
         adjusted = adjusted * (1 - back / wanted) - drift * (back / wanted);
       else
-        adjusted[component] -= static_cast<Scalar>(outwards(side)) * back;
+        adjusted[component] -= static_cast<double>(outwards(side)) * back;
       if (pair_is_inside(side, position_ + adjusted, others)) continue;
       if (moves_ && !may_push(group, side, adjusted, hit)) return;
       movement_ = adjusted;
@@ -236,14 +232,13 @@ class Frame {
 
   /// A mover pushes nothing through what stands still: the pair in front looks where it is pushed. What is pushed moves
   /// that way, so that from now on the pairs that face it are tested.
-  [[nodiscard]] bool may_push(const Group& group, Side side, const Vec2<Scalar>& adjusted,
-                              const PointHit<Scalar>& hit) noexcept {
-    const Vec2<Scalar> push = adjusted - movement_;
+  [[nodiscard]] bool may_push(const Group& group, Side side, const Vec2d& adjusted, const PointHit& hit) noexcept {
+    const Vec2d push = adjusted - movement_;
     if (group.mover != no_mover) {
       for (const Group& other : groups_) {
         if (other.mover != no_mover) continue;
         for (const std::size_t i : distinct(record_.pair(opposite(side)))) {
-          const Vec2<Scalar> from = other.seen(position_ + movement_, 1) + parts_.points.offsets[i];
+          const Vec2d from = other.seen(position_ + movement_, 1) + parts_.points.offsets[i];
           if (other.pieces.first_entry(from, push)) return false;
         }
       }
@@ -271,7 +266,7 @@ class Frame {
     look_around();
     bool in_static = false;
     for (const Group& group : groups_) {
-      for (const Vec2<Scalar>& offset : parts_.points.offsets) {
+      for (const Vec2d& offset : parts_.points.offsets) {
         const auto piece = group.pieces.containing(group.seen(position_, 1) + offset);
         if (!piece) continue;
         inside_ = true;
@@ -290,16 +285,16 @@ class Frame {
     stay_crushed(request_, result_);
   }
 
-  const Parts<Scalar>& parts_;
-  const MoveRequest<Scalar>& request_;
-  Scratch<Scalar>& scratch_;
-  MoveResult<Scalar>& result_;
-  FrameRecord<Scalar> record_;
-  Box2<Scalar> reach_;  ///< How far the movement can lead, where something moves.
+  const Parts& parts_;
+  const MoveRequest& request_;
+  Scratch& scratch_;
+  MoveResult& result_;
+  FrameRecord record_;
+  Box2 reach_;  ///< How far the movement can lead, where something moves.
   std::span<const Group> groups_;
-  Vec2<Scalar> position_;  ///< In the frame of reference.
-  Vec2<Scalar> movement_;  ///< What is left of the frame's.
-  bool moves_ = false;     ///< Something that moves or carries is near.
+  Vec2d position_;      ///< In the frame of reference.
+  Vec2d movement_;      ///< What is left of the frame's.
+  bool moves_ = false;  ///< Something that moves or carries is near.
   bool began_inside_ = false;
   bool began_in_static_ = false;
   bool inside_ = false;
@@ -307,15 +302,9 @@ class Frame {
 
 }  // namespace
 
-template <class Scalar>
-void move(const Parts<Scalar>& parts, ImpactSearch<Scalar> search, const MoveRequest<Scalar>& request,
-          Scratch<Scalar>& scratch, MoveResult<Scalar>& result) noexcept {
-  Frame<Scalar>(parts, request, scratch, result).run(search);
+void move(const Parts& parts, ImpactSearch search, const MoveRequest& request, Scratch& scratch,
+          MoveResult& result) noexcept {
+  Frame(parts, request, scratch, result).run(search);
 }
-
-template void move(const Parts<float>&, ImpactSearch<float>, const MoveRequest<float>&, Scratch<float>&,
-                   MoveResult<float>&) noexcept;
-template void move(const Parts<double>&, ImpactSearch<double>, const MoveRequest<double>&, Scratch<double>&,
-                   MoveResult<double>&) noexcept;
 
 }  // namespace paperproof::article

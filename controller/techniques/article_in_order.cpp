@@ -7,11 +7,10 @@
 namespace paperproof::article {
 namespace {
 
-template <class Scalar>
 class SearchInOrder {
  public:
-  SearchInOrder(const Parts<Scalar>& parts, std::span<const PieceGroup<Scalar>> groups,
-                const MoveRequest<Scalar>& request, FrameRecord<Scalar>& record) noexcept
+  SearchInOrder(const Parts& parts, std::span<const PieceGroup> groups, const MoveRequest& request,
+                FrameRecord& record) noexcept
       : parts_(parts),
         groups_(groups),
         request_(request),
@@ -21,8 +20,8 @@ class SearchInOrder {
         movement_(record.frame().wanted()) {}
 
   /// @return where the frame ends.
-  Vec2<Scalar> run(ImpactSearch<Scalar> search) noexcept {
-    constexpr std::size_t most_meetings = MoveResult<Scalar>::max_corners - 2;  // each may be a corner of the path
+  Vec2d run(ImpactSearch search) noexcept {
+    constexpr std::size_t most_meetings = MoveResult::max_corners - 2;  // each may be a corner of the path
     std::size_t meetings = 0;
     for (; meetings < most_meetings && time_ < 1; ++meetings) {
       const Meeting next = next_meeting(search);
@@ -41,16 +40,16 @@ class SearchInOrder {
   }
 
  private:
-  using Group = PieceGroup<Scalar>;
+  using Group = PieceGroup;
 
   /// What a pair ran into, and went along with from then on.
   struct Hold {
     const Group* group = nullptr;  ///< Null: nothing was hit on this side.
     ColliderIndex collider = 0;
     Side side = Side::bottom;
-    Scalar since = 0;
-    Scalar until = 0;
-    Vec2<Scalar> seen{Vec2<Scalar>::Zero()};  ///< The character's position then, as the group sees it.
+    double since = 0;
+    double until = 0;
+    Vec2d seen{Vec2d::Zero()};  ///< The character's position then, as the group sees it.
   };
   /// A pair that is pressed against something that does not give way.
   struct Squeeze {
@@ -61,17 +60,17 @@ class SearchInOrder {
   struct Meeting {
     const Group* group = nullptr;  ///< Null: nothing.
     Side side = Side::bottom;
-    PairImpact<Scalar> impact;
+    PairImpact impact;
   };
 
-  [[nodiscard]] Meeting next_meeting(ImpactSearch<Scalar> search) const noexcept {
+  [[nodiscard]] Meeting next_meeting(ImpactSearch search) const noexcept {
     Meeting next;
     for (const Side side : all_sides) {
       if (is_wedged_[static_cast<std::size_t>(component_of(side))]) continue;
       for (const Group& group : groups_) {
-        const Vec2<Scalar> rest = (movement_ + group.drift()) * (1 - time_);
+        const Vec2d rest = (movement_ + group.drift()) * (1 - time_);
         if (rest.isZero(0) || !is_searched(side, rest)) continue;
-        const PairImpact<Scalar> impact = search(parts_, group.pieces, record_.pair(side), seen(group, side), rest);
+        const PairImpact impact = search(parts_, group.pieces, record_.pair(side), seen(group, side), rest);
         if (impact.hits.empty() || (next.group != nullptr && !(impact.fraction < next.impact.fraction))) continue;
         next = {&group, side, impact};
       }
@@ -80,15 +79,15 @@ class SearchInOrder {
   }
 
   /// The pairs that face what is left of the movement; or all of them, each once.
-  [[nodiscard]] bool is_searched(Side side, const Vec2<Scalar>& rest) const noexcept {
+  [[nodiscard]] bool is_searched(Side side, const Vec2d& rest) const noexcept {
     if (parts_.knobs.pairs == ArticleKnobs::Pairs::all) return holds_[static_cast<std::size_t>(side)].group == nullptr;
     return faces(side, rest[component_of(side)]);
   }
 
   /// The character's position now. What goes along with a group keeps its place there: were that rounded, a point
   /// would come to be on the line of a chain, or an ulp beyond, and would not be seen to cross it any more.
-  [[nodiscard]] Vec2<Scalar> seen(const Group& group, Side side) const noexcept {
-    Vec2<Scalar> result = group.seen(position_, time_);
+  [[nodiscard]] Vec2d seen(const Group& group, Side side) const noexcept {
+    Vec2d result = group.seen(position_, time_);
     const Hold& hold = holds_[static_cast<std::size_t>(side)];
     if (hold.group == &group && !(time_ > hold.until)) result[component_of(side)] = hold.seen[component_of(side)];
     return result;
@@ -99,10 +98,10 @@ class SearchInOrder {
     const Group& group = *meeting.group;
     const Side side = meeting.side;
     const auto component = static_cast<std::size_t>(component_of(side));
-    const Vec2<Scalar> landing = seen(group, side) + meeting.impact.reached;
+    const Vec2d landing = seen(group, side) + meeting.impact.reached;
     advance(meeting);
-    for (const CollisionPointHit<Scalar>& each : meeting.impact.hits) record_.report(each, group, side, time_);
-    const PointHit<Scalar>& hit = meeting.impact.hits[0].on;
+    for (const CollisionPointHit& each : meeting.impact.hits) record_.report(each, group, side, time_);
+    const PointHit& hit = meeting.impact.hits[0].on;
     const Hold next{&group, record_.collider_of(hit), side, time_, time_, landing};
     const Hold* other = follows_[component];
     is_wedged_[component] = other != nullptr && other->side != side && !(time_ > other->since);
@@ -119,8 +118,8 @@ class SearchInOrder {
   }
 
   void advance(const Meeting& meeting) noexcept {
-    const Scalar rest = 1 - time_;
-    const Vec2<Scalar> carried = meeting.group->drift() * (rest * meeting.impact.fraction);
+    const double rest = 1 - time_;
+    const Vec2d carried = meeting.group->drift() * (rest * meeting.impact.fraction);
     position_ += meeting.impact.reached - carried;
     time_ += rest * meeting.impact.fraction;
     for (Hold* hold : follows_)
@@ -138,10 +137,9 @@ class SearchInOrder {
   }
 
   /// What comes to rest on moving ground is carried from then on, unless it had a speed of its own along the ground.
-  void take_along(const Group& group, const PointHit<Scalar>& hit) noexcept {
+  void take_along(const Group& group, const PointHit& hit) noexcept {
     const ColliderIndex ground = record_.collider_of(hit);
-    if (!record_.frame().carries(ground) || request_.ride.ground != Ride<Scalar>::none || request_.velocity.x() != 0)
-      return;
+    if (!record_.frame().carries(ground) || request_.ride.ground != Ride::none || request_.velocity.x() != 0) return;
     movement_.x() = record_.frame().surface_motion(ground).x() - group.drift().x();
     record_.include(0, movement_.x());
     result_.velocity.x() = record_.frame().velocity_of(ground).x();
@@ -150,16 +148,16 @@ class SearchInOrder {
   /// What keeps its place relative to a mover is rounded as the mover goes on: without this a point would end an ulp
   /// inside it, and penetration resolution would push it out by a whole unit. Doubling reaches any rounding error.
   void settle(const Hold& hold) noexcept {
-    const auto is_free = [&](const Vec2<Scalar>& position) {
-      const Vec2<Scalar> seen = hold.group->seen(position, 1);
-      return !collides<Scalar>(parts_, hold.group->pieces, record_.pair(hold.side), hold.seen, seen);
+    const auto is_free = [&](const Vec2d& position) {
+      const Vec2d seen = hold.group->seen(position, 1);
+      return !collides(parts_, hold.group->pieces, record_.pair(hold.side), hold.seen, seen);
     };
     if (is_free(position_)) return;
-    const Scalar scale = std::max(position_.cwiseAbs().maxCoeff(), hold.seen.cwiseAbs().maxCoeff());
-    Vec2<Scalar> nudged = position_;
-    for (Scalar by = std::numeric_limits<Scalar>::epsilon() * scale; by <= Tolerances<Scalar>{}.touch; by *= 2) {
+    const double scale = std::max(position_.cwiseAbs().maxCoeff(), hold.seen.cwiseAbs().maxCoeff());
+    Vec2d nudged = position_;
+    for (double by = std::numeric_limits<double>::epsilon() * scale; by <= Tolerances{}.touch; by *= 2) {
       const Eigen::Index component = component_of(hold.side);
-      nudged[component] = position_[component] - static_cast<Scalar>(outwards(hold.side)) * by;
+      nudged[component] = position_[component] - static_cast<double>(outwards(hold.side)) * by;
       if (!is_free(nudged)) continue;
       position_ = nudged;
       return;
@@ -170,21 +168,21 @@ class SearchInOrder {
   void find_crushes() noexcept {
     for (const Squeeze& squeeze : squeezes_) {
       const Hold& pressed = squeeze.pressed;
-      const Vec2<Scalar> end = pressed.group->seen(position_, 1);
-      if (!collides<Scalar>(parts_, pressed.group->pieces, record_.pair(pressed.side), pressed.seen, end)) continue;
+      const Vec2d end = pressed.group->seen(position_, 1);
+      if (!collides(parts_, pressed.group->pieces, record_.pair(pressed.side), pressed.seen, end)) continue;
       for (const ColliderIndex collider : {pressed.collider, squeeze.against})
         if (record_.frame().mover_of(collider) != no_mover) add_once(collider, result_.crushed);
     }
   }
 
-  const Parts<Scalar>& parts_;
+  const Parts& parts_;
   std::span<const Group> groups_;
-  const MoveRequest<Scalar>& request_;
-  FrameRecord<Scalar>& record_;
-  MoveResult<Scalar>& result_;
-  Vec2<Scalar> position_;             ///< In the frame of reference.
-  Vec2<Scalar> movement_;             ///< Of a whole frame, as it is now.
-  Scalar time_ = 0;                   ///< How far the search has come.
+  const MoveRequest& request_;
+  FrameRecord& record_;
+  MoveResult& result_;
+  Vec2d position_;                    ///< In the frame of reference.
+  Vec2d movement_;                    ///< Of a whole frame, as it is now.
+  double time_ = 0;                   ///< How far the search has come.
   std::array<Hold, 4> holds_;         ///< By side.
   std::array<Hold*, 2> follows_{};    ///< By component; null: the movement is what is wanted.
   std::array<bool, 2> is_wedged_{};   ///< By component.
@@ -193,19 +191,9 @@ class SearchInOrder {
 
 }  // namespace
 
-template <class Scalar>
-Vec2<Scalar> meet_in_order_of_time(const Parts<Scalar>& parts, ImpactSearch<Scalar> search,
-                                   std::span<const PieceGroup<Scalar>> groups, const MoveRequest<Scalar>& request,
-                                   FrameRecord<Scalar>& record) noexcept {
-  return SearchInOrder<Scalar>(parts, groups, request, record).run(search);
+Vec2d meet_in_order_of_time(const Parts& parts, ImpactSearch search, std::span<const PieceGroup> groups,
+                            const MoveRequest& request, FrameRecord& record) noexcept {
+  return SearchInOrder(parts, groups, request, record).run(search);
 }
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                         \
-  template Vec2<Scalar> meet_in_order_of_time(const Parts<Scalar>&, ImpactSearch<Scalar>,                      \
-                                              std::span<const PieceGroup<Scalar>>, const MoveRequest<Scalar>&, \
-                                              FrameRecord<Scalar>&) noexcept
-PAPERPROOF_INSTANTIATE(float);
-PAPERPROOF_INSTANTIATE(double);
-#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof::article

@@ -9,10 +9,7 @@ namespace paperproof::article {
 /// all pairs that face their movement relative to what is near, the one that hits first. From then on that component
 /// goes as what it met does. Hits go into the record, and the corners of the way.
 /// @return where the frame ends; every pair that hit is free there of what it hit, unless that crushes it.
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> meet_in_order_of_time(const Parts<Scalar>& parts, ImpactSearch<Scalar> search,
-                                                 std::span<const PieceGroup<Scalar>> groups,
-                                                 const MoveRequest<Scalar>& request,
-                                                 FrameRecord<Scalar>& record) noexcept;
+[[nodiscard]] Vec2d meet_in_order_of_time(const Parts& parts, ImpactSearch search, std::span<const PieceGroup> groups,
+                                          const MoveRequest& request, FrameRecord& record) noexcept;
 
 }  // namespace paperproof::article

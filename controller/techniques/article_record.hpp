@@ -7,70 +7,62 @@ namespace paperproof::article {
 
 /// Keeps what the parts of a frame have in common: contacts, velocity and ground go into the result, and the directions
 /// in which the character was moved say which pairs are tested.
-template <class Scalar>
 class FrameRecord {
  public:
-  using Colliders = FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed>;
+  using Colliders = FixedVector<ColliderIndex, MoveResult::max_crushed>;
 
   /// Begins `result`: its velocity, and the start of its path.
-  FrameRecord(const Parts<Scalar>& parts, const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+  FrameRecord(const Parts& parts, const MoveRequest& request, MoveResult& result) noexcept;
 
-  [[nodiscard]] const FrameOfReference<Scalar>& frame() const noexcept { return frame_; }
-  [[nodiscard]] MoveResult<Scalar>& result() noexcept { return result_; }
+  [[nodiscard]] const FrameOfReference& frame() const noexcept { return frame_; }
+  [[nodiscard]] MoveResult& result() noexcept { return result_; }
   [[nodiscard]] bool shortens() const noexcept { return parts_.knobs.response == ArticleKnobs::Response::shorten; }
   [[nodiscard]] const CharacterShape::Pair& pair(Side side) const noexcept {
     return parts_.points.pairs[static_cast<std::size_t>(side)];
   }
-  [[nodiscard]] ColliderIndex collider_of(const PointHit<Scalar>& hit) const noexcept {
+  [[nodiscard]] ColliderIndex collider_of(const PointHit& hit) const noexcept {
     return parts_.scenery->pieces()[hit.piece].collider;
   }
 
   /// The pairs that face a movement of the frame relative to the group, or all of them.
-  [[nodiscard]] bool is_tested(Side side, const PieceGroup<Scalar>& group) const noexcept {
+  [[nodiscard]] bool is_tested(Side side, const PieceGroup& group) const noexcept {
     if (parts_.knobs.pairs == ArticleKnobs::Pairs::all) return true;
     const Eigen::Index i = component_of(side);
-    const Scalar drift = group.shift_at_end[i] - group.shift_at_start[i];
+    const double drift = group.shift_at_end[i] - group.shift_at_start[i];
     // Of the movements the furthest to that side is enough.
     return outwards(side) < 0 ? least_[i] + drift < 0 : most_[i] + drift > 0;
   }
   /// The frame's movement had this component for a while: pairs that face it are tested.
-  void include(Eigen::Index component, Scalar along) noexcept;
+  void include(Eigen::Index component, double along) noexcept;
 
   /// Adds a contact.
-  void report(const CollisionPointHit<Scalar>& hit, const PieceGroup<Scalar>& group, Side side,
-              Scalar fraction) noexcept;
+  void report(const CollisionPointHit& hit, const PieceGroup& group, Side side, double fraction) noexcept;
   /// The velocity becomes that of what was hit, in the direction of the pair. What is below is ground.
-  void stop(Side side, const PieceGroup<Scalar>& group, const PointHit<Scalar>& hit) noexcept;
+  void stop(Side side, const PieceGroup& group, const PointHit& hit) noexcept;
   /// A mover gave the character some of its motion.
-  void add_pusher(const PointHit<Scalar>& hit) noexcept { add_once(collider_of(hit), pushers_); }
+  void add_pusher(const PointHit& hit) noexcept { add_once(collider_of(hit), pushers_); }
   [[nodiscard]] const Colliders& pushers() const noexcept { return pushers_; }
   /// Fills in the separations of all contacts, for a frame that ended at `position`.
-  void measure_gaps(const Vec2<Scalar>& position) noexcept;
+  void measure_gaps(const Vec2d& position) noexcept;
 
  private:
   /// Where the character touched something.
   struct Touch {
     std::size_t collision_point = 0;
     MoverIndex mover = no_mover;
-    Vec2<Scalar> point;  ///< Relative to the mover's offset.
+    Vec2d point;  ///< Relative to the mover's offset.
   };
 
-  const Parts<Scalar>& parts_;
-  MoveResult<Scalar>& result_;
-  FrameOfReference<Scalar> frame_;
-  Vec2<Scalar> least_;  ///< Of all movements that the frame had, by component.
-  Vec2<Scalar> most_;
+  const Parts& parts_;
+  MoveResult& result_;
+  FrameOfReference frame_;
+  Vec2d least_;  ///< Of all movements that the frame had, by component.
+  Vec2d most_;
   Colliders pushers_;
-  FixedVector<Touch, MoveResult<Scalar>::max_contacts> touches_;  ///< Of each contact.
+  FixedVector<Touch, MoveResult::max_contacts> touches_;  ///< Of each contact.
 };
 
 /// The pair of that side meets what lies along a movement with this component.
-template <class Scalar>
-[[nodiscard]] bool faces(Side side, Scalar along) noexcept {
-  return outwards(side) < 0 ? along < 0 : along > 0;
-}
-
-extern template class FrameRecord<float>;
-extern template class FrameRecord<double>;
+[[nodiscard]] inline bool faces(Side side, double along) noexcept { return outwards(side) < 0 ? along < 0 : along > 0; }
 
 }  // namespace paperproof::article

@@ -7,27 +7,24 @@
 namespace paperproof::article {
 namespace {
 
-template <class Scalar>
 struct Groups final : OwnMemory {
-  std::vector<PieceGroup<Scalar>> all;
+  std::vector<PieceGroup> all;
 };
 
-template <class Scalar>
-CollisionPoints<Scalar> points_of(const CharacterShape& shape) {
-  CollisionPoints<Scalar> points;
-  for (const Vec2d& point : shape.points()) points.offsets.push_back(point.cast<Scalar>());
+CollisionPoints points_of(const CharacterShape& shape) {
+  CollisionPoints points;
+  for (const Vec2d& point : shape.points()) points.offsets.push_back(point);
   for (const Side side : all_sides) points.pairs[static_cast<std::size_t>(side)] = shape.pair(side);
-  points.box = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
+  points.box = {shape.box().lower, shape.box().upper};
   return points;
 }
 
-template <class Scalar>
-CollisionPoints<Scalar> corners_of_box(const CharacterShape& shape) {
-  CollisionPoints<Scalar> points;
-  points.box = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
-  const Box2<Scalar>& box = points.box;
-  for (const Scalar y : {box.lower.y(), box.upper.y()}) {
-    for (const Scalar x : {box.lower.x(), box.upper.x()}) points.offsets.push_back({x, y});
+CollisionPoints corners_of_box(const CharacterShape& shape) {
+  CollisionPoints points;
+  points.box = {shape.box().lower, shape.box().upper};
+  const Box2& box = points.box;
+  for (const double y : {box.lower.y(), box.upper.y()}) {
+    for (const double x : {box.lower.x(), box.upper.x()}) points.offsets.push_back({x, y});
   }
   points.pairs[static_cast<std::size_t>(Side::bottom)] = {0, 1};
   points.pairs[static_cast<std::size_t>(Side::top)] = {2, 3};
@@ -38,61 +35,52 @@ CollisionPoints<Scalar> corners_of_box(const CharacterShape& shape) {
 
 }  // namespace
 
-template <class Scalar>
-Scalar length(const Vec2<Scalar>& vector) noexcept {
-  return std::sqrt(vector.x() * vector.x() + vector.y() * vector.y());
-}
+double length(const Vec2d& vector) noexcept { return std::sqrt(vector.x() * vector.x() + vector.y() * vector.y()); }
 
-template <class Scalar>
-Parts<Scalar>::Parts(const TechniqueDef& def, const Scenery<Scalar>& where, const CharacterDef& character)
+Parts::Parts(const TechniqueDef& def, const Scenery& where, const CharacterDef& character)
     : scenery(&where),
-      broad_phase(make_broad_phase<Scalar>(def.broad_phase, where.static_boxes())),
-      points(def.article.points == 4 ? corners_of_box<Scalar>(character.shape) : points_of<Scalar>(character.shape)),
-      unit(static_cast<Scalar>(def.article.unit)),
+      broad_phase(make_broad_phase(def.broad_phase, where.static_boxes())),
+      points(def.article.points == 4 ? corners_of_box(character.shape) : points_of(character.shape)),
+      unit(def.article.unit),
       something_carries(paperproof::something_carries(where)),
       fastest_surface(paperproof::fastest_surface(where)),
       knobs(def.article) {}
 
-template <class Scalar>
-Scratch<Scalar> Parts<Scalar>::make_scratch() const {
-  Scratch<Scalar> scratch;
+Scratch Parts::make_scratch() const {
+  Scratch scratch;
   scratch.solids.pieces = PieceBuffer(scenery->pieces().size());
-  auto groups = std::make_unique<Groups<Scalar>>();
+  auto groups = std::make_unique<Groups>();
   groups->all.reserve(scenery->mover_count() + 1);
   scratch.own = std::move(groups);
   return scratch;
 }
 
-template <class Scalar>
-NearbyScenery<Scalar> Parts<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
-                                          Scratch<Scalar>& scratch) const noexcept {
-  const Box2<Scalar> total{here.cwiseMin(there) + points.box.lower, here.cwiseMax(there) + points.box.upper};
+NearbyScenery Parts::near(const Vec2d& here, const Vec2d& there, Scratch& scratch) const noexcept {
+  const Box2 total{here.cwiseMin(there) + points.box.lower, here.cwiseMax(there) + points.box.upper};
   scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
   scratch.solids.count = broad_phase->query(total, scratch.solids.pieces);
   return {*scenery, std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count)};
 }
 
-template <class Scalar>
-std::span<const PieceGroup<Scalar>> Parts<Scalar>::groups_near(const Box2<Scalar>& box,
-                                                               const FrameOfReference<Scalar>& frame,
-                                                               Scratch<Scalar>& scratch) const noexcept {
-  std::vector<PieceGroup<Scalar>>& groups = static_cast<Groups<Scalar>&>(*scratch.own).all;
+std::span<const PieceGroup> Parts::groups_near(const Box2& box, const FrameOfReference& frame,
+                                               Scratch& scratch) const noexcept {
+  std::vector<PieceGroup>& groups = static_cast<Groups&>(*scratch.own).all;
   groups.clear();  // keeps its memory
   const std::span<PieceIndex> found(scratch.solids.pieces);
   scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
   scratch.solids.count = 0;
   const auto add = [&](MoverIndex mover, const auto& find) {
-    const Vec2<Scalar> first = frame.shift_at_start(mover);
-    const Vec2<Scalar> last = frame.shift_at_end(mover);
+    const Vec2d first = frame.shift_at_start(mover);
+    const Vec2d last = frame.shift_at_end(mover);
     const std::span<PieceIndex> room = found.subspan(scratch.solids.count);
-    std::size_t count = find(Box2<Scalar>{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
+    std::size_t count = find(Box2{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
     if (frame.drops()) count = without_one_way(*scenery, room.first(count));
     scratch.solids.count += count;
     if (count > 0) groups.push_back({{*scenery, room.first(count)}, mover, first, last});
   };
-  add(no_mover, [&](const Box2<Scalar>& seen, std::span<PieceIndex> room) { return broad_phase->query(seen, room); });
+  add(no_mover, [&](const Box2& seen, std::span<PieceIndex> room) { return broad_phase->query(seen, room); });
   for (MoverIndex mover = 0; mover < scenery->mover_count(); ++mover) {
-    add(mover, [&](const Box2<Scalar>& seen, std::span<PieceIndex> room) {
+    add(mover, [&](const Box2& seen, std::span<PieceIndex> room) {
       std::size_t count = 0;
       const PieceRange pieces = scenery->pieces_of_mover(mover);
       for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
@@ -103,31 +91,27 @@ std::span<const PieceGroup<Scalar>> Parts<Scalar>::groups_near(const Box2<Scalar
   return groups;
 }
 
-template <class Scalar>
-bool Parts<Scalar>::inside(const NearbyScenery<Scalar>& nearby, const Vec2<Scalar>& position) const noexcept {
+bool Parts::inside(const NearbyScenery& nearby, const Vec2d& position) const noexcept {
   return std::any_of(points.offsets.begin(), points.offsets.end(),
-                     [&](const Vec2<Scalar>& offset) { return nearby.containing(position + offset).has_value(); });
+                     [&](const Vec2d& offset) { return nearby.containing(position + offset).has_value(); });
 }
 
-template <class Scalar>
-bool collides(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby, const CharacterShape::Pair& pair,
-              const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
+bool collides(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair, const Vec2d& from,
+              const Vec2d& to) noexcept {
   for (const std::size_t i : distinct(pair)) {
-    const Vec2<Scalar> here = from + parts.points.offsets[i];
-    const Vec2<Scalar> there = to + parts.points.offsets[i];
+    const Vec2d here = from + parts.points.offsets[i];
+    const Vec2d there = to + parts.points.offsets[i];
     if (nearby.containing(there) || nearby.crossed(here, there)) return true;
   }
   return false;
 }
 
-template <class Scalar>
-bool in_range(const Vec2<Scalar>& position) noexcept {
-  const Scalar range = Tolerances<Scalar>{}.range;
+bool in_range(const Vec2d& position) noexcept {
+  const double range = Tolerances{}.range;
   return std::abs(position.x()) <= range && std::abs(position.y()) <= range;
 }
 
-template <class Scalar>
-void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, MoveStatus why) noexcept {
+void refuse(const MoveRequest& request, MoveResult& result, MoveStatus why) noexcept {
   result.clear();
   result.status = why;
   if (why == MoveStatus::refused) result.refusal = too_many_units;
@@ -139,8 +123,7 @@ void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, Move
   result.path.push_back({request.position, 1});
 }
 
-template <class Scalar>
-void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept {
   result.status = MoveStatus::crushed;
   result.position = request.position;
   result.velocity.setZero();
@@ -151,9 +134,8 @@ void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result
   result.path.push_back({request.position, 1});
 }
 
-template <class Scalar>
-bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
-  const Vec2<Scalar> end = request.position + request.displacement;
+bool refuse_out_of_range(const MoveRequest& request, MoveResult& result) noexcept {
+  const Vec2d end = request.position + request.displacement;
   if (in_range(request.position) && in_range(end)) return false;
   refuse(request, result);
   return true;
@@ -162,70 +144,46 @@ bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>&
 namespace {
 
 /// The most that a mover goes during the step, and a surface on it, by component [m]; sensors may go where they like.
-template <class Scalar>
-Vec2<Scalar> farthest_motion(const Scenery<Scalar>& scenery, Scalar fastest_surface,
-                             const MoveRequest<Scalar>& request) noexcept {
-  Vec2<Scalar> farthest{Vec2<Scalar>::Zero()};
+Vec2d farthest_motion(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept {
+  Vec2d farthest{Vec2d::Zero()};
   for (MoverIndex mover = 0; mover < request.movers.size(); ++mover) {
     if (scenery.pieces_of_mover(mover).size() == 0) continue;
-    const MoverMotion<Scalar>& motion = request.movers[mover];
+    const MoverMotion& motion = request.movers[mover];
     farthest = farthest.cwiseMax((motion.to - motion.from).cwiseAbs());
   }
   farthest.x() += fastest_surface * request.dt;
   return farthest;
 }
 
-template <class Scalar>
-bool leaves_range(const Vec2<Scalar>& position, const Vec2<Scalar>& wanted, const Vec2<Scalar>& farthest) noexcept {
-  return !in_range(position) || !in_range<Scalar>(position + wanted) || !in_range(farthest);
+bool leaves_range(const Vec2d& position, const Vec2d& wanted, const Vec2d& farthest) noexcept {
+  return !in_range(position) || !in_range(position + wanted) || !in_range(farthest);
 }
 
 }  // namespace
 
-template <class Scalar>
-bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
-  const Vec2<Scalar> wanted = FrameOfReference<Scalar>(scenery, request).wanted();
-  return leaves_range<Scalar>(request.position, wanted, farthest_motion(scenery, fastest_surface, request));
+bool leaves_range(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept {
+  const Vec2d wanted = FrameOfReference(scenery, request).wanted();
+  return leaves_range(request.position, wanted, farthest_motion(scenery, fastest_surface, request));
 }
 
-template <class Scalar>
-bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
-            MoveResult<Scalar>& result) noexcept {
+bool refuse(const Parts& parts, bool searches_by_units, const MoveRequest& request, MoveResult& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
-  const Vec2<Scalar> wanted = FrameOfReference<Scalar>(*parts.scenery, request).wanted();
-  const Vec2<Scalar> farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
-  const Vec2<Scalar> searched = wanted.cwiseAbs() + 2 * farthest;
-  const bool quick = !searches_by_units || length(searched) <= parts.unit * Scalar(max_search_steps);
+  const Vec2d wanted = FrameOfReference(*parts.scenery, request).wanted();
+  const Vec2d farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
+  const Vec2d searched = wanted.cwiseAbs() + 2 * farthest;
+  const bool quick = !searches_by_units || length(searched) <= parts.unit * double(max_search_steps);
   const bool leaves = leaves_range(request.position, wanted, farthest);
   if (quick && !leaves) return false;
   refuse(request, result, leaves ? MoveStatus::out_of_range : MoveStatus::refused);
   return true;
 }
 
-template <class Scalar>
-bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Side side, Scalar fraction,
-                 MoveResult<Scalar>& result) noexcept {
+bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double fraction, MoveResult& result) noexcept {
   const ColliderIndex collider = scenery.pieces()[hit.piece].collider;
-  for (const Contact<Scalar>& known : result.contacts) {
+  for (const Contact& known : result.contacts) {
     if (known.collider == collider && known.side == side) return false;
   }
   return result.contacts.push_back({collider, hit.point, hit.normal, fraction, 0, side});
 }
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                        \
-  template struct Parts<Scalar>;                                                                              \
-  template Scalar length(const Vec2<Scalar>&) noexcept;                                                       \
-  template bool collides(const Parts<Scalar>&, const NearbyScenery<Scalar>&, const CharacterShape::Pair&,     \
-                         const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;                                  \
-  template bool in_range(const Vec2<Scalar>&) noexcept;                                                       \
-  template bool leaves_range(const Scenery<Scalar>&, Scalar, const MoveRequest<Scalar>&) noexcept;            \
-  template void stay_crushed(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                       \
-  template void refuse(const MoveRequest<Scalar>&, MoveResult<Scalar>&, MoveStatus) noexcept;                 \
-  template bool refuse_out_of_range(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                \
-  template bool refuse(const Parts<Scalar>&, bool, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept; \
-  template bool add_contact(const Scenery<Scalar>&, const PointHit<Scalar>&, Side, Scalar, MoveResult<Scalar>&) noexcept
-PAPERPROOF_INSTANTIATE(float);
-PAPERPROOF_INSTANTIATE(double);
-#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof::article

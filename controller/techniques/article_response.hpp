@@ -43,116 +43,97 @@ inline constexpr int max_search_steps = 1'000'000;
 inline constexpr std::string_view too_many_units = "the motion needs more than 1,000,000 units of search in one step";
 
 /// Where the collision points are, and which of them belong to a side.
-template <class Scalar>
 struct CollisionPoints {
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> offsets;  ///< Relative to the character's position [m].
-  std::array<CharacterShape::Pair, 4> pairs{};                    ///< By Side; a corner has the same index twice.
-  Box2<Scalar> box;                                               ///< Around the offsets [m].
+  FixedVector<Vec2d, CharacterShape::max_points> offsets;  ///< Relative to the character's position [m].
+  std::array<CharacterShape::Pair, 4> pairs{};             ///< By Side; a corner has the same index twice.
+  Box2 box;                                                ///< Around the offsets [m].
 };
 
 /// Pieces near a character that go the same way during a step: those that stand still, or those of one mover.
-template <class Scalar>
 struct PieceGroup {
-  NearbyScenery<Scalar> pieces;
+  NearbyScenery pieces;
   MoverIndex mover = no_mover;
-  Vec2<Scalar> shift_at_start;  ///< See `FrameOfReference`.
-  Vec2<Scalar> shift_at_end;
+  Vec2d shift_at_start;  ///< See `FrameOfReference`.
+  Vec2d shift_at_end;
 
-  [[nodiscard]] Vec2<Scalar> drift() const noexcept { return shift_at_end - shift_at_start; }
+  [[nodiscard]] Vec2d drift() const noexcept { return shift_at_end - shift_at_start; }
   /// A position of the frame of reference, at a fraction of the step, as the pieces see it.
-  [[nodiscard]] Vec2<Scalar> seen(const Vec2<Scalar>& position, Scalar fraction) const noexcept {
+  [[nodiscard]] Vec2d seen(const Vec2d& position, double fraction) const noexcept {
     if (!(fraction < 1)) return position + shift_at_end;
     return position + (shift_at_start + drift() * fraction);
   }
 };
 
 /// Everything that a technique of the article knows before the first step. Immutable; shareable between threads.
-template <class Scalar>
 struct Parts {
-  const Scenery<Scalar>* scenery = nullptr;
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase;
-  CollisionPoints<Scalar> points;
-  Scalar unit = 0;         ///< [m]
+  const Scenery* scenery = nullptr;
+  std::unique_ptr<BroadPhase> broad_phase;
+  CollisionPoints points;
+  double unit = 0;         ///< [m]
   bool something_carries;  ///< See the function; near movers are searched in order of time.
-  Scalar fastest_surface;  ///< Of all conveyors [m/s].
+  double fastest_surface;  ///< Of all conveyors [m/s].
   ArticleKnobs knobs;
 
   /// @param def its article knobs are valid. `scenery` must outlive the parts.
-  Parts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character);
+  Parts(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character);
 
-  [[nodiscard]] Scratch<Scalar> make_scratch() const;
+  [[nodiscard]] Scratch make_scratch() const;
   /// The static pieces near the total bounding box of a character here and there.
-  [[nodiscard]] NearbyScenery<Scalar> near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
-                                           Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] NearbyScenery near(const Vec2d& here, const Vec2d& there, Scratch& scratch) const noexcept;
   /// All pieces near the box, by what they go with: first what stands still, then mover by mover. A mover of which
   /// nothing is near has no group.
   /// @param box around the character wherever it may come during the step, in the frame of reference.
-  [[nodiscard]] std::span<const PieceGroup<Scalar>> groups_near(const Box2<Scalar>& box,
-                                                                const FrameOfReference<Scalar>& frame,
-                                                                Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] std::span<const PieceGroup> groups_near(const Box2& box, const FrameOfReference& frame,
+                                                        Scratch& scratch) const noexcept;
   /// Any of the points is in a polygon.
-  [[nodiscard]] bool inside(const NearbyScenery<Scalar>& nearby, const Vec2<Scalar>& position) const noexcept;
+  [[nodiscard]] bool inside(const NearbyScenery& nearby, const Vec2d& position) const noexcept;
 };
 
 /// One of a pair's points ran into something.
-template <class Scalar>
 struct CollisionPointHit {
-  PointHit<Scalar> on;
+  PointHit on;
   std::size_t collision_point = 0;
 };
 
 /// How far along a movement a pair can go. Without hits the whole movement is free, as far as the search can see, and
 /// the other fields are not valid.
-template <class Scalar>
 struct PairImpact {
-  Scalar fraction = 1;                         ///< Of the movement, up to where the pair is free.
-  Vec2<Scalar> reached{Vec2<Scalar>::Zero()};  ///< The part of the movement that is free [m]. Zero where the
-                                               ///< pair is in something from the start.
-  FixedVector<CollisionPointHit<Scalar>, 2> hits;
+  double fraction = 1;           ///< Of the movement, up to where the pair is free.
+  Vec2d reached{Vec2d::Zero()};  ///< The part of the movement that is free [m]. Zero where the
+                                 ///< pair is in something from the start.
+  FixedVector<CollisionPointHit, 2> hits;
 };
 
 /// Some point of the pair would be in something at `to`, or run across a chain on the way.
 /// @param from, to positions of the character as the pieces see it.
-template <class Scalar>
-[[nodiscard]] bool collides(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
-                            const CharacterShape::Pair& pair, const Vec2<Scalar>& from,
-                            const Vec2<Scalar>& to) noexcept;
+[[nodiscard]] bool collides(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                            const Vec2d& from, const Vec2d& to) noexcept;
 
 /// Searches along `movement` (not zero) of a character at `position`, for one pair.
-template <class Scalar>
-using ImpactSearch = PairImpact<Scalar> (*)(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
-                                            const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
-                                            const Vec2<Scalar>& movement) noexcept;
+using ImpactSearch = PairImpact (*)(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                                    const Vec2d& position, const Vec2d& movement) noexcept;
 
 /// One frame of the article's method.
 /// @param search null: penetration resolution alone, which looks only at where the character arrives.
-template <class Scalar>
-void move(const Parts<Scalar>& parts, ImpactSearch<Scalar> search, const MoveRequest<Scalar>& request,
-          Scratch<Scalar>& scratch, MoveResult<Scalar>& result) noexcept;
+void move(const Parts& parts, ImpactSearch search, const MoveRequest& request, Scratch& scratch,
+          MoveResult& result) noexcept;
 
 /// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances.
-template <class Scalar>
-[[nodiscard]] bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+[[nodiscard]] bool refuse_out_of_range(const MoveRequest& request, MoveResult& result) noexcept;
 
 /// The step would lead beyond the range of the tolerances, alone, carried or pushed; or is no number.
-template <class Scalar>
-[[nodiscard]] bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface,
-                                const MoveRequest<Scalar>& request) noexcept;
+[[nodiscard]] bool leaves_range(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept;
 
 /// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances, or would take
 /// more than `max_search_steps` units to search and `searches_by_units`.
-template <class Scalar>
-[[nodiscard]] bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
-                          MoveResult<Scalar>& result) noexcept;
+[[nodiscard]] bool refuse(const Parts& parts, bool searches_by_units, const MoveRequest& request,
+                          MoveResult& result) noexcept;
 
 /// Fills `result` as a refusal: nothing moved.
-template <class Scalar>
-void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
-            MoveStatus why = MoveStatus::out_of_range) noexcept;
+void refuse(const MoveRequest& request, MoveResult& result, MoveStatus why = MoveStatus::out_of_range) noexcept;
 
 /// Makes `result`, whose `crushed` is filled in, that of a character that stays where the step began.
-template <class Scalar>
-void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept;
 
 /// What is there already is not added again.
 template <class Colliders>
@@ -161,14 +142,11 @@ void add_once(ColliderIndex collider, Colliders& all) noexcept {
 }
 
 /// NaN is not.
-template <class Scalar>
-[[nodiscard]] bool in_range(const Vec2<Scalar>& position) noexcept;
+[[nodiscard]] bool in_range(const Vec2d& position) noexcept;
 
 /// Adds a contact with the collider that was hit, once for each collider and side; its separation is left at zero.
 /// @return false where it was there already, or nothing more fits.
-template <class Scalar>
-bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Side side, Scalar fraction,
-                 MoveResult<Scalar>& result) noexcept;
+bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double fraction, MoveResult& result) noexcept;
 
 /// The points of a pair, or its one point where the side is a corner.
 [[nodiscard]] inline std::span<const std::size_t> distinct(const CharacterShape::Pair& pair) noexcept {
@@ -204,7 +182,6 @@ bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Si
 }
 
 /// Length by the theorem of Pythagoras [m].
-template <class Scalar>
-[[nodiscard]] Scalar length(const Vec2<Scalar>& vector) noexcept;
+[[nodiscard]] double length(const Vec2d& vector) noexcept;
 
 }  // namespace paperproof::article

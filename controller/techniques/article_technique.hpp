@@ -9,27 +9,26 @@
 namespace paperproof::article {
 
 /// @tparam search as for `move`. @tparam by_units it searches by units, and refuses a movement of too many.
-template <class Scalar, ImpactSearch<Scalar> search, bool by_units>
-class SearchingTechnique final : public Technique<Scalar> {
+template <ImpactSearch search, bool by_units>
+class SearchingTechnique final : public Technique {
  public:
-  SearchingTechnique(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+  SearchingTechnique(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : name_(find_technique(def.name)->name), parts_(def, scenery, character) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
+  [[nodiscard]] Scratch make_scratch() const override { return parts_.make_scratch(); }
 
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override {
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     if (refuse(parts_, by_units, request, result)) return;
     article::move(parts_, search, request, scratch, result);
   }
 
  private:
   std::string_view name_;
-  Parts<Scalar> parts_;
+  Parts parts_;
 };
 
-template <template <class> class Made>
+template <class Made>
 [[nodiscard]] TechniqueEntry entry_of_search(std::string_view name) {
   TechniqueEntry entry = entry_of<Made>(name, knob::of_search());
   entry.knows_movers = true;

@@ -28,9 +28,8 @@ namespace {
 
 /// Where the position must not be, so that the character's box does not meet the piece's: its interior. Never smaller
 /// than that by rounding.
-template <class Scalar>
-Box2<Scalar> grown(const Box2<Scalar>& piece, const Box2<Scalar>& character) noexcept {
-  Box2<Scalar> box;
+Box2 grown(const Box2& piece, const Box2& character) noexcept {
+  Box2 box;
   for (const Eigen::Index i : {0, 1}) {
     box.lower[i] = -difference_rounded_up(character.upper[i], piece.lower[i]);
     box.upper[i] = difference_rounded_up(piece.upper[i], character.lower[i]);
@@ -38,16 +37,14 @@ Box2<Scalar> grown(const Box2<Scalar>& piece, const Box2<Scalar>& character) noe
   return box;
 }
 
-template <class Scalar>
-bool holds_inside(const Box2<Scalar>& box, const Vec2<Scalar>& position) noexcept {
+bool holds_inside(const Box2& box, const Vec2d& position) noexcept {
   return box.lower.x() < position.x() && position.x() < box.upper.x() && box.lower.y() < position.y() &&
          position.y() < box.upper.y();
 }
 
 /// Along with a mover. Never smaller by rounding.
-template <class Scalar>
-Box2<Scalar> shifted(const Box2<Scalar>& box, const Vec2<Scalar>& by) noexcept {
-  Box2<Scalar> result;
+Box2 shifted(const Box2& box, const Vec2d& by) noexcept {
+  Box2 result;
   for (const Eigen::Index i : {0, 1}) {
     result.lower[i] = -difference_rounded_up(-box.lower[i], by[i]);
     result.upper[i] = difference_rounded_up(box.upper[i], -by[i]);
@@ -55,62 +52,56 @@ Box2<Scalar> shifted(const Box2<Scalar>& box, const Vec2<Scalar>& by) noexcept {
   return result;
 }
 
-template <class Scalar>
-class BoundingBox final : public Technique<Scalar> {
+class BoundingBox final : public Technique {
  public:
-  BoundingBox(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+  BoundingBox(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
-        character_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
+        character_{character.shape.box().lower, character.shape.box().upper},
         iterations_(def.article.iterations) {
     grown_.reserve(scenery.pieces().size());  // the broad phase looks at them where they are
-    for (const Box2<Scalar>& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
-    broad_phase_ = make_broad_phase<Scalar>(def.broad_phase, grown_);
+    for (const Box2& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
+    broad_phase_ = make_broad_phase(def.broad_phase, grown_);
     for (PieceIndex piece = scenery.static_pieces().end; piece < moving_end(); ++piece)
       grown_.push_back(grown(scenery.box(piece), character_));
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "bounding_box"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override {
-    Scratch<Scalar> scratch;
+  [[nodiscard]] Scratch make_scratch() const override {
+    Scratch scratch;
     scratch.solids.pieces = PieceBuffer(grown_.size());
     return scratch;
   }
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override;
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
 
  private:
   using Pieces = std::span<const PieceIndex>;
-  using Movers = std::span<const MoverMotion<Scalar>>;
+  using Movers = std::span<const MoverMotion>;
 
   /// One past the last piece that goes along with a mover; they follow those that stand.
   [[nodiscard]] PieceIndex moving_end() const noexcept { return scenery_->sensor_pieces().first; }
   /// Where a piece is at the end of the step, relative to where it was defined [m].
-  [[nodiscard]] Vec2<Scalar> offset(PieceIndex piece, Movers movers) const noexcept {
+  [[nodiscard]] Vec2d offset(PieceIndex piece, Movers movers) const noexcept {
     const MoverIndex mover = scenery_->pieces()[piece].mover;
-    return mover == no_mover ? Vec2<Scalar>(Vec2<Scalar>::Zero()) : movers[mover].to;
+    return mover == no_mover ? Vec2d(Vec2d::Zero()) : movers[mover].to;
   }
-  [[nodiscard]] Box2<Scalar> box_of(PieceIndex piece, Movers movers) const noexcept {
+  [[nodiscard]] Box2 box_of(PieceIndex piece, Movers movers) const noexcept {
     return scenery_->pieces()[piece].mover == no_mover ? grown_[piece] : shifted(grown_[piece], offset(piece, movers));
   }
-  [[nodiscard]] Pieces near(const Vec2<Scalar>& here, const Vec2<Scalar>& there, Movers movers,
-                            Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] Pieces near(const Vec2d& here, const Vec2d& there, Movers movers, Scratch& scratch) const noexcept;
   [[nodiscard]] bool blocks(PieceIndex piece, Side side) const noexcept;
-  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2<Scalar>& position, Movers movers) const noexcept;
-  void advance(Pieces nearby, Eigen::Index component, const MoveRequest<Scalar>& request,
-               MoveResult<Scalar>& result) const noexcept;
-  void push_out(Movers movers, Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
-  void meet(PieceIndex piece, Side side, Movers movers, MoveResult<Scalar>& result) const noexcept;
+  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2d& position, Movers movers) const noexcept;
+  void advance(Pieces nearby, Eigen::Index component, const MoveRequest& request, MoveResult& result) const noexcept;
+  void push_out(Movers movers, Scratch& scratch, MoveResult& result) const noexcept;
+  void meet(PieceIndex piece, Side side, Movers movers, MoveResult& result) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
-  Box2<Scalar> character_;
+  const Scenery* scenery_;
+  Box2 character_;
   int iterations_;
-  std::vector<Box2<Scalar>> grown_;  ///< By piece; of what moves, where it is defined.
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  std::vector<Box2> grown_;  ///< By piece; of what moves, where it is defined.
+  std::unique_ptr<BroadPhase> broad_phase_;
 };
 
-template <class Scalar>
-void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                               MoveResult<Scalar>& result) const noexcept {
+void BoundingBox::move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept {
   if (article::refuse_out_of_range(request, result)) return;
   result.clear();
   result.position = request.position;
@@ -124,10 +115,9 @@ void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scala
   result.path.push_back({result.position, 1});
 }
 
-template <class Scalar>
-typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
-                                                               Movers movers, Scratch<Scalar>& scratch) const noexcept {
-  const Box2<Scalar> total{here.cwiseMin(there), here.cwiseMax(there)};
+typename BoundingBox::Pieces BoundingBox::near(const Vec2d& here, const Vec2d& there, Movers movers,
+                                               Scratch& scratch) const noexcept {
+  const Box2 total{here.cwiseMin(there), here.cwiseMax(there)};
   scratch.solids.valid = false;
   scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
   for (PieceIndex piece = scenery_->static_pieces().end; piece < moving_end(); ++piece)
@@ -136,17 +126,14 @@ typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar
 }
 
 /// A one-way segment runs so that its blocking normal is on its left.
-template <class Scalar>
-bool BoundingBox<Scalar>::blocks(PieceIndex piece, Side side) const noexcept {
+bool BoundingBox::blocks(PieceIndex piece, Side side) const noexcept {
   if (!scenery_->pieces()[piece].one_way) return true;
-  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
+  const PieceVertices ends = scenery_->vertices_of(piece);
   return side_of_normal(ends[0].y() - ends[1].y(), ends[1].x() - ends[0].x()) == side;
 }
 
 /// The first box that holds a position, other than one-way ones; null where there is none.
-template <class Scalar>
-const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>& position,
-                                               Movers movers) const noexcept {
+const PieceIndex* BoundingBox::holding(Pieces nearby, const Vec2d& position, Movers movers) const noexcept {
   const auto found = std::find_if(nearby.begin(), nearby.end(), [&](PieceIndex piece) {
     return !scenery_->pieces()[piece].one_way && holds_inside(box_of(piece, movers), position);
   });
@@ -155,31 +142,30 @@ const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>
 
 /// One component of the movement, stopped by the boxes that it has entered where it, and they, end. Going back to the
 /// nearest of their faces may end in a thinner box, hence the iterations.
-template <class Scalar>
-void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, const MoveRequest<Scalar>& request,
-                                  MoveResult<Scalar>& result) const noexcept {
-  const Scalar by = request.displacement[component];
-  const Vec2<Scalar> start = result.position;
+void BoundingBox::advance(Pieces nearby, Eigen::Index component, const MoveRequest& request,
+                          MoveResult& result) const noexcept {
+  const double by = request.displacement[component];
+  const Vec2d start = result.position;
   const bool forwards = by > 0;
   const Side side = article::side_ahead(component, forwards);
   const auto face_of = [&](PieceIndex piece) {
-    const Box2<Scalar> box = box_of(piece, request.movers);
+    const Box2 box = box_of(piece, request.movers);
     return forwards ? box.lower[component] : box.upper[component];
   };
-  const auto entered = [&](PieceIndex piece, const Vec2<Scalar>& end) {
-    const Box2<Scalar> box = box_of(piece, request.movers);
+  const auto entered = [&](PieceIndex piece, const Vec2d& end) {
+    const Box2 box = box_of(piece, request.movers);
     return holds_inside(box, end) && !holds_inside(box, start) && blocks(piece, side);
   };
-  Vec2<Scalar> last_entered = start;
+  Vec2d last_entered = start;
   result.position[component] += by;
   bool hit = false;
   for (int iteration = 0; iteration < iterations_; ++iteration) {
-    const Vec2<Scalar> end = result.position;
+    const Vec2d end = result.position;
     bool free = true;
     for (const PieceIndex piece : nearby) {
       if (!entered(piece, end)) continue;
       free = false;
-      const Scalar face = face_of(piece);
+      const double face = face_of(piece);
       const bool nearer = forwards ? face < result.position[component] : face > result.position[component];
       if (nearer) result.position[component] = face;
     }
@@ -195,20 +181,19 @@ void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, const M
 }
 
 /// Only where the step began inside something, what moves came over it, or iterations were too few.
-template <class Scalar>
-void BoundingBox<Scalar>::push_out(Movers movers, Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept {
+void BoundingBox::push_out(Movers movers, Scratch& scratch, MoveResult& result) const noexcept {
   const auto inside = [&] {
     return holding(near(result.position, result.position, movers, scratch), result.position, movers);
   };
   for (int iteration = 0; iteration < iterations_; ++iteration) {
     const PieceIndex* const piece = inside();
     if (piece == nullptr) return;
-    const Box2<Scalar> box = box_of(*piece, movers);
-    Scalar least = std::numeric_limits<Scalar>::infinity();
+    const Box2 box = box_of(*piece, movers);
+    double least = std::numeric_limits<double>::infinity();
     Side side = Side::bottom;
     for (const Side each : article::all_sides) {
       const Eigen::Index component = article::component_of(each);
-      const Scalar overlap = article::outwards(each) < 0 ? box.upper[component] - result.position[component]
+      const double overlap = article::outwards(each) < 0 ? box.upper[component] - result.position[component]
                                                          : result.position[component] - box.lower[component];
       if (!(overlap < least)) continue;
       least = overlap;
@@ -221,39 +206,33 @@ void BoundingBox<Scalar>::push_out(Movers movers, Scratch<Scalar>& scratch, Move
   if (inside() != nullptr) result.status = MoveStatus::stuck;
 }
 
-template <class Scalar>
-void BoundingBox<Scalar>::meet(PieceIndex piece, Side side, Movers movers, MoveResult<Scalar>& result) const noexcept {
+void BoundingBox::meet(PieceIndex piece, Side side, Movers movers, MoveResult& result) const noexcept {
   const Eigen::Index component = article::component_of(side);
   const Eigen::Index along = 1 - component;
   const int outwards = article::outwards(side);
-  const Vec2<Scalar> by = offset(piece, movers);
-  const Box2<Scalar> box{scenery_->box(piece).lower + by, scenery_->box(piece).upper + by};
-  PointHit<Scalar> hit{.piece = piece};
-  hit.normal[component] = static_cast<Scalar>(-outwards);
+  const Vec2d by = offset(piece, movers);
+  const Box2 box{scenery_->box(piece).lower + by, scenery_->box(piece).upper + by};
+  PointHit hit{.piece = piece};
+  hit.normal[component] = static_cast<double>(-outwards);
   hit.point[component] = outwards < 0 ? box.upper[component] : box.lower[component];
-  const Scalar lower = std::max(box.lower[along], result.position[along] + character_.lower[along]);
-  const Scalar upper = std::min(box.upper[along], result.position[along] + character_.upper[along]);
+  const double lower = std::max(box.lower[along], result.position[along] + character_.lower[along]);
+  const double upper = std::min(box.upper[along], result.position[along] + character_.upper[along]);
   hit.point[along] = lower + (upper - lower) / 2;
-  article::add_contact(*scenery_, hit, side, Scalar(1), result);
+  article::add_contact(*scenery_, hit, side, 1.0, result);
   if (side == Side::bottom) result.grounded = true;
-  if (result.velocity[component] * static_cast<Scalar>(outwards) > 0) result.velocity[component] = 0;
+  if (result.velocity[component] * static_cast<double>(outwards) > 0) result.velocity[component] = 0;
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_bounding_box(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                     const CharacterDef& character) {
+std::unique_ptr<Technique> make_bounding_box(const TechniqueDef& def, const Scenery& scenery,
+                                             const CharacterDef& character) {
   if (has_conveyors(scenery)) throw NotExpressible("bounding_box carries nobody: there is a conveyor");
-  return std::make_unique<BoundingBox<Scalar>>(def, scenery, character);
+  return std::make_unique<BoundingBox>(def, scenery, character);
 }
 
 }  // namespace
 
 TechniqueEntry bounding_box_entry() {
-  return {.name = "bounding_box",
-          .make_float = make_bounding_box<float>,
-          .make_double = make_bounding_box<double>,
-          .knobs = {knob::iterations},
-          .knows_movers = true};
+  return {.name = "bounding_box", .make = make_bounding_box, .knobs = {knob::iterations}, .knows_movers = true};
 }
 
 }  // namespace paperproof

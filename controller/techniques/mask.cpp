@@ -43,44 +43,40 @@ Bitmap figure_of(const TechniqueDef& def, const CharacterShape& shape) {
   return figure;
 }
 
-template <class Scalar>
-class Mask final : public Technique<Scalar> {
+class Mask final : public Technique {
  public:
-  Mask(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+  Mask(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : parts_(def, scenery, character),
         figure_(def.sprite.empty() ? parts_.sprite().mask() : figure_of(def, character.shape)),
         level_(raster::rasterise(scenery.as_run(), def.article.raster_pixels_per_metre)),
         response_(def.article.response) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "mask"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
+  [[nodiscard]] Scratch make_scratch() const override { return parts_.make_scratch(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override {
     return level_.memory_bytes() + figure_.memory_bytes();
   }
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override;
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
 
  private:
   [[nodiscard]] bool is_free(const Pixel& placement) const noexcept { return !level_.overlaps(figure_, placement); }
-  [[nodiscard]] Pixel attempted(const Vec2<Scalar>& corner, const Vec2<Scalar>& way, const Pixel& start) const noexcept;
-  void wind_back(Side side, const Pixel& start, const MoveRequest<Scalar>& request, Pixel& placement,
-                 Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
-  void wind_back_whole(const Pixel& start, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                       MoveResult<Scalar>& result) const noexcept;
-  void stop(Side side, const Pixel& collided, Scalar fraction, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept;
+  [[nodiscard]] Pixel attempted(const Vec2d& corner, const Vec2d& way, const Pixel& start) const noexcept;
+  void wind_back(Side side, const Pixel& start, const MoveRequest& request, Pixel& placement, Scratch& scratch,
+                 MoveResult& result) const noexcept;
+  void wind_back_whole(const Pixel& start, const MoveRequest& request, Scratch& scratch,
+                       MoveResult& result) const noexcept;
+  void stop(Side side, const Pixel& collided, double fraction, Scratch& scratch, MoveResult& result) const noexcept;
 
-  RasterParts<Scalar> parts_;
+  RasterParts parts_;
   Bitmap figure_;  ///< Of the character, with the lower left corner of its box on pixel (0, 0).
   Bitmap level_;
   ArticleKnobs::Response response_;
 };
 
 /// The pixels that the leading edges have reached, never behind the start; across a movement the start's.
-template <class Scalar>
-Pixel Mask<Scalar>::attempted(const Vec2<Scalar>& corner, const Vec2<Scalar>& way, const Pixel& start) const noexcept {
-  const Vec2<Scalar> end = corner + way;
-  const auto leading = [](Scalar to, Scalar along, std::int64_t from) {
+Pixel Mask::attempted(const Vec2d& corner, const Vec2d& way, const Pixel& start) const noexcept {
+  const Vec2d end = corner + way;
+  const auto leading = [](double to, double along, std::int64_t from) {
     if (along == 0) return from;
     return along > 0 ? std::max(from, raster::ceil_to_pixel(to)) : std::min(from, raster::floor_to_pixel(to));
   };
@@ -89,9 +85,8 @@ Pixel Mask<Scalar>::attempted(const Vec2<Scalar>& corner, const Vec2<Scalar>& wa
 
 /// Along one component: from `placement`, which collides, towards the start. Leaves the placement free, unless the
 /// start is not.
-template <class Scalar>
-void Mask<Scalar>::wind_back(Side side, const Pixel& start, const MoveRequest<Scalar>& request, Pixel& placement,
-                             Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept {
+void Mask::wind_back(Side side, const Pixel& start, const MoveRequest& request, Pixel& placement, Scratch& scratch,
+                     MoveResult& result) const noexcept {
   const Eigen::Index i = article::component_of(side);
   const Pixel out = raster::towards(side);
   Pixel collided = placement;
@@ -101,24 +96,23 @@ void Mask<Scalar>::wind_back(Side side, const Pixel& start, const MoveRequest<Sc
   }
   if (collided == placement) collided = placement + out;  // it has not moved at all
   result.position[i] = parts_.position_of(i == 0 ? placement.x : placement.y, i);
-  const Scalar share = (result.position[i] - request.position[i]) / request.displacement[i];
+  const double share = (result.position[i] - request.position[i]) / request.displacement[i];
   stop(side, collided, raster::fraction_of_step(share), scratch, result);
 }
 
 /// Along the whole movement, by one pixel of its length at a time. It ends between whole pixels.
-template <class Scalar>
-void Mask<Scalar>::wind_back_whole(const Pixel& start, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                                   MoveResult<Scalar>& result) const noexcept {
-  const Vec2<Scalar> corner = parts_.corner_at(request.position);
-  const Scalar length = article::length(request.displacement) / parts_.metres(1);
-  Scalar fraction = 1;
+void Mask::wind_back_whole(const Pixel& start, const MoveRequest& request, Scratch& scratch,
+                           MoveResult& result) const noexcept {
+  const Vec2d corner = parts_.corner_at(request.position);
+  const double length = article::length(request.displacement) / parts_.metres(1);
+  double fraction = 1;
   Pixel collided = start;
   Pixel placement = start;
   for (int back = 0; fraction > 0; ++back) {
-    fraction = static_cast<Scalar>(back) < length ? 1 - static_cast<Scalar>(back) / length : Scalar(0);
-    const Vec2<Scalar> moved = request.displacement * fraction;
+    fraction = static_cast<double>(back) < length ? 1 - static_cast<double>(back) / length : 0.0;
+    const Vec2d moved = request.displacement * fraction;
     result.position = request.position + moved;
-    const Vec2<Scalar> way = parts_.corner_at(result.position) - corner;
+    const Vec2d way = parts_.corner_at(result.position) - corner;
     placement = fraction > 0 ? attempted(corner, way, start) : start;
     if (is_free(placement)) break;
     collided = placement;
@@ -135,9 +129,8 @@ void Mask<Scalar>::wind_back_whole(const Pixel& start, const MoveRequest<Scalar>
   if (!across_collides && !along_collides) stop(step.y != 0 ? along : across, collided, fraction, scratch, result);
 }
 
-template <class Scalar>
-void Mask<Scalar>::stop(Side side, const Pixel& collided, Scalar fraction, Scratch<Scalar>& scratch,
-                        MoveResult<Scalar>& result) const noexcept {
+void Mask::stop(Side side, const Pixel& collided, double fraction, Scratch& scratch,
+                MoveResult& result) const noexcept {
   result.velocity[article::component_of(side)] = 0;
   if (side == Side::bottom) result.grounded = true;
   parts_.look_around(collided, scratch);
@@ -145,13 +138,11 @@ void Mask<Scalar>::stop(Side side, const Pixel& collided, Scalar fraction, Scrat
                           [&](const Pixel& pixel) { parts_.report(pixel, side, fraction, scratch, result); });
 }
 
-template <class Scalar>
-void Mask<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                        MoveResult<Scalar>& result) const noexcept {
+void Mask::move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept {
   if (parts_.refuse(request, result)) return;
   const auto free = [this](const Pixel& placement) { return is_free(placement); };
-  const Vec2<Scalar> corner = parts_.corner_at(request.position);
-  const Vec2<Scalar> way = parts_.corner_at(request.position + request.displacement) - corner;
+  const Vec2d corner = parts_.corner_at(request.position);
+  const Vec2d way = parts_.corner_at(request.position + request.displacement) - corner;
   bool began_inside = false;
   const Pixel start = parts_.start(corner, way, free, began_inside);
   const Pixel end = attempted(corner, way, start);

@@ -11,20 +11,18 @@ namespace paperproof {
 
 /// Takes the one-way segments out of a list of pieces, for a step that drops through them.
 /// @returns how many are left, at its front, in their order.
-template <class Scalar>
-[[nodiscard]] std::size_t without_one_way(const Scenery<Scalar>& scenery, std::span<PieceIndex> pieces) noexcept {
+[[nodiscard]] inline std::size_t without_one_way(const Scenery& scenery, std::span<PieceIndex> pieces) noexcept {
   const auto end =
       std::remove_if(pieces.begin(), pieces.end(), [&](PieceIndex piece) { return scenery.pieces()[piece].one_way; });
   return static_cast<std::size_t>(end - pieces.begin());
 }
 
 /// The part of a piece's outline that a point met.
-template <class Scalar>
 struct PointHit {
   PieceIndex piece = 0;
-  Vec2<Scalar> point{Vec2<Scalar>::Zero()};   ///< On the outline [m].
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, out of the solid; of a chain: to the side the point came from.
-  Scalar fraction = 0;                        ///< Of the motion asked about, in [0, 1].
+  Vec2d point{Vec2d::Zero()};   ///< On the outline [m].
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, out of the solid; of a chain: to the side the point came from.
+  double fraction = 0;          ///< Of the motion asked about, in [0, 1].
 };
 
 /// The pieces that the broad phase found, as seen by one point at a time.
@@ -36,10 +34,9 @@ struct PointHit {
 /// its line, and ends beyond. End points of a segment belong to it, so that a chain is closed at its joints.
 ///
 /// A view: valid as long as the scenery and the list of pieces are. Const, reads only.
-template <class Scalar>
 class NearbyScenery {
  public:
-  NearbyScenery(const Scenery<Scalar>& scenery, std::span<const PieceIndex> pieces) noexcept
+  NearbyScenery(const Scenery& scenery, std::span<const PieceIndex> pieces) noexcept
       : scenery_(&scenery), pieces_(pieces) {}
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.empty(); }
@@ -50,36 +47,30 @@ class NearbyScenery {
   [[nodiscard]] NearbyScenery object_at_front(std::span<const PieceIndex> rest) const noexcept;
 
   /// The first polygon piece that `point` is in.
-  [[nodiscard]] std::optional<PieceIndex> containing(const Vec2<Scalar>& point) const noexcept;
+  [[nodiscard]] std::optional<PieceIndex> containing(const Vec2d& point) const noexcept;
 
   /// The first chain piece that the straight motion of a point crosses, in order of index.
-  [[nodiscard]] std::optional<PieceIndex> crossed(const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
+  [[nodiscard]] std::optional<PieceIndex> crossed(const Vec2d& from, const Vec2d& to) const noexcept;
 
   /// Where a point that moves straight by `displacement` first enters a polygon or crosses a chain, from the half
   /// planes of each convex piece (Cyrus and Beck 1978). A point that is in a polygon already has the fraction 0 and the
   /// normal of the edge through which it would leave backwards. Entering at the very end of the motion is no entry.
-  [[nodiscard]] std::optional<PointHit<Scalar>> first_entry(const Vec2<Scalar>& from,
-                                                            const Vec2<Scalar>& displacement) const noexcept;
+  [[nodiscard]] std::optional<PointHit> first_entry(const Vec2d& from, const Vec2d& displacement) const noexcept;
 
   /// The edge through which a point of polygon piece `piece` leaves it when pushed along `direction` (not zero).
-  [[nodiscard]] PointHit<Scalar> way_out(PieceIndex piece, const Vec2<Scalar>& point,
-                                         const Vec2<Scalar>& direction) const noexcept;
+  [[nodiscard]] PointHit way_out(PieceIndex piece, const Vec2d& point, const Vec2d& direction) const noexcept;
 
   /// The crossing of chain piece `piece` by a motion for which `crossed` named it.
-  [[nodiscard]] PointHit<Scalar> crossing(PieceIndex piece, const Vec2<Scalar>& from,
-                                          const Vec2<Scalar>& to) const noexcept;
+  [[nodiscard]] PointHit crossing(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept;
 
  private:
-  [[nodiscard]] bool is_seam(const Vec2<Scalar>& point, const Vec2<Scalar>& along) const noexcept;
+  [[nodiscard]] bool is_seam(const Vec2d& point, const Vec2d& along) const noexcept;
   [[nodiscard]] bool is_chain(PieceIndex piece) const noexcept { return scenery_->pieces()[piece].vertex_count == 2; }
-  [[nodiscard]] bool crosses(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
+  [[nodiscard]] bool crosses(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
+  const Scenery* scenery_;
   std::span<const PieceIndex> pieces_;
   std::span<const PieceIndex> around_{};  ///< Of one object: all that is near. Empty: it is everything itself.
 };
-
-extern template class NearbyScenery<float>;
-extern template class NearbyScenery<double>;
 
 }  // namespace paperproof

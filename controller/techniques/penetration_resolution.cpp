@@ -17,8 +17,7 @@ namespace paperproof {
 
 namespace {
 
-template <class Scalar>
-using PenetrationResolution = article::SearchingTechnique<Scalar, nullptr, true>;
+using PenetrationResolution = article::SearchingTechnique<nullptr, true>;
 
 }  // namespace
 

@@ -48,11 +48,10 @@ class ColourRules {
   raster::ColourPicture picture_;
 };
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_pixel_colour(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                     const CharacterDef& character) {
-  using Made = raster::PixelTechnique<Scalar, ColourRules>;
-  raster::RasterParts<Scalar> parts(def, scenery, character);
+std::unique_ptr<Technique> make_pixel_colour(const TechniqueDef& def, const Scenery& scenery,
+                                             const CharacterDef& character) {
+  using Made = raster::PixelTechnique<ColourRules>;
+  raster::RasterParts parts(def, scenery, character);
   SceneryDef drawn = scenery.as_run();
   if (def.decoration)
     drawn.colliders.insert(drawn.colliders.end(), def.decoration->colliders.begin(), def.decoration->colliders.end());
@@ -64,8 +63,7 @@ std::unique_ptr<Technique<Scalar>> make_pixel_colour(const TechniqueDef& def, co
 
 TechniqueEntry pixel_colour_entry() {
   return {.name = "pixel_colour",
-          .make_float = make_pixel_colour<float>,
-          .make_double = make_pixel_colour<double>,
+          .make = make_pixel_colour,
           .knobs = {knob::raster_pixels_per_metre},
           .draws_level = true,
           .unit = knob::pixel};

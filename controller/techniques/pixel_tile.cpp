@@ -77,11 +77,10 @@ class TileRules {
   std::shared_ptr<const PixelTileSet> tiles_;
 };
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_pixel_tile(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                   const CharacterDef& character) {
-  using Made = raster::PixelTechnique<Scalar, TileRules>;
-  raster::RasterParts<Scalar> parts(def, scenery, character);
+std::unique_ptr<Technique> make_pixel_tile(const TechniqueDef& def, const Scenery& scenery,
+                                           const CharacterDef& character) {
+  using Made = raster::PixelTechnique<TileRules>;
+  raster::RasterParts parts(def, scenery, character);
   std::shared_ptr<const PixelTileSet> tiles = def.pixel_tiles;
   if (tiles) {
     tiles->validate();
@@ -97,8 +96,7 @@ std::unique_ptr<Technique<Scalar>> make_pixel_tile(const TechniqueDef& def, cons
 TechniqueEntry pixel_tile_entry() {
   return {
       .name = "pixel_tile",
-      .make_float = make_pixel_tile<float>,
-      .make_double = make_pixel_tile<double>,
+      .make = make_pixel_tile,
       .knobs = {knob::raster_pixels_per_metre,
                 {"pixels_per_tile", "along a side of a tile: more take more memory, nothing else changes",
                  [](const std::string& value, TechniqueDef& def) { def.article.pixels_per_tile = whole_in(value); }}},

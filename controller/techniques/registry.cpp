@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace paperproof {
 namespace {
@@ -24,11 +23,9 @@ constexpr std::string_view sweep_name = "octagon_sweep";
 
 SweepDef sweep_of(const TechniqueDef& def) { return {def.search, def.sweep_iterations}; }
 
-/// @tparam Scalar in which the unit has to be a positive number too.
-template <class Scalar>
 void validate(const ArticleKnobs& knobs) {
-  const Scalar unit = static_cast<Scalar>(knobs.unit);
-  require(std::isfinite(unit) && unit > 0, "unit: must be a positive length, not " + std::to_string(knobs.unit));
+  require(std::isfinite(knobs.unit) && knobs.unit > 0,
+          "unit: must be a positive length, not " + std::to_string(knobs.unit));
   require(knobs.iterations >= 1, "iterations: must be at least 1, not " + std::to_string(knobs.iterations));
   require(knobs.points == 8 || knobs.points == 4, "points: must be 8 or 4, not " + std::to_string(knobs.points));
   require(knobs.pairs == ArticleKnobs::Pairs::direction || knobs.pairs == ArticleKnobs::Pairs::all,
@@ -37,7 +34,7 @@ void validate(const ArticleKnobs& knobs) {
           "response: must be component or shorten");
   require(knobs.objects == ArticleKnobs::Objects::each || knobs.objects == ArticleKnobs::Objects::all,
           "objects: must be each or all");
-  require(std::isfinite(knobs.square) && knobs.square > static_cast<double>(Tolerances<Scalar>{}.touch),
+  require(std::isfinite(knobs.square) && knobs.square > Tolerances{}.touch,
           "square: must be longer than what counts as touching, not " + std::to_string(knobs.square));
   const double fineness = knobs.raster_pixels_per_metre;
   require(fineness > 0 && fineness <= max_raster_pixels_per_metre,
@@ -90,52 +87,36 @@ bool register_technique(TechniqueEntry entry) {
   return true;
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                  const CharacterDef& character) {
+std::unique_ptr<Technique> make_technique(const TechniqueDef& def, const Scenery& scenery,
+                                          const CharacterDef& character) {
   character.validate();
-  validate<Scalar>(def.article);
+  validate(def.article);
   const TechniqueEntry* entry = find_technique(def.name);
   require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
-  require(entry->make_double != nullptr, "technique: " + std::string(def.name) + " is the controller itself");
+  require(entry->make != nullptr, "technique: " + std::string(def.name) + " is the controller itself");
   if (!entry->knows_movers && (has_moving_solids(scenery) || has_conveyors(scenery)))
     throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
   if (!entry->knows_circles && has_circles(scenery))
     throw NotExpressible(std::string(def.name) + " knows no circles: make a polygon of them");
-  if constexpr (std::is_same_v<Scalar, float>) return entry->make_float(def, scenery, character);
-  if constexpr (std::is_same_v<Scalar, double>) return entry->make_double(def, scenery, character);
+  return entry->make(def, scenery, character);
 }
 
-template <class Scalar>
-TechniqueController<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                            const TechniqueDef& def) {
-  validate<Scalar>(def.article);
+TechniqueController make_controller(const Scenery& scenery, const CharacterDef& character, const TechniqueDef& def) {
+  validate(def.article);
   CharacterDef with_reach = character;
   with_reach.wall_reach = def.article.unit;
   if (def.name != sweep_name)
-    return TechniqueController<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
-  return TechniqueController<Scalar>(Controller<Scalar>(scenery, with_reach, sweep_of(def)));
+    return TechniqueController(scenery, with_reach, make_technique(def, scenery, with_reach), def.search);
+  return TechniqueController(Controller(scenery, with_reach, sweep_of(def)));
 }
 
-template <class Scalar>
-TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                  const TechniqueDef& def) {
-  if (def.name == sweep_name) return TechniqueCrowd<Scalar>(Crowd<Scalar>(scenery, character, sweep_of(def)));
-  std::unique_ptr<const Technique<Scalar>> made = make_technique(def, scenery, character);
-  const auto* joint = dynamic_cast<const JointTechnique<Scalar>*>(made.get());
+TechniqueCrowd make_crowd(const Scenery& scenery, const CharacterDef& character, const TechniqueDef& def) {
+  if (def.name == sweep_name) return TechniqueCrowd(Crowd(scenery, character, sweep_of(def)));
+  std::unique_ptr<const Technique> made = make_technique(def, scenery, character);
+  const auto* joint = dynamic_cast<const JointTechnique*>(made.get());
   require(joint != nullptr, "a crowd does not move by " + std::string(def.name) + ", which knows one character");
   static_cast<void>(made.release());
-  return TechniqueCrowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.search);
+  return TechniqueCrowd(scenery, character, std::unique_ptr<const JointTechnique>(joint), def.search);
 }
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
-  template std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef&, const Scenery<Scalar>&, \
-                                                             const CharacterDef&);                        \
-  template TechniqueController<Scalar> make_controller(const Scenery<Scalar>&, const CharacterDef&,       \
-                                                       const TechniqueDef&);                              \
-  template TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&)
-PAPERPROOF_INSTANTIATE(float);
-PAPERPROOF_INSTANTIATE(double);
-#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof

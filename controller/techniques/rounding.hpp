@@ -7,13 +7,12 @@
 namespace paperproof {
 
 /// a - b, rounded up: what the rounding lost is known exactly (Knuth's two-sum). Finite arguments, no overflow.
-template <class Scalar>
-[[nodiscard]] Scalar difference_rounded_up(Scalar a, Scalar b) noexcept {
-  const Scalar rounded = a - b;
-  const Scalar b_taken = a - rounded;
-  const Scalar a_left = rounded + b_taken;
-  const Scalar lost = (a - a_left) + (b_taken - b);
-  return lost > 0 ? std::nextafter(rounded, std::numeric_limits<Scalar>::infinity()) : rounded;
+[[nodiscard]] inline double difference_rounded_up(double a, double b) noexcept {
+  const double rounded = a - b;
+  const double b_taken = a - rounded;
+  const double a_left = rounded + b_taken;
+  const double lost = (a - a_left) + (b_taken - b);
+  return lost > 0 ? std::nextafter(rounded, std::numeric_limits<double>::infinity()) : rounded;
 }
 
 }  // namespace paperproof

@@ -19,23 +19,20 @@ using article::Parts;
 /// The time of impact is rounded, and so is the position that it leads to: without this the next frame would find the
 /// point an ulp inside, and penetration resolution would push it out by a whole unit. Doubling reaches any rounding
 /// error in a few tests.
-template <class Scalar>
-Scalar just_outside(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby, const CharacterShape::Pair& pair,
-                    const Vec2<Scalar>& position, const Vec2<Scalar>& movement, Scalar fraction) noexcept {
-  const Scalar scale = position.cwiseAbs().maxCoeff() / movement.cwiseAbs().maxCoeff();
-  Scalar back = std::numeric_limits<Scalar>::epsilon() * std::max(scale, fraction);
-  while (fraction > 0 && collides<Scalar>(parts, nearby, pair, position, position + movement * fraction)) {
-    fraction = std::max(Scalar(0), fraction - back);
+double just_outside(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                    const Vec2d& position, const Vec2d& movement, double fraction) noexcept {
+  const double scale = position.cwiseAbs().maxCoeff() / movement.cwiseAbs().maxCoeff();
+  double back = std::numeric_limits<double>::epsilon() * std::max(scale, fraction);
+  while (fraction > 0 && collides(parts, nearby, pair, position, position + movement * fraction)) {
+    fraction = std::max(0.0, fraction - back);
     back *= 2;
   }
   return fraction;
 }
 
-template <class Scalar>
-PairImpact<Scalar> time_of_impact(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
-                                  const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
-                                  const Vec2<Scalar>& movement) noexcept {
-  PairImpact<Scalar> impact;
+PairImpact time_of_impact(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                          const Vec2d& position, const Vec2d& movement) noexcept {
+  PairImpact impact;
   for (const std::size_t i : distinct(pair)) {
     const auto entry = nearby.first_entry(position + parts.points.offsets[i], movement);
     if (!entry) continue;
@@ -44,7 +41,7 @@ PairImpact<Scalar> time_of_impact(const Parts<Scalar>& parts, const NearbyScener
   }
   if (impact.hits.empty()) return impact;
   // Both points touch where one landing brings both to an edge.
-  const Scalar touching = impact.fraction + Tolerances<Scalar>{}.touch / article::length(movement);
+  const double touching = impact.fraction + Tolerances{}.touch / article::length(movement);
   if (impact.hits.size() == 2 && impact.hits[1].on.fraction > touching) impact.hits.pop_back();
   if (impact.hits.size() == 2 && impact.hits[0].on.fraction > touching) {
     impact.hits[0] = impact.hits[1];
@@ -55,8 +52,7 @@ PairImpact<Scalar> time_of_impact(const Parts<Scalar>& parts, const NearbyScener
   return impact;
 }
 
-template <class Scalar>
-using Speculative = article::SearchingTechnique<Scalar, &time_of_impact<Scalar>, false>;
+using Speculative = article::SearchingTechnique<&time_of_impact, false>;
 
 }  // namespace
 

@@ -23,14 +23,12 @@ using article::Parts;
 
 /// What the points of a pair collide with when a step takes them from one position to the next. At the start the two
 /// are the same.
-template <class Scalar>
-PairImpact<Scalar> collisions(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
-                              const CharacterShape::Pair& pair, const Vec2<Scalar>& from, const Vec2<Scalar>& to,
-                              const Vec2<Scalar>& movement) noexcept {
-  PairImpact<Scalar> impact;
+PairImpact collisions(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                      const Vec2d& from, const Vec2d& to, const Vec2d& movement) noexcept {
+  PairImpact impact;
   for (const std::size_t i : article::distinct(pair)) {
-    const Vec2<Scalar> here = from + parts.points.offsets[i];
-    const Vec2<Scalar> there = to + parts.points.offsets[i];
+    const Vec2d here = from + parts.points.offsets[i];
+    const Vec2d there = to + parts.points.offsets[i];
     if (const auto inside = nearby.containing(there)) {
       impact.hits.push_back({nearby.way_out(*inside, there, -movement), i});
     } else if (const auto crossed = nearby.crossed(here, there)) {
@@ -40,30 +38,27 @@ PairImpact<Scalar> collisions(const Parts<Scalar>& parts, const NearbyScenery<Sc
   return impact;
 }
 
-template <class Scalar>
-PairImpact<Scalar> march(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
-                         const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
-                         const Vec2<Scalar>& movement) noexcept {
-  const Scalar vector_length = article::length(movement);
-  const Vec2<Scalar> one_unit = movement / vector_length * parts.unit;
-  const Scalar whole_units = std::floor(vector_length / parts.unit);
-  PairImpact<Scalar> impact = collisions(parts, nearby, pair, position, position, movement);
-  Vec2<Scalar> reached{Vec2<Scalar>::Zero()};
+PairImpact march(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+                 const Vec2d& position, const Vec2d& movement) noexcept {
+  const double vector_length = article::length(movement);
+  const Vec2d one_unit = movement / vector_length * parts.unit;
+  const double whole_units = std::floor(vector_length / parts.unit);
+  PairImpact impact = collisions(parts, nearby, pair, position, position, movement);
+  Vec2d reached{Vec2d::Zero()};
   int segments = 0;
   for (bool at_end = false; impact.hits.empty() && !at_end; ++segments) {
-    at_end = static_cast<Scalar>(segments) >= whole_units;
-    const Vec2<Scalar> next = at_end ? movement : Vec2<Scalar>(one_unit * static_cast<Scalar>(segments + 1));
-    impact = collisions(parts, nearby, pair, Vec2<Scalar>(position + reached), Vec2<Scalar>(position + next), movement);
+    at_end = static_cast<double>(segments) >= whole_units;
+    const Vec2d next = at_end ? movement : Vec2d(one_unit * static_cast<double>(segments + 1));
+    impact = collisions(parts, nearby, pair, Vec2d(position + reached), Vec2d(position + next), movement);
     if (!impact.hits.empty()) break;
     reached = next;
   }
   impact.reached = reached;
-  impact.fraction = std::min(Scalar(1), static_cast<Scalar>(segments) * parts.unit / vector_length);
+  impact.fraction = std::min(1.0, static_cast<double>(segments) * parts.unit / vector_length);
   return impact;
 }
 
-template <class Scalar>
-using SpeculativeMarch = article::SearchingTechnique<Scalar, &march<Scalar>, true>;
+using SpeculativeMarch = article::SearchingTechnique<&march, true>;
 
 }  // namespace
 

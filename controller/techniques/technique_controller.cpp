@@ -15,25 +15,22 @@ namespace {
 using namespace step_parts;
 
 /// Of a step of a crowd that moves by a joint technique.
-template <class Scalar>
 struct JointMemory final : OwnMemory {
-  std::vector<CharacterState<Scalar>> states;  ///< Those handed to the step, as they will be.
-  std::vector<MoveRequest<Scalar>> requests;   ///< What each character wants.
-  Scratch<Scalar> scratch;
+  std::vector<CharacterState> states;  ///< Those handed to the step, as they will be.
+  std::vector<MoveRequest> requests;   ///< What each character wants.
+  Scratch scratch;
 };
 
 }  // namespace
 
-template <class Scalar>
-struct TechniqueController<Scalar>::Driver {
-  const Scenery<Scalar>& scenery;
+struct TechniqueController::Driver {
+  const Scenery& scenery;
   CharacterDef character;
-  std::unique_ptr<const Technique<Scalar>> technique;
-  Sensors<Scalar> sensors;
-  OneWayChains<Scalar> one_way;
+  std::unique_ptr<const Technique> technique;
+  Sensors sensors;
+  OneWayChains one_way;
 
-  Driver(const Scenery<Scalar>& where, const CharacterDef& who, std::unique_ptr<const Technique<Scalar>> how,
-         PieceSearch search)
+  Driver(const Scenery& where, const CharacterDef& who, std::unique_ptr<const Technique> how, PieceSearch search)
       : scenery(where),
         character(who),
         technique(std::move(how)),
@@ -46,22 +43,21 @@ struct TechniqueController<Scalar>::Driver {
   }
 
   /// @param scratch of the technique.
-  [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const {
+  [[nodiscard]] Scratch completed(Scratch scratch) const {
     scratch.sensors = sensors.make_candidates();
     scratch.one_way = one_way.make_candidates();
     return scratch;
   }
 
-  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
-                             const StepContext<Scalar>& context) const noexcept {
+  [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
+                             const StepContext& context) const noexcept {
     return is_upright(context.up) && context.filter == nullptr && context.dt > 0 &&
            context.movers.size() == scenery.mover_count() &&
            finite(state, input, context.gravity, context.dt, context.movers);
   }
 
-  [[nodiscard]] static MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state,
-                                                      const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
-                                                      bool drop, const StepContext<Scalar>& context) noexcept {
+  [[nodiscard]] static MoveRequest request_of(const CharacterState& state, const Vec2d& displacement,
+                                              const Vec2d& velocity, bool drop, const StepContext& context) noexcept {
     return {.position = state.position,
             .displacement = displacement,
             .velocity = velocity,
@@ -73,9 +69,9 @@ struct TechniqueController<Scalar>::Driver {
   }
 
   /// Turns the intent into a request.
-  [[nodiscard]] MoveRequest<Scalar> begin(const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
-                                          CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
-    if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
+  [[nodiscard]] MoveRequest begin(const Input& input, const StepContext& context, bool wall_ahead,
+                                  CharacterState& state, StepReport& report) const noexcept {
+    if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
     const auto [velocity, steered] = desired_velocity(character, context.gravity, input, context.dt, state, wall_ahead);
     report.requested = velocity * context.dt;
     report.steered = steered * context.dt;
@@ -83,56 +79,49 @@ struct TechniqueController<Scalar>::Driver {
   }
 
   /// Tries a move towards the wall that `move` (not zero) points to, without making it.
-  [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
-                                    const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
-                                    MoveResult<Scalar>& tried) const noexcept {
-    const auto reach = static_cast<Scalar>(character.wall_reach);
-    const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
+  [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
+                                    Scratch& scratch, MoveResult& tried) const noexcept {
+    const auto reach = character.wall_reach;
+    const Vec2d there{move < 0 ? -reach : reach, 0};
     technique->move(request_of(state, there, there / context.dt, false, context), scratch, tried);
     return touches(tried, move < 0 ? Side::left : Side::right);
   }
 
   /// After the move has filled `report.move`.
-  void end(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
-           StepReport<Scalar>& report) const noexcept {
-    const std::span<const PathPoint<Scalar>> path = report.move.path;
+  void end(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
+           StepReport& report) const noexcept {
+    const std::span<const PathPoint> path = report.move.path;
     sensors.observe(path, context.movers, scratch.sensors, report.sensors);
     if (drop) one_way.find_passed(path, context.movers, scratch.one_way, report.dropped_through);
     adopt(character, context.up, report.move, state);
   }
 };
 
-template <class Scalar>
-TechniqueController<Scalar>::TechniqueController(Controller<Scalar> sweep) : sweep_(std::move(sweep)) {}
+TechniqueController::TechniqueController(Controller sweep) : sweep_(std::move(sweep)) {}
 
-template <class Scalar>
-TechniqueController<Scalar>::TechniqueController(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                                 std::unique_ptr<const Technique<Scalar>> technique, PieceSearch search)
+TechniqueController::TechniqueController(const Scenery& scenery, const CharacterDef& character,
+                                         std::unique_ptr<const Technique> technique, PieceSearch search)
     : driver_(std::make_shared<const Driver>(scenery, character, std::move(technique), search)) {}
 
-template <class Scalar>
-Scratch<Scalar> TechniqueController<Scalar>::make_scratch() const {
+Scratch TechniqueController::make_scratch() const {
   if (sweep_) return sweep_->make_scratch();
-  Scratch<Scalar> scratch = driver_->completed(driver_->technique->make_scratch());
+  Scratch scratch = driver_->completed(driver_->technique->make_scratch());
   scratch.maker = driver_;
   return scratch;
 }
 
-template <class Scalar>
-std::size_t TechniqueController<Scalar>::memory_bytes() const noexcept {
+std::size_t TechniqueController::memory_bytes() const noexcept {
   return sweep_ ? 0 : driver_->technique->memory_bytes();
 }
 
-template <class Scalar>
-StepStatus TechniqueController<Scalar>::step(CharacterState<Scalar>& state, const Input& input,
-                                             const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
-                                             StepReport<Scalar>& report) const noexcept {
+StepStatus TechniqueController::step(CharacterState& state, const Input& input, const StepContext& context,
+                                     Scratch& scratch, StepReport& report) const noexcept {
   if (sweep_) return sweep_->step(state, input, context, scratch, report);
   report.sensors.clear();
   report.dropped_through.clear();
   if (!is_made_by(driver_, scratch.maker) || !driver_->accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
-  const CharacterState<Scalar> before = state;
+  const CharacterState before = state;
   const bool wall_ahead = asks_for_wall(driver_->character, input, state) &&
                           driver_->has_wall_ahead(state, *input.move, context, scratch, report.move);
   driver_->technique->move(driver_->begin(input, context, wall_ahead, state, report), scratch, report.move);
@@ -144,19 +133,16 @@ StepStatus TechniqueController<Scalar>::step(CharacterState<Scalar>& state, cons
   return report.status;
 }
 
-template <class Scalar>
-TechniqueCrowd<Scalar>::TechniqueCrowd(Crowd<Scalar> sweep) : sweep_(std::move(sweep)) {}
+TechniqueCrowd::TechniqueCrowd(Crowd sweep) : sweep_(std::move(sweep)) {}
 
-template <class Scalar>
-TechniqueCrowd<Scalar>::TechniqueCrowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                       std::unique_ptr<const JointTechnique<Scalar>> technique, PieceSearch search)
+TechniqueCrowd::TechniqueCrowd(const Scenery& scenery, const CharacterDef& character,
+                               std::unique_ptr<const JointTechnique> technique, PieceSearch search)
     : technique_(technique.get()),
       driver_(std::make_shared<const Driver>(scenery, character, std::move(technique), search)) {}
 
-template <class Scalar>
-CrowdScratch TechniqueCrowd<Scalar>::make_scratch(std::size_t most_characters) const {
+CrowdScratch TechniqueCrowd::make_scratch(std::size_t most_characters) const {
   if (sweep_) return sweep_->make_scratch(most_characters);
-  auto memory = std::make_unique<JointMemory<Scalar>>();
+  auto memory = std::make_unique<JointMemory>();
   memory->states.resize(most_characters);
   memory->requests.resize(most_characters);
   memory->scratch = driver_->completed(technique_->make_joint_scratch(most_characters));
@@ -164,16 +150,14 @@ CrowdScratch TechniqueCrowd<Scalar>::make_scratch(std::size_t most_characters) c
 }
 
 /// Writes no state before it is certain that no state is refused.
-template <class Scalar>
-StepStatus TechniqueCrowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                                        const StepContext<Scalar>& context, CrowdScratch& scratch,
-                                        CrowdReport<Scalar>& report) const noexcept {
+StepStatus TechniqueCrowd::step(std::span<CharacterState> states, std::span<const Input> inputs,
+                                const StepContext& context, CrowdScratch& scratch, CrowdReport& report) const noexcept {
   if (sweep_) return sweep_->step(states, inputs, context, scratch, report);
   const std::size_t count = states.size();
   if (scratch.most_characters < count || report.members.size() < count || inputs.size() != count ||
       !is_made_by(driver_, scratch.maker))
     return report.status = StepStatus::invalid_input;
-  auto& memory = static_cast<JointMemory<Scalar>&>(*scratch.own);
+  auto& memory = static_cast<JointMemory&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};
     report.members[i].island = static_cast<CharacterIndex>(i);
@@ -184,7 +168,7 @@ StepStatus TechniqueCrowd<Scalar>::step(std::span<CharacterState<Scalar>> states
   if (!technique_->move_together(std::span(memory.requests).first(count), memory.scratch, report))
     return report.status = StepStatus::out_of_range;
   for (std::size_t i = 0; i < count; ++i) {
-    StepReport<Scalar>& own = report.members[i].step;
+    StepReport& own = report.members[i].step;
     report.members[i].sort_contacts();
     own.status = status_of(own.move.status);
     driver_->end(inputs[i].drop, context, memory.scratch, memory.states[i], own);
@@ -192,10 +176,5 @@ StepStatus TechniqueCrowd<Scalar>::step(std::span<CharacterState<Scalar>> states
   }
   return report.status = StepStatus::moved;
 }
-
-template class TechniqueController<float>;
-template class TechniqueController<double>;
-template class TechniqueCrowd<float>;
-template class TechniqueCrowd<double>;
 
 }  // namespace paperproof

@@ -15,40 +15,36 @@ namespace {
 
 using article::Parts;
 
-template <class Scalar>
-class WindBack final : public Technique<Scalar> {
+class WindBack final : public Technique {
  public:
-  WindBack(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+  WindBack(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : parts_(def, scenery, character) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "wind_back"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override;
+  [[nodiscard]] Scratch make_scratch() const override { return parts_.make_scratch(); }
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
 
  private:
-  void report(const NearbyScenery<Scalar>& nearby, const MoveRequest<Scalar>& request, const Vec2<Scalar>& collided,
-              Scalar fraction, MoveResult<Scalar>& result) const noexcept;
+  void report(const NearbyScenery& nearby, const MoveRequest& request, const Vec2d& collided, double fraction,
+              MoveResult& result) const noexcept;
 
-  Parts<Scalar> parts_;
+  Parts parts_;
 };
 
-template <class Scalar>
-void WindBack<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                            MoveResult<Scalar>& result) const noexcept {
+void WindBack::move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept {
   if (refuse(parts_, true, request, result)) return;
   result.clear();
-  const Vec2<Scalar> end = request.position + request.displacement;
-  const NearbyScenery<Scalar> nearby = parts_.near(request.position, end, scratch);
-  const Scalar vector_length = article::length(request.displacement);
-  Vec2<Scalar> position = end;
-  Vec2<Scalar> collided = end;
-  Scalar fraction = 1;
+  const Vec2d end = request.position + request.displacement;
+  const NearbyScenery nearby = parts_.near(request.position, end, scratch);
+  const double vector_length = article::length(request.displacement);
+  Vec2d position = end;
+  Vec2d collided = end;
+  double fraction = 1;
   bool inside = parts_.inside(nearby, position);
   const bool hit = inside;
   for (int units = 1; inside && fraction > 0; ++units) {
-    const Scalar back = static_cast<Scalar>(units) * parts_.unit;
-    fraction = back < vector_length ? 1 - back / vector_length : Scalar(0);
+    const double back = static_cast<double>(units) * parts_.unit;
+    fraction = back < vector_length ? 1 - back / vector_length : 0.0;
     collided = position;
     position = request.position + request.displacement * fraction;
     inside = parts_.inside(nearby, position);
@@ -62,21 +58,19 @@ void WindBack<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>&
 }
 
 /// Which side a point belongs to says the outline that it left backwards.
-template <class Scalar>
-void WindBack<Scalar>::report(const NearbyScenery<Scalar>& nearby, const MoveRequest<Scalar>& request,
-                              const Vec2<Scalar>& collided, Scalar fraction,
-                              MoveResult<Scalar>& result) const noexcept {
+void WindBack::report(const NearbyScenery& nearby, const MoveRequest& request, const Vec2d& collided, double fraction,
+                      MoveResult& result) const noexcept {
   if (request.displacement.isZero(0)) return;
-  for (const Vec2<Scalar>& offset : parts_.points.offsets) {
-    const Vec2<Scalar> point = collided + offset;
+  for (const Vec2d& offset : parts_.points.offsets) {
+    const Vec2d point = collided + offset;
     const auto piece = nearby.containing(point);
     if (!piece) continue;
-    const PointHit<Scalar> hit = nearby.way_out(*piece, point, -request.displacement);
+    const PointHit hit = nearby.way_out(*piece, point, -request.displacement);
     const Side side = side_of_normal(hit.normal.x(), hit.normal.y());
     result.velocity[article::component_of(side)] = 0;
     if (side == Side::bottom) result.grounded = true;
     if (!article::add_contact(*parts_.scenery, hit, side, fraction, result)) continue;
-    const Vec2<Scalar> gap = result.position + offset - hit.point;
+    const Vec2d gap = result.position + offset - hit.point;
     result.contacts.back().separation = gap.dot(hit.normal);
   }
 }

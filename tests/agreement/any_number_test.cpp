@@ -24,13 +24,13 @@ using Colliders = std::set<ColliderIndex>;
 
 /// A character whose steps are judged one by one.
 struct Judged {
-  Scenery<double> scenery;
-  Controller<double> controller{scenery, {}};
-  Scratch<double> scratch = controller.make_scratch();
+  Scenery scenery;
+  Controller controller{scenery, {}};
+  Scratch scratch = controller.make_scratch();
   compare::Judge judge;
-  CharacterState<double> state;
-  StepReport<double> report;
-  std::vector<MoverMotion<double>> motions;  ///< Of the next step.
+  CharacterState state;
+  StepReport report;
+  std::vector<MoverMotion> motions;  ///< Of the next step.
   Vec2d gravity{0, 0};
   double dt;
   bool looks_for_room = true;  ///< The judge does, among all that crush: for minutes, where they are many.
@@ -44,7 +44,7 @@ struct Judged {
   }
   /// Every mover goes on by so far.
   StepJudgement step_by(const Vec2d& by) {
-    for (MoverMotion<double>& motion : motions) motion = {motion.to, motion.to + by};
+    for (MoverMotion& motion : motions) motion = {motion.to, motion.to + by};
     return step();
   }
   StepJudgement step() {
@@ -115,7 +115,7 @@ TEST_P(CrushInOneStep, all_are_named_and_none_is_passed) {
     if (run.looks_for_room) {
       EXPECT_EQ(judged.crushed.size(), static_cast<std::size_t>(papers));
     }
-    const StepReport<double> copy = run.report;
+    const StepReport copy = run.report;
     run.step_by({0, 0});
     EXPECT_EQ(copy.move.crushed.size(), static_cast<std::size_t>(papers)) << "a copy keeps its names itself";
     EXPECT_EQ(copy.move.crushed.back(), first_paper + static_cast<ColliderIndex>(papers) - 1);
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(AnyNumber, CrushInOneStep, testing::Values(1, 8, 9, 64,
 /// A niche, wide or narrow, and papers of any number, size and speed that come down into it.
 struct RandomPapers {
   std::vector<ColliderDef> colliders;
-  std::vector<MoverMotion<double>> motions;
+  std::vector<MoverMotion> motions;
 
   explicit RandomPapers(Random& random) {
     const double wide = half_width + random.log_between(1e-6, 0.2);
@@ -188,12 +188,12 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
 class MoreOnIt : public testing::TestWithParam<int> {};
 
 TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_back) {
-  const int papers = static_cast<int>(Crushers<double>::capacity()) + GetParam();
+  const int papers = static_cast<int>(Crushers::capacity()) + GetParam();
   Judged run(niche_with_papers(papers), {0, half_height + 1e-6}, 1);
   run.looks_for_room = papers < 20;
   run.step_by({0, -1.9});
   ASSERT_EQ(run.crushed().size(), static_cast<std::size_t>(papers));
-  EXPECT_EQ(run.state.crushers.size(), Crushers<double>::capacity());
+  EXPECT_EQ(run.state.crushers.size(), Crushers::capacity());
   const Vec2d stays = run.state.position;
   for (int step = 0; step < 20; ++step) {
     EXPECT_TRUE(holds(run.step_by({0, step < 10 ? -0.01 : 0.01}))) << step;
@@ -204,7 +204,7 @@ TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_bac
   // The remembered ones are off before the others: it still does not know where the others came from.
   for (std::size_t k = 0; k < run.motions.size(); ++k) {
     const Vec2d from = run.motions[k].to;
-    run.motions[k] = {from, k < Crushers<double>::capacity() ? from + Vec2d(0, 1.9) : from};
+    run.motions[k] = {from, k < Crushers::capacity() ? from + Vec2d(0, 1.9) : from};
   }
   run.step();
   EXPECT_EQ(run.report.status, StepStatus::stuck);
@@ -236,7 +236,7 @@ TEST(AnyNumber, with_more_on_it_than_is_remembered_it_gives_way_to_nothing_and_i
       run.motions[k] = {run.motions[k].to, run.motions[k].to + Vec2d(k < ram ? 0 : 0.3, 0)};
     const StepJudgement judged = run.step();
     EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.corner_cut.empty());
-    if (papers <= static_cast<int>(Crushers<double>::capacity())) continue;
+    if (papers <= static_cast<int>(Crushers::capacity())) continue;
     EXPECT_EQ(run.state.position, stays);
     EXPECT_EQ(run.crushed(), Colliders{static_cast<ColliderIndex>(papers) + 1});
   }
@@ -251,7 +251,7 @@ TEST(AnyNumber, of_tiles_under_the_feet_are_contacts) {
   run.looks_for_room = false;
   while (!run.state.grounded) run.step();
   Colliders touched;
-  for (const Contact<double>& contact : run.report.move.contacts) {
+  for (const Contact& contact : run.report.move.contacts) {
     EXPECT_EQ(contact.side, Side::bottom);
     touched.insert(contact.collider);
   }
@@ -265,7 +265,7 @@ TEST(AnyNumber, of_movers_that_push_one_after_the_other_push_it_all_the_way) {
   constexpr int pushers = 80;
   constexpr double at_once = 1.0 / (pushers + 10);  // of the step, between two impacts
   std::vector<ColliderDef> colliders;
-  std::vector<MoverMotion<double>> motions;
+  std::vector<MoverMotion> motions;
   double reached = -half_width;  // pushed so far when the k-th one comes
   for (int k = 0; k < pushers; ++k) {
     const double way = 1 + 0.04 * k;

@@ -27,9 +27,9 @@ namespace {
 
 using compare::RandomRun;
 using compare::Scene;
-using Context = StepContext<double>;
-using Report = StepReport<double>;
-using State = CharacterState<double>;
+using Context = StepContext;
+using Report = StepReport;
+using State = CharacterState;
 
 /// How one and the same thing is said in another way of a run: vectors are multiplied, colliders are numbered anew, and
 /// a character is said to be somewhere else, as its shape is written around another origin.
@@ -56,7 +56,7 @@ struct Saying {
   [[nodiscard]] State of(State state) const {
     for (Vec2d* p : {&state.position, &state.last_free, &state.ride.place}) *p = of_place(*p);
     for (Vec2d* v : {&state.velocity, &state.ride.velocity, &state.ground.normal, &state.ground.velocity}) *v = of(*v);
-    for (Crusher<double>& crusher : state.crushers) {
+    for (Crusher& crusher : state.crushers) {
       crusher.collider = of(crusher.collider);
       crusher.last_free = of_place(crusher.last_free);
       crusher.displacement = of(crusher.displacement);
@@ -86,8 +86,8 @@ struct Saying {
 
 /// What differs between a step and what the other way says; empty where nothing does. @param near are equal numbers.
 std::string difference(const Report& one, const Report& other, const Saying& saying, double near) {
-  const MoveResult<double>& a = one.move;
-  const MoveResult<double>& b = other.move;
+  const MoveResult& a = one.move;
+  const MoveResult& b = other.move;
   const auto same = [near](const Vec2d& p, const Vec2d& q) { return p == q || (p - q).cwiseAbs().maxCoeff() <= near; };
   const auto same_number = [near](double x, double y) { return x == y || std::abs(x - y) <= near; };
   if (one.status != other.status) return "status";
@@ -98,7 +98,7 @@ std::string difference(const Report& one, const Report& other, const Saying& say
         return same(saying.of_place(p.position), q.position) && same_number(p.fraction, q.fraction);
       }))
     return "path";
-  if (!std::ranges::equal(a.contacts, b.contacts, [&](const Contact<double>& p, const Contact<double>& q) {
+  if (!std::ranges::equal(a.contacts, b.contacts, [&](const Contact& p, const Contact& q) {
         return saying.of(p.collider) == q.collider && same(saying.of(p.normal), q.normal) &&
                saying.of(p.side) == q.side && same_number(p.fraction, q.fraction) &&
                same_number(p.separation, q.separation);
@@ -127,9 +127,9 @@ struct World {
   explicit World(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {})
       : scenery(def), controller(make_controller(scenery, character, technique)) {}
 
-  Scenery<double> scenery;
-  TechniqueController<double> controller;
-  Scratch<double> scratch = controller.make_scratch();
+  Scenery scenery;
+  TechniqueController controller;
+  Scratch scratch = controller.make_scratch();
 };
 
 Stepper controller_of(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {}) {
@@ -181,7 +181,7 @@ OtherWay mirrored(const RandomRun& run, Random& random, OtherWay other) {
 /// The order in which a level sees colliders. @return false where two have the same place in it.
 bool put_in_order(RandomRun& run) {
   const auto key = [](const ColliderDef& collider) {
-    const auto [lower, upper] = Box2<double>::around(collider.points);
+    const auto [lower, upper] = Box2::around(collider.points);
     return std::tuple(collider.mover + 1, lower.x(), lower.y(), upper.x(), upper.y(), collider.points.size());
   };
   std::vector<ColliderDef>& all = run.scene.scenery.colliders;
@@ -209,7 +209,7 @@ OtherWay edited_level(const RandomRun& run, Random& random, OtherWay other) {
   const auto poses = std::make_shared<std::vector<PoseMotion>>();
   other.step = [level, controller, poses](State& state, const Input& input, const Context& context, Report& report) {
     poses->clear();
-    for (const MoverMotion<double>& motion : context.movers) poses->push_back({{motion.from, 0}, {motion.to, 0}});
+    for (const MoverMotion& motion : context.movers) poses->push_back({{motion.from, 0}, {motion.to, 0}});
     controller->step(state, input, {context.gravity, context.dt, *poses, nullptr, context.up}, report);
   };
   return other;
@@ -256,7 +256,7 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
   const auto ghost = static_cast<MoverIndex>(run.scene.movers.size());
   add(compare::box(-2, -2, 2, 2, ghost), false);
   const Stepper whole = controller_of(def, run.scene.character);
-  const auto motions = std::make_shared<std::vector<MoverMotion<double>>>();
+  const auto motions = std::make_shared<std::vector<MoverMotion>>();
   other.step = [=, kept = is_there](State& state, const Input& input, const Context& context, Report& report) {
     motions->assign(context.movers.begin(), context.movers.end());
     motions->push_back({{0, 0}, {0.1, 0}});
@@ -293,7 +293,7 @@ OtherWay in_two_threads(const RandomRun& run, Random&, OtherWay) {
   return {.step = [world](State& state, const Input& input, const Context& context, Report& report) {
     State of_this = state;
     Report report_of_this;
-    Scratch<double> scratch = world->controller.make_scratch();
+    Scratch scratch = world->controller.make_scratch();
     {
       const std::jthread thread([&] { world->controller.step(state, input, context, world->scratch, report); });
       world->controller.step(of_this, input, context, scratch, report_of_this);
@@ -311,11 +311,11 @@ bool on_plain_ground(RandomRun& run) { return run.scene.character.step_height ==
 
 /// As one of several that are far apart.
 OtherWay one_of_many(const RandomRun& run, Random&, OtherWay other) {
-  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
-  const auto crowd = std::make_shared<const Crowd<double>>(*scenery, other.saying.of(run.scene.character));
+  const auto scenery = std::make_shared<const Scenery>(run.scene.scenery);
+  const auto crowd = std::make_shared<const Crowd>(*scenery, other.saying.of(run.scene.character));
   const auto scratch = std::make_shared<CrowdScratch>(crowd->make_scratch(1));
   other.step = [scenery, crowd, scratch](State& state, const Input& input, const Context& context, Report& report) {
-    CrowdReport<double> of_all(1);
+    CrowdReport of_all(1);
     crowd->step({&state, 1}, {&input, 1}, context, *scratch, of_all);
     report = of_all.members[0].step;
   };
@@ -398,11 +398,9 @@ class Twice {
       if (launch.step == step) state.velocity = saying.of(launch.velocity);
   }
 
-  static Context context_of(const compare::StepInput& input, const Saying& saying,
-                            std::vector<MoverMotion<double>>& motions) {
+  static Context context_of(const compare::StepInput& input, const Saying& saying, std::vector<MoverMotion>& motions) {
     motions.clear();
-    for (const MoverMotion<double>& motion : input.movers)
-      motions.push_back({saying.of(motion.from), saying.of(motion.to)});
+    for (const MoverMotion& motion : input.movers) motions.push_back({saying.of(motion.from), saying.of(motion.to)});
     return {saying.of(input.gravity), input.dt, motions, nullptr, saying.of(input.up)};
   }
 
@@ -412,8 +410,8 @@ class Twice {
   compare::InputCursor cursor_;
   Stepper one_;
   OtherWay other_;
-  std::vector<MoverMotion<double>> motions_;
-  std::vector<MoverMotion<double>> other_motions_;
+  std::vector<MoverMotion> motions_;
+  std::vector<MoverMotion> other_motions_;
 };
 
 class Equalities : public ::testing::TestWithParam<std::tuple<Equality, const char*>> {};

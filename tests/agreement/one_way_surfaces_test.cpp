@@ -44,8 +44,8 @@ TEST(OneWaySurfaces, controller_and_oracle_agree_on_a_lattice_of_ties) {
   for (std::uint64_t seed = 1; seed <= sampled(400U); ++seed) {
     Random random(seed);
     const SceneryDef def = random_chains(random);
-    const Scenery<double> scenery(def);
-    const OneWaySurfaces<double> surfaces(scenery, shape);
+    const Scenery scenery(def);
+    const OneWaySurfaces surfaces(scenery, shape);
     const ExactScenery oracle(def, {shape.hull().begin(), shape.hull().end()});
     const std::size_t pieces = scenery.pieces().size();
     for (int place = 0; place < 20; ++place) {

@@ -54,7 +54,7 @@ class Questions {
       add_mover(def.colliders, static_cast<MoverIndex>(mover), random, Vec2d::Zero());
     return def;
   }
-  [[nodiscard]] StepContext<double> context() const { return {.dt = 1, .movers = motions_}; }
+  [[nodiscard]] StepContext context() const { return {.dt = 1, .movers = motions_}; }
   [[nodiscard]] const std::vector<ColliderDef>& colliders() const { return oracle_.scenery().colliders; }
 
   void overlaps(const Place& from, const std::vector<ColliderIndex>& exact, Tally& tally) {
@@ -69,12 +69,12 @@ class Questions {
   void near(const Place& from, Tally& tally) {
     constexpr double rounding = 1e-9;
     const double within = random_.log_between(1e-3, 3);
-    std::array<Contact<double>, 64> contacts;
+    std::array<Contact, 64> contacts;
     const std::size_t count = controller_.contacts_at(from.position, within, context(), scratch_, contacts);
     const auto nearest = controller_.nearest(from.position, within, context(), scratch_);
     ASSERT_EQ(nearest.has_value(), count > 0);
     for (std::size_t i = 0; i < count; ++i) {
-      const Contact<double>& contact = contacts[i];
+      const Contact& contact = contacts[i];
       EXPECT_LE(contacts[i > 0 ? i - 1 : 0].separation, contact.separation);
       EXPECT_LE(contact.separation, within);
       // A collider of several pieces is as near as the nearest of them.
@@ -118,12 +118,12 @@ class Questions {
   }
 
   Random random_;
-  Scenery<double> scenery_;
-  Controller<double> controller_{scenery_, {}};
-  Scratch<double> scratch_ = controller_.make_scratch();
+  Scenery scenery_;
+  Controller controller_{scenery_, {}};
+  Scratch scratch_ = controller_.make_scratch();
   ExactScenery oracle_{scenery_.as_run(),
                        {controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()}};
-  std::vector<MoverMotion<double>> motions_{scenery_.mover_count()};
+  std::vector<MoverMotion> motions_{scenery_.mover_count()};
 };
 
 class Queries : public ::testing::TestWithParam<Terrain> {};

@@ -1,5 +1,5 @@
-// Runs every technique, and a crowd, in both scalars through random scenery and hashes every bit that a step produces.
-//   same_bits            prints one line per scene, technique and scalar: its hash after a fifth of the steps and after
+// Runs every technique, and a crowd, through random scenery and hashes every bit that a step produces.
+//   same_bits            prints one line per scene and technique: its hash after a fifth of the steps and after
 //                        all, and how many steps had a contact (in a crowd: with each other)
 //   same_bits GOLDEN     compares with such lines, and prints both where they differ; exit status 1 then
 //   same_bits GOLDEN fifth   makes and compares a fifth of the steps, for a build that takes a hundred times as long
@@ -39,14 +39,11 @@ class Hash {
   void add(Value value) {
     if constexpr (std::is_same_v<Value, double>) {
       add_bits(std::bit_cast<std::uint64_t>(value));
-    } else if constexpr (std::is_same_v<Value, float>) {
-      add_bits(std::bit_cast<std::uint32_t>(value));
     } else {
       add_bits(static_cast<std::uint64_t>(value));
     }
   }
-  template <class Scalar>
-  void add(const paperproof::Vec2<Scalar>& value) {
+  void add(const paperproof::Vec2d& value) {
     add(value.x());
     add(value.y());
   }
@@ -60,9 +57,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-template <class Scalar>
-void add_step(Hash& hash, const paperproof::CharacterState<Scalar>& state,
-              const paperproof::StepReport<Scalar>& report) {
+void add_step(Hash& hash, const paperproof::CharacterState& state, const paperproof::StepReport& report) {
   hash.add(state.position);
   hash.add(state.velocity);
   hash.add(state.last_free);
@@ -73,11 +68,11 @@ void add_step(Hash& hash, const paperproof::CharacterState<Scalar>& state,
   hash.add(state.stuck_steps);
   hash.add(report.status);
   hash.add(report.requested);
-  for (const paperproof::PathPoint<Scalar>& corner : report.move.path) {
+  for (const paperproof::PathPoint& corner : report.move.path) {
     hash.add(corner.position);
     hash.add(corner.fraction);
   }
-  for (const paperproof::Contact<Scalar>& contact : report.move.contacts) {
+  for (const paperproof::Contact& contact : report.move.contacts) {
     hash.add(contact.collider);
     hash.add(contact.point);
     hash.add(contact.normal);
@@ -90,7 +85,7 @@ void add_step(Hash& hash, const paperproof::CharacterState<Scalar>& state,
   hash.add(state.ride.place);
   hash.add(state.ride.velocity);
   for (const paperproof::ColliderIndex collider : report.move.crushed) hash.add(collider);
-  for (const paperproof::SensorEvent<Scalar>& event : report.sensors) {
+  for (const paperproof::SensorEvent& event : report.sensors) {
     hash.add(event.sensor);
     hash.add(event.change);
     hash.add(event.fraction);
@@ -105,11 +100,10 @@ struct RunResult {
 
 paperproof::CharacterDef character_def() { return {.snap = 0.25}; }
 
-template <class Scalar>
-paperproof::CharacterState<Scalar> shot(Random& random, const Scene& scene) {
-  paperproof::CharacterState<Scalar> state;
-  state.position = random.point(scene.origin, scene.origin + Vec2d(arena_width, arena_height)).cast<Scalar>();
-  state.velocity = random.point({-200, -200}, {200, 200}).cast<Scalar>();
+paperproof::CharacterState shot(Random& random, const Scene& scene) {
+  paperproof::CharacterState state;
+  state.position = random.point(scene.origin, scene.origin + Vec2d(arena_width, arena_height));
+  state.velocity = random.point({-200, -200}, {200, 200});
   return state;
 }
 
@@ -119,18 +113,18 @@ paperproof::Input any_input(Random& random) {
 
 /// @param first steps are hashed apart.
 /// @param make one step of all: it adds to the hash what came of it. @return whether there was a contact.
-template <class Scalar, class Make>
+template <class Make>
 RunResult make_steps(const Scene& scene, int steps, int first, const Make& make) {
-  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
+  std::vector<paperproof::MoverMotion> motions(scene.shuttles.size());
   Hash hash;
   RunResult result;
   for (int step = 0; step < steps; ++step) {
     if (step == first) result.first_hash = hash.value();
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      motions[i].from = scene.shuttles[i].offset_at(step * dt).cast<Scalar>();
-      motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt).cast<Scalar>();
+      motions[i].from = scene.shuttles[i].offset_at(step * dt);
+      motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt);
     }
-    const paperproof::StepContext<Scalar> context{{Scalar(0), Scalar(-30)}, Scalar(dt), motions};
+    const paperproof::StepContext context{{0.0, -30.0}, double(dt), motions};
     if (make(step, context, hash)) ++result.steps_with_contact;
   }
   result.hash = hash.value();
@@ -138,17 +132,16 @@ RunResult make_steps(const Scene& scene, int steps, int first, const Make& make)
 }
 
 /// Walks and jumps at random; now and then the character is put somewhere else and shot in some direction.
-template <class Scalar>
 RunResult run(const Scene& scene, std::string_view kind, int steps) {
-  const paperproof::Scenery<Scalar> scenery(scene.scenery);
+  const paperproof::Scenery scenery(scene.scenery);
   const auto controller = paperproof::make_controller(scenery, character_def(), {.name = kind});
-  paperproof::Scratch<Scalar> scratch = controller.make_scratch();
-  paperproof::StepReport<Scalar> report;
-  paperproof::CharacterState<Scalar> state;
+  paperproof::Scratch scratch = controller.make_scratch();
+  paperproof::StepReport report;
+  paperproof::CharacterState state;
   paperproof::Input input;
   Random random(5);
-  return make_steps<Scalar>(scene, steps, first_steps, [&](int step, const auto& context, Hash& hash) {
-    if (step % steps_between_shots == 0) state = shot<Scalar>(random, scene);
+  return make_steps(scene, steps, first_steps, [&](int step, const auto& context, Hash& hash) {
+    if (step % steps_between_shots == 0) state = shot(random, scene);
     if (step % 20 == 0) input = any_input(random);
     controller.step(state, input, context, scratch, report);
     add_step(hash, state, report);
@@ -157,31 +150,30 @@ RunResult run(const Scene& scene, std::string_view kind, int steps) {
 }
 
 /// Several at once: the steps are shared between them.
-template <class Scalar>
 RunResult run_crowd(const Scene& scene, int steps) {
   constexpr int members = 8;
-  const paperproof::Scenery<Scalar> scenery(scene.scenery);
-  const paperproof::Crowd<Scalar> crowd(scenery, character_def());
+  const paperproof::Scenery scenery(scene.scenery);
+  const paperproof::Crowd crowd(scenery, character_def());
   paperproof::CrowdScratch scratch = crowd.make_scratch(members);
-  paperproof::CrowdReport<Scalar> report(members);
-  std::vector<paperproof::CharacterState<Scalar>> states(members);
+  paperproof::CrowdReport report(members);
+  std::vector<paperproof::CharacterState> states(members);
   std::vector<paperproof::Input> inputs(members);
   Random random(8);
   const auto make = [&](int step, const auto& context, Hash& hash) {
     for (std::size_t i = 0; i < states.size(); ++i) {
-      if (step % steps_between_shots == 0) states[i] = shot<Scalar>(random, scene);
+      if (step % steps_between_shots == 0) states[i] = shot(random, scene);
       if (step % 20 == 0) inputs[i] = any_input(random);
     }
     crowd.step(states, inputs, context, scratch, report);
     hash.add(report.impacts);
-    for (const paperproof::CharacterState<Scalar>& state : states) {
+    for (const paperproof::CharacterState& state : states) {
       hash.add(state.position);
       hash.add(state.velocity);
       hash.add(state.grounded);
     }
     return report.impacts > 0;
   };
-  return make_steps<Scalar>(scene, steps / members, first_steps / members, make);
+  return make_steps(scene, steps / members, first_steps / members, make);
 }
 
 using Lines = std::map<std::string, std::string>;
@@ -203,20 +195,17 @@ std::string line_of(const Run& run, int steps) {
   }
 }
 
-template <class Scalar>
-void add_lines(const Scene& scene, const std::string& scalar, int steps, Lines& lines) {
+void add_lines(const Scene& scene, int steps, Lines& lines) {
   for (const std::string_view kind : paperproof::technique_names())
-    lines[scene.name + ' ' + std::string(kind) + ' ' + scalar] =
-        line_of([&](int count) { return run<Scalar>(scene, kind, count); }, steps);
-  lines[scene.name + " crowd " + scalar] = line_of([&](int count) { return run_crowd<Scalar>(scene, count); }, steps);
+    lines[scene.name + ' ' + std::string(kind) + " double"] =
+        line_of([&](int count) { return run(scene, kind, count); }, steps);
+  lines[scene.name + " crowd double"] = line_of([&](int count) { return run_crowd(scene, count); }, steps);
 }
 
 Lines run_all(int steps) {
   Lines lines;
   for (const Scene& scene : make_scenes()) {
-    add_lines<double>(scene, "double", steps, lines);
-    // At 1e5 m a float knows a position to 8 mm only: paper is nothing there, and refused.
-    if (scene.name != "far_away") add_lines<float>(scene, "float", steps, lines);
+    add_lines(scene, steps, lines);
   }
   return lines;
 }

@@ -59,8 +59,8 @@ struct Solids {
   }
 
   Vec2d start;
-  Scenery<double> scenery;
-  Controller<double> controller;
+  Scenery scenery;
+  Controller controller;
   compare::ExactScenery oracle{
       scenery.as_run(), {controller.character().shape.hull().begin(), controller.character().shape.hull().end()}};
 };
@@ -76,14 +76,14 @@ TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_ther
     const Solids solids(GetParam()->draw(seed));
     const Colliders inside = solids.oracle.overlapped(solids.start);
     Random random(seed);
-    CharacterState<double> state;
+    CharacterState state;
     state.position = solids.start;
     state.last_free = solids.start + random.point(9);
     state.has_last_free = true;
     const Vec2d last_free = state.last_free;
     if (inside.empty() || !solids.oracle.overlapped(last_free).empty()) continue;
-    Scratch<double> scratch = solids.controller.make_scratch();
-    StepReport<double> report;
+    Scratch scratch = solids.controller.make_scratch();
+    StepReport report;
     solids.controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report);
     ++starts;
     const auto& path = report.move.path;

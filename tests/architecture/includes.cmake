@@ -50,6 +50,7 @@ endfunction()
 
 check_part(controller/include "${may_include_controller}" controller/src)
 check_part(controller/src "${may_include_controller}" controller/src)
+check_part(controller/in_float "${may_include_controller}|<paperproof/in_float[.]hpp>" controller/src)
 check_part(controller/techniques "${may_include_techniques}" controller)
 check_part(box2d_adapter/include "${may_include_box2d_adapter}" box2d_adapter/src)
 check_part(box2d_adapter/src "${may_include_box2d_adapter}" box2d_adapter/src)

@@ -49,7 +49,7 @@ enum class Kind : std::uint8_t { solid, sensor };
 /// The fixtures of a kind that the hero overlaps where everything is now.
 std::set<const b2Fixture*> overlapped(b2World& world, const Hero& hero, Kind kind) {
   SceneryDef now;
-  std::vector<MoverMotion<double>> standing;
+  std::vector<MoverMotion> standing;
   std::vector<const b2Fixture*> all;
   const b2Filter& own = hero.body().GetFixtureList()->GetFilterData();
   for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
@@ -67,9 +67,9 @@ std::set<const b2Fixture*> overlapped(b2World& world, const Hero& hero, Kind kin
     }
     if (all.size() > before) standing.push_back({at, at});
   }
-  const Scenery<double> scenery(now);
-  const Controller<double> controller(scenery, hero.save().character);
-  Scratch<double> scratch = controller.make_scratch();
+  const Scenery scenery(now);
+  const Controller controller(scenery, hero.save().character);
+  Scratch scratch = controller.make_scratch();
   std::vector<ColliderIndex> found(all.size());
   found.resize(controller.overlaps(hero.position(), {{0, 0}, frame, standing}, scratch, found).value());
   std::set<const b2Fixture*> result;
@@ -153,10 +153,10 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
     Random random(seed);
     b2World world({0, -10});
     const SceneryDef floor{{compare::box(-40, -12, 40, -10)}};
-    test::build_level(world, Scenery<double>(GetParam() ? compare::play_level(*GetParam(), random) : floor));
-    const Scenery<double> scenery(scenery_of(world).scenery);
-    const Controller<double> standing(scenery, {});
-    Scratch<double> scratch = standing.make_scratch();
+    test::build_level(world, Scenery(GetParam() ? compare::play_level(*GetParam(), random) : floor));
+    const Scenery scenery(scenery_of(world).scenery);
+    const Controller standing(scenery, {});
+    Scratch scratch = standing.make_scratch();
     for (int i = 0; i < (is_changing ? 40 : 30); ++i) {
       b2Body& body = add_body(world, random);
       if (!is_changing) continue;
@@ -175,7 +175,7 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
       const HeroSave before = hero.save();
       const StepStatus status = hero.step(input, frame);
       if (i % 3 == 0) {
-        const CharacterState<double> first = hero.state();
+        const CharacterState first = hero.state();
         hero.restore(before);
         ASSERT_EQ(hero.step(input, frame), status);
         ASSERT_EQ(hero.position(), first.position);
@@ -184,7 +184,7 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
       }
       ASSERT_NE(status, StepStatus::invalid_input);
       ASSERT_NE(status, StepStatus::refused);
-      const MoveResult<double>& move = hero.report().move;
+      const MoveResult& move = hero.report().move;
       ASSERT_EQ(move.position, hero.position());
       ASSERT_EQ(move.velocity, hero.velocity());
       ASSERT_EQ(move.path.back().position, hero.position());
@@ -200,9 +200,9 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
       touching += !hero.contacts().empty();
       for (const HeroContact& contact : hero.contacts())
         hit += contact.change == HeroContact::Change::added && contact.fixture->GetBody()->GetType() != b2_staticBody;
-      carried += hero.state().ride.ground != Ride<double>::none;
+      carried += hero.state().ride.ground != Ride::none;
       for (const HeroSensorEvent& event : hero.sensors()) {
-        const bool enters = event.change == SensorEvent<double>::Change::enter;
+        const bool enters = event.change == SensorEvent::Change::enter;
         ASSERT_TRUE(enters ? inside.insert(event.sensor).second : inside.erase(event.sensor) == 1);
       }
       std::erase_if(inside, [&](const b2Fixture* one) { return !exists(world, one); });  // these send no event

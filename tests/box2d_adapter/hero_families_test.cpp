@@ -59,7 +59,7 @@ class Fixtures {
   }
 
   /// The movers go on, and the world.
-  std::span<const MoverMotion<double>> step(const compare::StepInput& input) {
+  std::span<const MoverMotion> step(const compare::StepInput& input) {
     motions_.resize(input.movers.size());
     for (std::size_t i = 0; i < motions_.size(); ++i) {
       motions_[i].from = widened(bodies_[i + 1]->GetPosition());
@@ -89,7 +89,7 @@ class Fixtures {
   }
 
   std::vector<b2Body*> bodies_;
-  std::vector<MoverMotion<double>> motions_;
+  std::vector<MoverMotion> motions_;
 };
 
 Surface surface_of(b2Fixture& fixture) {
@@ -127,9 +127,9 @@ class Twice {
   }
 
   void go(Tally& tally) {
-    const Scenery<double> scenery(fixtures_.scenery);
-    const Controller<double> controller(scenery, run_.scene.character);
-    Scratch<double> scratch = controller.make_scratch();
+    const Scenery scenery(fixtures_.scenery);
+    const Controller controller(scenery, run_.scene.character);
+    Scratch scratch = controller.make_scratch();
     const compare::Script script = script_of(run_.scene);
     compare::InputCursor cursor(run_.scene, script);
     for (int step = 0; step < run_.scene.steps; ++step) {
@@ -143,7 +143,7 @@ class Twice {
         if ((launch.velocity - state_.ride.velocity).dot(up) > 0) knock_back(state_, {0, 0});
         state_.velocity = launch.velocity;
       }
-      const std::span<const MoverMotion<double>> motions = fixtures_.step(input);
+      const std::span<const MoverMotion> motions = fixtures_.step(input);
       hero_.step(input.players[0], input.dt);
       controller.step(state_, input.players[0], {gravity, input.dt, motions, nullptr, up}, scratch, report_);
       ++tally.steps;
@@ -184,8 +184,8 @@ class Twice {
   RandomRun run_;
   Fixtures fixtures_;
   Hero hero_;
-  CharacterState<double> state_;
-  StepReport<double> report_;
+  CharacterState state_;
+  StepReport report_;
 };
 
 class HeroInRuns : public ::testing::TestWithParam<const char*> {};

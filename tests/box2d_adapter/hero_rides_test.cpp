@@ -68,7 +68,7 @@ class Ride {
 
   [[nodiscard]] bool is_carried() const {
     return game_.hero.grounded() && game_.hero.ground() == body_->GetFixtureList() &&
-           game_.hero.state().ride.ground != paperproof::Ride<double>::none;
+           game_.hero.state().ride.ground != paperproof::Ride::none;
   }
   /// Along the surface, from the middle [m]. It is the same again after each period.
   [[nodiscard]] double place() const {

@@ -12,7 +12,7 @@ namespace paperproof::box2d::hero_test {
 namespace {
 
 using compare::degree;
-using Change = SensorEvent<double>::Change;
+using Change = SensorEvent::Change;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -541,7 +541,7 @@ TEST(Hero, is_carried_by_a_chain_that_is_a_conveyor_and_rides_on_after_it_was_re
 
 TEST(Hero, refuses_what_it_cannot_do) {
   OnFloor game;
-  const CharacterState<double> before = game.hero.state();
+  const CharacterState before = game.hero.state();
   for (const double bad : {0.0, nan}) EXPECT_EQ(game.hero.step({}, bad), StepStatus::invalid_input);
   EXPECT_EQ(game.hero.step({.move = infinity}, frame), StepStatus::invalid_input);
   EXPECT_EQ(game.hero.state(), before);

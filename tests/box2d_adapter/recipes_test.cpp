@@ -152,7 +152,7 @@ TEST(Recipe, rolls_back) {
   game.run(40, {.move = 1.0});
   const Saved saved = save(game.hero, *lift);
   game.run(40, {.move = -1.0, .jump = true});
-  const CharacterState<double> first = game.hero.state();
+  const CharacterState first = game.hero.state();
   restore(game.hero, *lift, saved);
   game.run(40, {.move = -1.0, .jump = true});
   EXPECT_EQ(game.hero.state(), first);

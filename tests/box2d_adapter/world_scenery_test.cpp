@@ -69,7 +69,7 @@ TEST(WorldScenery, shapes_arrive_in_world_coordinates_and_a_loop_closed) {
   loop.CreateLoop(std::vector<b2Vec2>{{0, 0}, {4, 0}, {4, 3}, {0, 3}}.data(), 4);
   game.add(b2_staticBody, {0, 0}, loop);
   const std::vector<ColliderDef> read = scenery_of(game.world).scenery.colliders;
-  const Box2<double> turned = Box2<double>::around(read[0].points);
+  const Box2 turned = Box2::around(read[0].points);
   EXPECT_LT((turned.lower - Vec2d(3 - 1, 4 - 2)).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((turned.upper - Vec2d(3 + 1, 4 + 2)).cwiseAbs().maxCoeff(), 1e-6);
   ASSERT_EQ(read[1].shape, ColliderDef::Shape::chain);
@@ -79,7 +79,7 @@ TEST(WorldScenery, shapes_arrive_in_world_coordinates_and_a_loop_closed) {
   EXPECT_EQ(read[2].radius, static_cast<double>(0.1F));
   ASSERT_EQ(read[3].points.size(), 5U);
   EXPECT_EQ(read[3].points.front(), read[3].points.back());
-  EXPECT_EQ(Scenery<double>({{read[3]}}).pieces().size(), 4U);
+  EXPECT_EQ(Scenery({{read[3]}}).pieces().size(), 4U);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class AgreementTest : public testing::Test {
   std::optional<Agreement> agreement_;
 };
 
-const Contact<double> floor = contact(0, Side::bottom);
+const Contact floor = contact(0, Side::bottom);
 const ExactContact truth = exact(0, Side::bottom);
 
 /// Ours and Box2D's, in which nothing happens.

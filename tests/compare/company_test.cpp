@@ -7,7 +7,7 @@
 namespace paperproof::compare::test {
 namespace {
 
-using Way = std::vector<PathPoint<double>>;
+using Way = std::vector<PathPoint>;
 
 constexpr double width = 2 * half_width;
 const ExactPair& pair() {

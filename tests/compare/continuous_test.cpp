@@ -32,11 +32,11 @@ Scene refined(Scene scene, int halvings) {
 
 /// The largest distance between octagon_sweep's positions at the ends of steps and the course [m].
 double error_of(const Scene& scene, const Course<Number<50>>& course) {
-  const Scenery<double> scenery(scene.scenery);
-  const Controller<double> controller(scenery, scene.character);
-  Scratch<double> scratch = controller.make_scratch();
-  StepReport<double> report;
-  CharacterState<double> state;
+  const Scenery scenery(scene.scenery);
+  const Controller controller(scenery, scene.character);
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
+  CharacterState state;
   state.position = scene.start.position;
   state.velocity = scene.start.velocity;
   double largest = 0;

@@ -54,7 +54,7 @@ TEST(Cost, contenders_take_turns_and_are_put_back_where_the_judged_run_was) {
 TEST(Cost, box2d_alone_goes_the_way_of_the_run) {
   for (const char* name : {"lift_up", "one_way_from_above", "flush_tiles"}) {
     const Scene scene = built_in(name);
-    const Scenery<double> scenery(scene.scenery);
+    const Scenery scenery(scene.scenery);
     const auto twin = make_contender("box2d", ScalarKind::binary64, scene, scenery);
     const Script script = script_of(scene);
     InputCursor cursor(scene, script);

@@ -11,7 +11,7 @@
 namespace paperproof::compare::test {
 
 using Colliders = std::vector<ColliderIndex>;
-using Motions = std::vector<MoverMotion<double>>;
+using Motions = std::vector<MoverMotion>;
 
 inline double one_ulp_up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 inline double one_ulp_down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }

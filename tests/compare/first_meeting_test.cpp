@@ -16,7 +16,7 @@ namespace {
 using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
 using Kind = Meeting::Kind;
-using Path = std::vector<PathPoint<double>>;
+using Path = std::vector<PathPoint>;
 
 constexpr double closely = 1e-12;
 
@@ -201,7 +201,7 @@ Question with_a_disc(Random& random) {
   if (on_grid) asked.radius = 0.3125;
   asked.way = going({}, {0, random.between(0.1, 0.9), 1});
   for (int k = 0; k < 3; ++k) asked.way.vertices.push_back({on_grid ? random.grid_point(8) : random.point(1)});
-  for (PathPoint<double>& corner : asked.path)
+  for (PathPoint& corner : asked.path)
     if (on_grid) corner.position = random.grid_point(8);
   return asked;
 }

@@ -164,7 +164,7 @@ TEST(BesideTurning, a_fall_in_parts_is_that_of_all_parts) {
 
 /// Presses the button in the air, and ends a step in four parts as told, on its second corner `way_up` above the first.
 /// @return whether the press is still there to jump from ground in the next step.
-bool is_press_left(const Contact<double>& contact, double rise, bool grounded, bool jumping, double way_up = -0.1) {
+bool is_press_left(const Contact& contact, double rise, bool grounded, bool jumping, double way_up = -0.1) {
   TraceHeader header = promising({});
   header.gravity = {0, -10};
   header.starts = {{.position = {0, 0}, .velocity = {0, -9}}};
@@ -187,8 +187,8 @@ bool is_press_left(const Contact<double>& contact, double rise, bool grounded, b
 }
 
 TEST(PressOfTheButton, is_used_up_by_who_lands_in_a_part_before_the_last_one) {
-  const Contact<double> ground = contact(0, {0, 1}, 0.3);
-  Contact<double> steep = contact(0, {0.8, 0.6}, 0.3);
+  const Contact ground = contact(0, {0, 1}, 0.3);
+  Contact steep = contact(0, {0.8, 0.6}, 0.3);
   steep.side = Side::bottom;
   EXPECT_FALSE(is_press_left(ground, 10, false, true)) << "it rises";
   EXPECT_FALSE(is_press_left(ground, 0, true, false, 0.05)) << "a ceiling ended the jump, and it landed again";

@@ -29,7 +29,7 @@ TraceHeader promising_crush(const std::vector<ColliderDef>& colliders) {
 /// A step in which the mover goes from one offset to another, and those are said to crush.
 struct Go {
   std::vector<Vec2d> path;
-  MoverMotion<double> mover;
+  MoverMotion mover;
   Colliders crushed;
   const char* told = "";
 };
@@ -122,7 +122,7 @@ TEST(JudgeCrush, with_room_is_one_breach_of_who_promises_it) {
   const std::vector<ColliderDef> beside_wall{deep_ground, press(), box(0.25, 0, 1, 1)};
   const Vec2d left(-0.5, on_ground.y());
   const Vec2d sunk = on_ground - Vec2d(0, 0.125);
-  const MoverMotion<double> down{here, {0, -0.5}};
+  const MoverMotion down{here, {0, -0.5}};
   // It stays as the press goes up again, and comes out below: the press came over it and left.
   const Go up{{left, left}, {{0, -0.5}, here}, {}};
   const Go into_wall{{left, on_ground}, {}, {2}, "inside 2, entered 2, crushed with room 2"};
@@ -160,7 +160,7 @@ TEST(JudgeCrush, excuses_until_it_is_free_and_no_passing_by_its_own_motion) {
   const std::vector<Vec2d> stands{on_ground, on_ground};
   const TraceHeader below_ceiling = promising({box(-4, 0.625 + gap, 4, 2), slab()});
   const Go rises{{here, here}, {here, {0, 0.2}}, {1}, excused};
-  const MoverMotion<double> rests{{0, 0.2}, {0, 0.2}};
+  const MoverMotion rests{{0, 0.2}, {0, 0.2}};
   const std::vector<Go> comes_out{
       rises, {{here, {0, -0.3}}, rests, {}, "inside 1, pressed 1"}, {{{0, -0.3}, {0, -1.4}}, rests, {}, "tunnelled 1"}};
   expect({

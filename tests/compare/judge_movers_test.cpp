@@ -78,8 +78,8 @@ TEST(JudgeMovers, what_a_mover_pushes_into_is_neither_right_nor_wrong) {
   }
 }
 
-constexpr auto enter = SensorEvent<double>::Change::enter;
-constexpr auto leave = SensorEvent<double>::Change::exit;
+constexpr auto enter = SensorEvent::Change::enter;
+constexpr auto leave = SensorEvent::Change::exit;
 
 TEST(JudgeSensors, a_thin_sensor_is_entered_and_left_at_exact_fractions) {
   // Falling by 4 past a line at height 0: the feet reach it after 1 - 0.625, the head after 1 + 0.625. Where the sensor
@@ -112,8 +112,8 @@ TEST(JudgeSensors, a_corner_of_the_way_is_an_event_only_where_it_is_outside) {
   for (const ExactSensorEvent& one : touched) EXPECT_EQ(one.fraction, Exact(1, 2));
 }
 
-Contact<double> touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point = {0, 0}, double fraction = 0) {
-  Contact<double> made = contact(collider, normal, fraction);
+Contact touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point = {0, 0}, double fraction = 0) {
+  Contact made = contact(collider, normal, fraction);
   made.point = point;
   made.separation = gap;
   return made;

@@ -36,7 +36,7 @@ inline TraceHeader promising(const std::vector<ColliderDef>& colliders) {
 
 /// @param requested as far as the path leads, if it is not said.
 inline TraceStep step(const std::vector<Vec2d>& path, const std::optional<Vec2d>& requested = {},
-                      std::vector<Contact<double>> contacts = {}) {
+                      std::vector<Contact> contacts = {}) {
   TraceStep step;
   for (std::size_t i = 0; i < path.size(); ++i)
     step.path.push_back(
@@ -53,7 +53,7 @@ inline TraceStep among(TraceStep step, Motions movers) {
 }
 
 /// On the side that its normal says.
-inline Contact<double> contact(ColliderIndex collider, const Vec2d& normal, double fraction = 0) {
+inline Contact contact(ColliderIndex collider, const Vec2d& normal, double fraction = 0) {
   const Side upright = normal.y() > 0 ? Side::bottom : Side::top;
   const Side side = std::abs(normal.x()) <= std::abs(normal.y()) ? upright : normal.x() > 0 ? Side::left : Side::right;
   return {.collider = collider, .normal = normal, .fraction = fraction, .side = side};

@@ -143,7 +143,7 @@ TEST(Judge, stuck_is_refuted_where_a_straight_way_out_is_free) {
                                            box(-2, -4, 4, -0.75), box(-2, 0.75, 4, 4)};
   const Vec2d here(0, 0);
   const Vec2d away(0, 4);
-  using Row = std::tuple<const char*, std::vector<ColliderDef>, bool, MoverMotion<double>, bool>;
+  using Row = std::tuple<const char*, std::vector<ColliderDef>, bool, MoverMotion, bool>;
   for (const auto& [what, colliders, inside, motion, refuted] :
        {Row{"in the open", {block}, true, {}, true}, Row{"closed in", closed, true, {}, false},
         Row{"it is inside of nothing", {box(4, 4, 5, 5)}, false, {}, true},

@@ -23,9 +23,7 @@ TraceStep from(double height, const std::vector<Vec2d>& path = stays, double up 
       {.collider = 0, .instants = {0, 1}, .vertices = {{{0, 0}, {1, height}}, {{0, 0}, {1, height + up}}}}};
   return made;
 }
-Contact<double> touch(double fraction) {
-  return {.collider = 0, .point = {1, 0.8}, .normal = {0, 1}, .fraction = fraction};
-}
+Contact touch(double fraction) { return {.collider = 0, .point = {1, 0.8}, .normal = {0, 1}, .fraction = fraction}; }
 
 TEST(TurningArm, is_inside_of_or_passes_the_octagon_as_exactly_as_what_stands) {
   const std::vector<std::pair<TraceStep, const char*>> story{

@@ -32,7 +32,7 @@ StepJudgement judged(TraceHeader header, TraceStep step, Wanted wanted, double t
     for (Vec2d& point : header.points) turn(point);
     for (ColliderDef& collider : header.scenery.colliders)
       for (Vec2d& point : collider.points) turn(point);
-    for (PathPoint<double>& corner : step.path) turn(corner.position);
+    for (PathPoint& corner : step.path) turn(corner.position);
     for (Vec2d* v : {&step.velocity, &wanted.displacement, &wanted.velocity}) turn(*v);
   }
   step.requested = wanted.displacement;

@@ -19,17 +19,17 @@ TraceHeader header(bool box2d) {
 }
 
 /// A step by `way` of which `made` is made.
-TraceStep step(const Vec2d& from, const Vec2d& way, const Vec2d& made, std::vector<Contact<double>> contacts = {}) {
+TraceStep step(const Vec2d& from, const Vec2d& way, const Vec2d& made, std::vector<Contact> contacts = {}) {
   TraceStep one = test::step({from, from + made}, way, std::move(contacts));
   one.velocity = made / dt;
   return one;
 }
 
-Contact<double> touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point, double fraction = 0) {
+Contact touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point, double fraction = 0) {
   const Side side = side_of_normal(normal.x(), normal.y());
   return {.collider = collider, .point = point, .normal = normal, .fraction = fraction, .side = side};
 }
-Contact<double> floor_below(double x, double fraction = 0) { return touch(x < 0 ? 0 : 1, {0, 1}, {x, 0}, fraction); }
+Contact floor_below(double x, double fraction = 0) { return touch(x < 0 ? 0 : 1, {0, 1}, {x, 0}, fraction); }
 
 /// Steps of the two sides, both judged by exact arithmetic, and the ledger of what they disagree about.
 class Ledgers {
@@ -74,19 +74,19 @@ const Vec2d right(0.1, 0);
 const Vec2d sky(-2, 2);
 const Vec2d beside_wall(2, 4);
 
-const Contact<double> ground = floor_below(-2);
-const Contact<double> landing = floor_below(-2, 1);
+const Contact ground = floor_below(-2);
+const Contact landing = floor_below(-2, 1);
 
 /// So far above the first tile.
 Vec2d above(double height) { return {-2, half_height + height}; }
-TraceStep falls(double height, std::vector<Contact<double>> contacts = {}) {
+TraceStep falls(double height, std::vector<Contact> contacts = {}) {
   return step(above(height), down, down, std::move(contacts));
 }
-TraceStep held(double height, std::vector<Contact<double>> contacts = {}) {
+TraceStep held(double height, std::vector<Contact> contacts = {}) {
   return step(above(height), down, still, std::move(contacts));
 }
 /// 5 mm down to the floor, of which 0.5 µm are left.
-TraceStep lands(double height, std::vector<Contact<double>> contacts = {}) {
+TraceStep lands(double height, std::vector<Contact> contacts = {}) {
   return step(above(height), {0, -0.005}, {0, -0.0049995}, std::move(contacts));
 }
 TraceStep capped(double height) {
@@ -98,7 +98,7 @@ TraceStep met(TraceStep one, const Vec2d& normal, double fraction, Side side) {
   one.met.push_back({.other = 1, .normal = normal, .fraction = fraction, .side = side});
   return one;
 }
-Contact<double> at_wall(double fraction) { return touch(2, {-1, 0}, {3, 4}, fraction); }
+Contact at_wall(double fraction) { return touch(2, {-1, 0}, {3, 4}, fraction); }
 TraceStep stopped(TraceStep one) {
   one.velocity.setZero();
   return one;

@@ -21,7 +21,7 @@ Row row_of(const std::vector<Moment>& run, const TraceHeader& head = header()) {
   return row;
 }
 
-std::vector<Moment> moments(int steps, const std::vector<Contact<double>>& contacts = {}) {
+std::vector<Moment> moments(int steps, const std::vector<Contact>& contacts = {}) {
   std::vector<Moment> run;
   for (int i = 0; i < steps; ++i) run.push_back(moment(i, contacts));
   return run;
@@ -37,7 +37,7 @@ std::vector<Moment> resting(int steps, const std::function<Vec2d(int)>& place) {
   return run;
 }
 
-const Contact<double> bottom = contact(0, Side::bottom);
+const Contact bottom = contact(0, Side::bottom);
 const ExactContact floor_below = exact(0, Side::bottom);
 
 const TraceHeader promising = header("octagon_sweep");

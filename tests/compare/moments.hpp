@@ -20,7 +20,7 @@ inline TraceHeader header(const char* contender = "mine", std::size_t characters
   return header;
 }
 
-inline Contact<double> contact(ColliderIndex collider, Side side, double fraction = 0) {
+inline Contact contact(ColliderIndex collider, Side side, double fraction = 0) {
   return {.collider = collider, .fraction = fraction, .side = side};
 }
 inline ExactContact exact(ColliderIndex collider, Side side) { return {.collider = collider, .side = side}; }
@@ -31,7 +31,7 @@ struct Moment {
   StepJudgement judged;
 };
 
-inline Moment moment(int number, std::vector<Contact<double>> contacts = {}, std::vector<ExactContact> truth = {}) {
+inline Moment moment(int number, std::vector<Contact> contacts = {}, std::vector<ExactContact> truth = {}) {
   Moment moment;
   moment.step.step = number;
   moment.step.path = {{Vec2d(0, 0), 0}, {Vec2d(0, 0), 1}};

@@ -116,8 +116,7 @@ Meeting meeting_of(const Vec2d& from, const Vec2d& to, const Vec2d& before, cons
                    Asked asked) {
   const VertexWay way{.collider = 0, .instants = {0, 1}, .vertices = {{before}, {after}}};
   const std::size_t only = 0;
-  return first_meeting(octagon(), std::array<PathPoint<double>, 2>{{{from, 0}, {to, 1}}}, way, {&only, 1}, asked,
-                       radius);
+  return first_meeting(octagon(), std::array<PathPoint, 2>{{{from, 0}, {to, 1}}}, way, {&only, 1}, asked, radius);
 }
 
 TEST(ExactDisc, agrees_with_the_distance_from_the_hull_of_all_corners) {

@@ -8,7 +8,7 @@ namespace {
 /// p - m(t), all in rationals.
 ExactPoint relative(const Place& place, MoverIndex mover) {
   if (mover == no_mover) return exact(place.position);
-  const MoverMotion<double>& motion = place.movers[mover];
+  const MoverMotion& motion = place.movers[mover];
   const ExactPoint from = exact(motion.from);
   return exact(place.position) - (from + Exact(place.fraction) * (exact(motion.to) - from));
 }
@@ -105,7 +105,7 @@ TEST(ExactMovers, a_one_way_lift_blocks_the_relative_motion_against_its_normal) 
 
 TEST(ExactMovers, a_lift_beside_the_floor_is_a_seam_exactly_where_the_two_are_flush) {
   const ExactScenery there = world({box(0, -1, 1, 0), box(-2, -1.75, -1, -0.75, 0)});
-  using Row = std::tuple<MoverMotion<double>, bool, const char*>;
+  using Row = std::tuple<MoverMotion, bool, const char*>;
   for (const auto& [motion, exposed, what] :
        {Row{{{3, 0.75}, {3, 0.75}}, false, "waiting"},
         Row{{{2.97, 0.75}, {3, 0.75}}, false, "sliding out of the floor, its top in line"},

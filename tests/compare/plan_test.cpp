@@ -17,7 +17,7 @@ constexpr int most_steps = 400;
 
 /// A contender, or none where it cannot express the scene.
 std::unique_ptr<Contender> contender_or_none(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                             const Scenery<double>& scenery, const Planning& planning) {
+                                             const Scenery& scenery, const Planning& planning) {
   try {
     return make_contender(name, scalar, scene, scenery, planning);
   } catch (const NotApplicable&) {
@@ -26,7 +26,7 @@ std::unique_ptr<Contender> contender_or_none(std::string_view name, ScalarKind s
 }
 
 /// Runs one contender planned and full, and compares every bit of every step. @returns whether it could run.
-bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
+bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& scene, const Scenery& scenery,
                       const Script& script, int steps) {
   const auto planned = contender_or_none(name, scalar, scene, scenery, {});
   const auto full = contender_or_none(name, scalar, scene, scenery, {.full = true});
@@ -52,7 +52,7 @@ bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& sce
 
 std::set<std::string_view> left_out(const SceneryDef& def) {
   std::set<std::string_view> stages;
-  for (const Omission& omission : plan_of(Scenery<double>(def), {}).omitted) {
+  for (const Omission& omission : plan_of(Scenery(def), {}).omitted) {
     EXPECT_GT(omission.reason.size(), 20U) << omission.stage;
     stages.insert(omission.stage);
   }
@@ -84,13 +84,13 @@ TEST(LevelPlan, leaves_out_all_but_what_something_in_the_level_needs) {
     others.erase(stage);
     EXPECT_EQ(left_out({{ground, collider}}), others) << stage;
   }
-  EXPECT_TRUE(plan_of(Scenery<double>(SceneryDef{{ground}}), {.full = true}).omitted.empty());
+  EXPECT_TRUE(plan_of(Scenery(SceneryDef{{ground}}), {.full = true}).omitted.empty());
 }
 
 TEST(PlanOfScenes, planned_and_full_give_the_same_bits_on_every_registered_scene) {
   for (const BuiltInScene& entry : built_in_scenes()) {
     const Scene scene = built_in(entry.name);
-    const Scenery<double> scenery(scene.scenery);
+    const Scenery scenery(scene.scenery);
     const int steps = std::min(scene.steps, most_steps);
     for (const std::string_view kind : technique_names()) {
       // A step of a march or a picture takes as many units as it is long: in these scenes millions.

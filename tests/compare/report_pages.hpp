@@ -38,7 +38,7 @@ inline Report report_of(const ReportScene& scene) {
   return report;
 }
 
-inline TraceStep step_of(int number, std::vector<PathPoint<double>> path, const Vec2d& velocity = {0, 0}) {
+inline TraceStep step_of(int number, std::vector<PathPoint> path, const Vec2d& velocity = {0, 0}) {
   TraceStep step;
   step.step = number;
   step.path = std::move(path);
@@ -82,7 +82,7 @@ inline ReportScene pair_of(int steps) {
   run.others = {run.steps};
   for (TraceStep& step : run.others[0]) {
     step.character = 1;
-    for (PathPoint<double>& corner : step.path) corner.position.y() += 2;
+    for (PathPoint& corner : step.path) corner.position.y() += 2;
   }
   return scene;
 }

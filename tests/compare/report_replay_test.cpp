@@ -23,7 +23,7 @@ ReportRun run_of_everything() {
   run.header.points = {{-0.5, -1}, {0.5, -1}, {0, 1}};
   run.header.scenery.colliders = {box(0, 0, 1, 1), chain({{0, 0}, {1, 0}}, 0)};
   run.every = 3;
-  const Contact<double> ground{1, {0.00004, 0.5}, {0, 1}, 0.25, 5e-7, Side::bottom};
+  const Contact ground{1, {0.00004, 0.5}, {0, 1}, 0.25, 5e-7, Side::bottom};
   TraceStep step = step_of(0, {{{0, 0}, 0}, {{0.00004, 1}, 1}}, {0.001, 64});
   step.grounded = true;
   step.contacts = {ground};
@@ -132,7 +132,7 @@ TEST_F(ReportTest, a_replay_has_the_scenery_once_lengths_of_steps_and_disagreeme
   EXPECT_EQ(element(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
   corner -= 0.5;
   scene.dt_list = {1.0 / 64, 31.0 / 1024};
-  const std::vector<Contact<double>> contacts{{0, {0.25, 0}, {0, 1}, 0.5, 1e-6, Side::bottom}};
+  const std::vector<Contact> contacts{{0, {0.25, 0}, {0, 1}, 0.5, 1e-6, Side::bottom}};
   Disagreement disagreement;
   disagreement.step = 3;
   disagreement.statements = {{1, {0, 1}, {0.5, 1}, contacts}};

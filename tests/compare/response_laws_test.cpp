@@ -133,7 +133,7 @@ TEST(ControlledLaw, makes_of_what_was_wanted) {
 
 TEST(MetSurface, is_known_apart_along_itself_and_across) {
   MetSurface slope{.normal = {0.6, 0.8}, .velocity = {1, 2}, .spread = 0.5, .spread_along = 0.1};
-  const Box2<double> box = slope.velocities();
+  const Box2 box = slope.velocities();
   EXPECT_NEAR((box.upper - Vec2d(1 + 0.3 + 0.08, 2 + 0.4 + 0.06)).norm(), 0, 1e-12);
   EXPECT_NEAR((box.lower - Vec2d(1 - 0.3 - 0.08, 2 - 0.4 - 0.06)).norm(), 0, 1e-12);
   slope.normal = {0, 1};
@@ -312,11 +312,11 @@ TEST_F(RandomLaw, is_within_its_bounds) {
       surfaces.push_back(at);
     }
     const double steering = (step.wanted - step.unsteered).x();
-    const Box2<double> bounds = controlled_bounds({.unsteered = {step.unsteered, step.unsteered},
-                                                   .least_steering = std::min(steering, 0.0),
-                                                   .most_steering = std::max(steering, 0.0),
-                                                   .squeezed = any},
-                                                  surfaces);
+    const Box2 bounds = controlled_bounds({.unsteered = {step.unsteered, step.unsteered},
+                                           .least_steering = std::min(steering, 0.0),
+                                           .most_steering = std::max(steering, 0.0),
+                                           .squeezed = any},
+                                          surfaces);
     double size = size_of(step);
     // Where the surfaces leave no motion it is a crush: bounds do not hold how the law ends that.
     const std::vector<Vec2d> allowed = frictionless_outcomes(step.wanted, surfaces);

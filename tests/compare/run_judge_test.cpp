@@ -19,9 +19,9 @@ TEST(RunJudge, counts_a_step_once_whichever_way_a_contact_is_found_to_be_invente
   header.starts = {{.position = {0, 0}, .velocity = {0, 0}}};
   header.guarantees = every_clause();
   RunJudge judge(header, {});
-  const Contact<double> of_wall{
+  const Contact of_wall{
       .collider = 1, .point = {7, 0}, .normal = {-1, 0}, .fraction = 0.5, .separation = 5e-7, .side = Side::right};
-  Contact<double> of_air = of_wall;
+  Contact of_air = of_wall;
   of_air.point = {3, feet};
   // Falls freely from rest.
   Vec2d at(0, 0);

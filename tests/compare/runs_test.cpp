@@ -53,7 +53,7 @@ TEST(Respawn, puts_back_who_has_left_the_map_by_ten_metres) {
   Scene scene = empty_sky(400);
   scene.start.position = {1, 2};
   scene.start.velocity = {3, 0};
-  scene.respawn_box = Box2<double>{{-4, -1}, {40, 6}};
+  scene.respawn_box = Box2{{-4, -1}, {40, 6}};
   // It is below -1 - 10 m after n steps of g dt² n (n + 1) / 2 each, and put back before the next one.
   int lost_after = 1;
   while (2 - 10.0 / 3600 * lost_after * (lost_after + 1) / 2 >= -11) ++lost_after;
@@ -166,7 +166,7 @@ TEST(Overhang, springs_a_rising_character_back_unless_the_rule_ends_the_rise) {
     std::optional<double> met;
     for (const TraceStep& step : without) {
       const double height = step.path.back().position.y();
-      for (const Contact<double>& contact : step.contacts)
+      for (const Contact& contact : step.contacts)
         if (contact.collider == 1 && !met) met = height;
       rise = std::max(rise, height - met.value_or(height));
     }

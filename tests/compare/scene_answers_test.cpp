@@ -49,7 +49,7 @@ TEST(Answers, ask_of_steps_that_the_run_has) {
 // What a step says in a run that does something else.
 void move_off(TraceStep& step, double sign) {
   const Vec2d off = sign * 1000 * (1 + step.step) * Vec2d(1, 0.3);
-  for (PathPoint<double>& corner : step.path) corner.position += off;
+  for (PathPoint& corner : step.path) corner.position += off;
   step.velocity += off;
 }
 void keep_silent(TraceStep& step) {
@@ -67,7 +67,7 @@ void cry_out(TraceStep& step, std::size_t colliders) {
 }
 void hang(TraceStep& step, const Vec2d& start) {
   step.grounded = false;
-  for (PathPoint<double>& corner : step.path) corner.position = start;
+  for (PathPoint& corner : step.path) corner.position = start;
 }
 
 TEST(Answers, are_each_missed_by_a_run_that_does_something_else) {

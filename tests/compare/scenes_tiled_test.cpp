@@ -110,8 +110,8 @@ TEST_F(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two)
                               "tilewidth=\"16\" tileheight=\"16\"", "tilewidth='35' tileheight='35'"));
   const Scene scene = files.load("scene.json", scene_around_map(70.5));
   ASSERT_EQ(scene.ids, (Texts{"m/t0,2", "m/t1,2", "m/t2,2", "m/t3,2"}));
-  const Box2<double> left = Box2<double>::around(scene.scenery.colliders[1].points);
-  const Box2<double> right = Box2<double>::around(scene.scenery.colliders[2].points);
+  const Box2 left = Box2::around(scene.scenery.colliders[1].points);
+  const Box2 right = Box2::around(scene.scenery.colliders[2].points);
   EXPECT_EQ(left.upper, Vec2d(2 * 35 / 70.5, -(2 * 35 / 70.5)));
   EXPECT_EQ(right.lower.x(), left.upper.x());
   EXPECT_EQ(right.upper.y(), left.upper.y());
@@ -216,8 +216,8 @@ TEST(TiledObjects, an_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
   const auto on_ellipse = [&](const Vec2d& p) { return (p - centre).cwiseQuotient(Vec2d(18 / 16.0, 5 / 16.0)).norm(); };
   // Edges of angle d on a circle of 18 px lie 18 (1 - cos d/2) px inside at most; the ellipse is flatter.
   EXPECT_EQ(points.size(), 28U) << "18 (1 - cos(90 / 7 / 2 degrees)) = 0.113, and with 6 edges 0.154";
-  EXPECT_EQ(Box2<double>::around(points).lower, Vec2d(28 / 16.0, -12 / 16.0));
-  EXPECT_EQ(Box2<double>::around(points).upper, Vec2d(64 / 16.0, -2 / 16.0));
+  EXPECT_EQ(Box2::around(points).lower, Vec2d(28 / 16.0, -12 / 16.0));
+  EXPECT_EQ(Box2::around(points).upper, Vec2d(64 / 16.0, -2 / 16.0));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2d& a = points[i];
     const Vec2d& b = points[(i + 1) % points.size()];
@@ -227,7 +227,7 @@ TEST(TiledObjects, an_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
   }
   // A circle of a tile that is shown half as high: 8 x 4 px, from 4 px right of and 2 px above the lower left corner.
   const Scene flat = with_solid("gid='1' x='32' y='32' width='16' height='8'/>", "things", disc);
-  const Box2<double> flat_box = Box2<double>::around(flat.scenery.colliders[0].points);
+  const Box2 flat_box = Box2::around(flat.scenery.colliders[0].points);
   EXPECT_EQ(flat_box.lower, Vec2d(36 / 16.0, -30 / 16.0));
   EXPECT_EQ(flat_box.upper, Vec2d(44 / 16.0, -26 / 16.0));
 }
@@ -245,7 +245,7 @@ TEST(TiledObjects, a_capsule_has_half_circles_at_its_ends) {
     EXPECT_NE(std::find(points.begin(), points.end(), Vec2d(pixels.x() / 16, -pixels.y() / 16)), points.end())
         << pixels;
   const Scene upright = with_solid("x='28' y='0' width='8' height='28'><capsule/></object>");
-  EXPECT_EQ(Box2<double>::around(upright.scenery.colliders[0].points).upper, Vec2d(36 / 16.0, 0));
+  EXPECT_EQ(Box2::around(upright.scenery.colliders[0].points).upper, Vec2d(36 / 16.0, 0));
 }
 
 TEST(TiledObjects, round_ones_are_counted_and_block_from_above_as_platforms) {

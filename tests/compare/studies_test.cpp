@@ -65,7 +65,7 @@ TEST(WorkPrecision, each_side_differs_from_the_motion_of_its_own_law_by_its_step
     const bool box2d = row.contender == "box2d";
     if (row.scene == "level" || row.parameters.size() > 1 || row.scalar != (box2d ? "float" : "double")) continue;
     const double h = row.parameters.front().second;
-    const double gap = box2d ? box2d::rest_gap : Tolerances<double>{}.stop;
+    const double gap = box2d ? box2d::rest_gap : Tolerances{}.stop;
     const auto motion =
         std::find_if(motions().begin(), motions().end(), [&](const Motion& m) { return m.name == row.scene; });
     const auto steps = static_cast<int>(std::lround(motion->duration / h));
@@ -128,7 +128,7 @@ TEST(Substeps, are_steps_of_their_own_within_one_of_the_scene) {
   const auto run = [&](double dt, const std::vector<KnobSetting>& knobs, int every) {
     const Scene scene = scene_of(level, dt);
     const Script script = script_of(scene);
-    const Scenery<double> scenery(scene.scenery);
+    const Scenery scenery(scene.scenery);
     const auto contender = make_contender("box2d", ScalarKind::binary32, scene, scenery, {.knobs = knobs});
     InputCursor cursor(scene, script);
     std::vector<TraceStep> records(1);

@@ -12,7 +12,7 @@ struct Beside {
   TraceHeader header;
   TraceStep step;
 
-  [[nodiscard]] PathPoint<double> start() const { return step.path.front(); }
+  [[nodiscard]] PathPoint start() const { return step.path.front(); }
   [[nodiscard]] const VertexWay& way() const { return step.vertex_ways.front(); }
 };
 

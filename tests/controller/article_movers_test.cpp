@@ -11,7 +11,7 @@
 namespace paperproof::article_tests {
 namespace {
 
-using Motions = std::vector<MoverMotion<double>>;
+using Motions = std::vector<MoverMotion>;
 
 ColliderDef conveyor(ColliderDef def, double speed) {
   def.surface_speed = speed;
@@ -19,14 +19,14 @@ ColliderDef conveyor(ColliderDef def, double speed) {
 }
 
 /// A character among movers, stepped as a controller does it.
-struct Passenger : Rig<double> {
+struct Passenger : Rig {
   double gravity = 32;
 
   Passenger(std::string_view kind, std::vector<ColliderDef> colliders) : Rig(kind, std::move(colliders)) {
     request.dt = 1.0 / 64;
   }
   /// Goes on from where it is.
-  const MoveResult<double>& step(const Motions& movers) {
+  const MoveResult& step(const Motions& movers) {
     request.position = result.position;
     request.velocity = result.velocity - result.ride.velocity;
     request.velocity.y() -= gravity * request.dt;
@@ -37,7 +37,7 @@ struct Passenger : Rig<double> {
     return result;
   }
   /// A step of a second without gravity.
-  const MoveResult<double>& fly(const Vec2d& from, const Vec2d& by, const Motions& movers) {
+  const MoveResult& fly(const Vec2d& from, const Vec2d& by, const Motions& movers) {
     request.dt = 1;
     gravity = 0;
     result.position = from;
@@ -46,7 +46,7 @@ struct Passenger : Rig<double> {
   }
 };
 
-const Contact<double>& only_contact(const MoveResult<double>& result) {
+const Contact& only_contact(const MoveResult& result) {
   EXPECT_EQ(result.contacts.size(), 1U);
   return result.contacts[0];
 }
@@ -55,7 +55,7 @@ const Contact<double>& only_contact(const MoveResult<double>& result) {
 Vec2d swing(const Vec2d& reach, int step) { return reach * (0.5 - 0.5 * std::cos(step * 2 * 3.14159265358979 / 128)); }
 
 constexpr double rounding = 1e-12;
-constexpr double gap = Tolerances<double>{}.stop;
+constexpr double gap = Tolerances{}.stop;
 constexpr std::array moving_kinds{"discrete", "penetration_resolution", "speculative_march", "speculative"};
 constexpr std::array carrying_kinds{"discrete", "speculative_march", "speculative"};
 
@@ -73,13 +73,13 @@ TEST(MovingPaper, that_sweeps_over_a_resting_character_pushes_it_from_the_time_o
     const double thickness = kind == "speculative" ? 0.0001 : 1.5 * px;
     for (const ColliderDef& mover : {compare::box(-2 - thickness, -2, -2, 2, 0), line}) {
       Passenger passenger(kind, {mover});
-      const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {5, 0}}});
+      const MoveResult& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {5, 0}}});
       const double slack = slack_of(kind);
       EXPECT_NEAR(result.position.x(), 3 + half_width, slack);
       EXPECT_GE(result.position.x(), 3 + half_width) << "on the side that it was on";
       EXPECT_EQ(result.position.y(), 0);
       EXPECT_EQ(result.velocity, Vec2d(5, 0));
-      const Contact<double>& contact = only_contact(result);
+      const Contact& contact = only_contact(result);
       EXPECT_EQ(contact.side, Side::left);
       EXPECT_NEAR(contact.fraction, (2 - half_width) / 5, slack / 4);
       EXPECT_EQ(contact.normal, Vec2d(1, 0));
@@ -99,7 +99,7 @@ TEST(MovingBlock, that_arrives_over_a_resting_character_pushes_it_by_units_or_by
     SCOPED_TRACE(kind);
     const bool by_units = kind == "penetration_resolution";
     Passenger passenger(kind, {compare::box(-6, -2, -2, 2, 0)});
-    const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {by, 0}}});
+    const MoveResult& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {by, 0}}});
     EXPECT_NEAR(result.position.x(), by_units ? 5 * px : 4.5 * px + gap, by_units ? 0 : rounding);
     EXPECT_EQ(result.position.y(), 0);
     EXPECT_EQ(result.velocity, Vec2d(by, 0));
@@ -120,8 +120,8 @@ TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on
       Motions motions(1);
       const std::size_t before = tests::allocations();
       for (int step = 0; step < test::sampled(20000); ++step) {
-        const MoverMotion<double>& motion = motions[0] = {swing(reach, step), swing(reach, step + 1)};
-        const MoveResult<double>& result = passenger.step(motions);
+        const MoverMotion& motion = motions[0] = {swing(reach, step), swing(reach, step + 1)};
+        const MoveResult& result = passenger.step(motions);
         ASSERT_TRUE(result.grounded) << "step " << step;
         ASSERT_EQ(result.ride.ground, 1U) << "step " << step;
         ASSERT_EQ(result.contacts.size(), 1U) << "step " << step;
@@ -149,7 +149,7 @@ TEST(ClosingWalls, crush_at_the_step_that_the_gap_gives) {
     const std::size_t before = tests::allocations();
     for (int step = 1; step <= 30; ++step) {
       motions[0] = {{0, -(step - 1) / 64.0}, {0, -step / 64.0}};
-      const MoveResult<double>& result = passenger.step(motions);
+      const MoveResult& result = passenger.step(motions);
       ASSERT_GE(result.position.y(), half_height - rounding) << "never pushed into the floor";
       ASSERT_LE(result.position.y(), half_height + px);
       if (result.status != MoveStatus::crushed) continue;
@@ -176,7 +176,7 @@ TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
 
 TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
   const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
-    return refusal_by<NotExpressible>([&] { Rig<double>(kind, {collider}); });
+    return refusal_by<NotExpressible>([&] { Rig(kind, {collider}); });
   };
   const ColliderDef mover = compare::box(0, 0, 1, 1, 0);
   const ColliderDef belt = conveyor(rectangle(0, 0, 1, 1), 1);

@@ -16,8 +16,8 @@ TEST(WindBack, goes_back_along_the_movement_by_units_until_free_as_a_mask_that_s
   const double fraction = 1 - std::ceil(0.6 * std::sqrt(200.0)) / std::sqrt(200.0);
   for (const std::string_view kind : {"wind_back", "mask"}) {
     SCOPED_TRACE(kind);
-    Rig<double> rig(kind, {rectangle(-2, -2, 2, 0)}, {.response = Response::shorten});
-    const MoveResult<double>& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
+    Rig rig(kind, {rectangle(-2, -2, 2, 0)}, {.response = Response::shorten});
+    const MoveResult& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
     EXPECT_NEAR(result.position.x(), 10 * px * fraction, 1e-15);
     EXPECT_NEAR(result.position.y(), half_height + 4 * px - 10 * px * fraction, 1e-15);
     EXPECT_EQ(result.velocity.y(), 0);
@@ -33,7 +33,7 @@ TEST(StartInside, is_stuck_where_the_search_goes_back_and_free_once_an_end_is) {
     Response response = Response::component;
   };
   for (const Case& each : {Case{"wind_back"}, Case{"mask"}, Case{"mask", Response::shorten}}) {
-    Rig<double> rig(each.kind, {rectangle(-9, -2, 9, 0)}, {.response = each.response});
+    Rig rig(each.kind, {rectangle(-9, -2, 9, 0)}, {.response = each.response});
     EXPECT_EQ(rig.move({0, 10 * px}, {px, -3 * px}).position, Vec2d(0, 10 * px)) << each.kind;
     EXPECT_EQ(rig.result.status, MoveStatus::stuck) << each.kind;
     EXPECT_EQ(rig.move({0, 10 * px}, {0, 30 * px}).position, Vec2d(0, 40 * px)) << each.kind;
@@ -45,8 +45,8 @@ TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
   for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative_march", "speculative"}) {
     SCOPED_TRACE(kind);
     for (const auto objects : {ArticleKnobs::Objects::each, ArticleKnobs::Objects::all}) {
-      Rig<double> rig(kind, {rectangle(-1, -1, 0, 0), rectangle(0, -1, 1, 0)}, {.objects = objects}, diamond());
-      const MoveResult<double>& result = rig.move({0, 1}, {0, -1});
+      Rig rig(kind, {rectangle(-1, -1, 0, 0), rectangle(0, -1, 1, 0)}, {.objects = objects}, diamond());
+      const MoveResult& result = rig.move({0, 1}, {0, -1});
       EXPECT_NEAR(result.position.y(), 0.5, px);
       EXPECT_EQ(result.contacts.size(), 1U);
     }
@@ -57,11 +57,11 @@ TEST(FlushTiles, a_computed_contact_is_found_on_the_seam_between_two_thin_ones) 
   // The end is far below: only the time of impact can stop it. One tile ends lower: the seam begins where both are.
   for (const double step_down : {0.0, 0.125}) {
     const std::vector<ColliderDef> tiles{rectangle(-1, -0.25, 0, 0), rectangle(0, -0.25, 1, -step_down)};
-    Rig<double> rig("speculative", tiles, {}, diamond());
+    Rig rig("speculative", tiles, {}, diamond());
     EXPECT_NEAR(rig.move({0, 1}, {0, -3}).position.y(), 0.5 - step_down, 1e-15);
   }
   // Tiles that do not share a piece of the seam leave it open: a point without width passes between them.
-  Rig<double> rig("speculative", {rectangle(-1, -0.25, 0, 0), rectangle(0, -0.75, 1, -0.5)}, {}, diamond());
+  Rig rig("speculative", {rectangle(-1, -0.25, 0, 0), rectangle(0, -0.75, 1, -0.5)}, {}, diamond());
   EXPECT_TRUE(rig.move({0, 1}, {0, -3}).contacts.empty());
 }
 
@@ -74,10 +74,10 @@ TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
     const double fall = (-px / 2 - top) + thickness + random.between(0, 50) * px;  // at least to the lower edge
     const std::vector<ColliderDef> paper{rectangle(-2, top - thickness, 2, top)};
 
-    Rig<double> exact("speculative", paper, {}, single_pixel());
+    Rig exact("speculative", paper, {}, single_pixel());
     EXPECT_NEAR(exact.move({0, 0}, {0, -fall}).position.y(), top + px / 2, 1e-14) << "seed 3, drop " << drop;
 
-    Rig<double> march("speculative_march", paper, {}, single_pixel());
+    Rig march("speculative_march", paper, {}, single_pixel());
     const bool stopped = !march.move({0, 0}, {0, -fall}).contacts.empty();
     EXPECT_TRUE(stopped || thickness <= px) << "seed 3, drop " << drop;
     passed_thin += stopped ? 0 : 1;

@@ -57,29 +57,28 @@ inline CharacterDef of_shape(const CharacterShape& shape) {
   return character;
 }
 
-template <class Scalar>
 struct Rig {
-  Scenery<Scalar> scenery;
+  Scenery scenery;
   CharacterDef character;
-  std::unique_ptr<Technique<Scalar>> technique;
-  Scratch<Scalar> scratch;
-  MoveRequest<Scalar> request;  ///< Of the next step; what is not of its motion stays.
-  MoveResult<Scalar> result;
+  std::unique_ptr<Technique> technique;
+  Scratch scratch;
+  MoveRequest request;  ///< Of the next step; what is not of its motion stays.
+  MoveResult result;
 
   Rig(const TechniqueDef& def, std::vector<ColliderDef> colliders,
       const CharacterShape& shape = CharacterShape::article())
       : scenery(SceneryDef{std::move(colliders)}),
         character(of_shape(shape)),
-        technique(make_technique<Scalar>(def, scenery, character)),
+        technique(make_technique(def, scenery, character)),
         scratch(technique->make_scratch()) {}
   Rig(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {},
       const CharacterShape& shape = CharacterShape::article())
       : Rig(TechniqueDef{.name = kind, .article = knobs}, std::move(colliders), shape) {}
 
   /// One step of a second: velocity and displacement are the same numbers.
-  const MoveResult<Scalar>& move(const Vec2d& position, const Vec2d& displacement) {
-    request.position = position.template cast<Scalar>();
-    request.displacement = displacement.template cast<Scalar>();
+  const MoveResult& move(const Vec2d& position, const Vec2d& displacement) {
+    request.position = position;
+    request.displacement = displacement;
     request.velocity = request.displacement;
     technique->move(request, scratch, result);
     return result;

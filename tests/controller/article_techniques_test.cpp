@@ -10,7 +10,7 @@
 namespace paperproof::article_tests {
 namespace {
 
-constexpr double gap = Tolerances<double>{}.stop;
+constexpr double gap = Tolerances{}.stop;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// How a technique that keeps the free component stops.
@@ -32,21 +32,17 @@ constexpr std::array all_stopping{
     Stopping{.kind = "speculative"},
 };
 
-template <class Scalar>
 class TechniqueIn : public testing::Test {
  protected:
-  static constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+  static constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<double>::epsilon());
 
   static void expect_gap(double found, const Stopping& by) {
-    const double stop = by.is_a_stop ? static_cast<double>(Tolerances<Scalar>{}.stop) : 0;
+    const double stop = by.is_a_stop ? static_cast<double>(Tolerances{}.stop) : 0;
     EXPECT_GE(found, stop - rounding);
     EXPECT_LE(found, by.most + stop + rounding);
   }
 };
-using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(TechniqueIn, Scalars, );
-
-TYPED_TEST(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
+TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   struct Case {
     Side side;
     ColliderDef wall;
@@ -62,9 +58,9 @@ TYPED_TEST(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   for (const Stopping& by : all_stopping) {
     SCOPED_TRACE(by.kind);
     for (const Case& each : cases) {
-      Rig<TypeParam> rig(by.kind, {each.wall});
-      const MoveResult<TypeParam>& result = rig.move({0, 0}, 10.3 * px * each.out);
-      const Vec2d end = result.position.template cast<double>();
+      Rig rig(by.kind, {each.wall});
+      const MoveResult& result = rig.move({0, 0}, 10.3 * px * each.out);
+      const Vec2d end = result.position;
       const double left = away - end.dot(each.out);
       this->expect_gap(left, by);
       EXPECT_EQ(end.cwiseAbs().minCoeff(), 0);
@@ -72,27 +68,27 @@ TYPED_TEST(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
       EXPECT_EQ(result.grounded, each.side == Side::bottom);
       ASSERT_EQ(result.contacts.size(), 1U);
       EXPECT_EQ(result.contacts[0].side, each.side);
-      EXPECT_EQ(result.contacts[0].normal, (-each.out).template cast<TypeParam>());
+      EXPECT_EQ(result.contacts[0].normal, (-each.out));
       EXPECT_NEAR(result.contacts[0].fraction, by.knows_when ? (3 - by.most / px / 2) / 10.3 : 1,
                   by.most / px / 2 / 10.3 + 1e-6);
       EXPECT_NEAR(result.contacts[0].separation, left, this->rounding);
       if (by.most > 0) continue;
       // Pressing on changes nothing, even by a fraction of a pixel.
       rig.move(end, 0.1 * px * each.out);
-      EXPECT_LE((result.position.template cast<double>() - end).norm(), by.is_a_stop ? this->rounding : 0);
+      EXPECT_LE((result.position - end).norm(), by.is_a_stop ? this->rounding : 0);
       EXPECT_EQ(result.contacts.size(), 1U);
     }
   }
 }
 
-TYPED_TEST(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
+TEST_F(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
   for (const Stopping& by : all_stopping) {
     SCOPED_TRACE(by.kind);
-    Rig<TypeParam> rig(by.kind, {rectangle(-9, -9, 9, 0)});
-    const MoveResult<TypeParam>& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
+    Rig rig(by.kind, {rectangle(-9, -9, 9, 0)});
+    const MoveResult& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
     EXPECT_NEAR(result.position.x(), 10 * px, this->rounding);
     this->expect_gap(result.position.y() - half_height, by);
-    EXPECT_EQ(result.velocity, Vec2<TypeParam>(10 * px, 0));
+    EXPECT_EQ(result.velocity, Vec2d(10 * px, 0));
     ASSERT_EQ(result.path.size(), by.has_corner ? 3U : 2U);
     EXPECT_EQ(result.path.back().position, result.position);
     if (!by.has_corner || by.most > 0) continue;
@@ -107,7 +103,7 @@ TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at
   for (const std::string_view kind : technique_names()) {
     if (kind == "octagon_sweep") continue;  // is the controller itself
     SCOPED_TRACE(kind);
-    Rig<double> rig(kind, corner);
+    Rig rig(kind, corner);
     EXPECT_EQ(rig.technique->name(), kind);
     if (kind == "grid") continue;  // stands in the middle of its square, beside nothing
     EXPECT_EQ(rig.move({0.123, 6.456}, {1.3, -0.7}).position, Vec2d(0.123, 6.456) + Vec2d(1.3, -0.7));
@@ -115,7 +111,7 @@ TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at
     for (const double wall : {-1.0, 1.0}) {
       rig.move({wall * (1 - half_width), half_height}, {wall * px, -px});
       EXPECT_FALSE(rig.result.contacts.empty());
-      for (const Contact<double>& contact : rig.result.contacts) {
+      for (const Contact& contact : rig.result.contacts) {
         EXPECT_GE(contact.fraction, 0);
         EXPECT_FALSE(std::signbit(contact.fraction)) << "no negative zero";
       }
@@ -132,7 +128,7 @@ TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
   for (const double bad : {0.0, -1.0, 1001.0, nan})
     cases.push_back({{.raster_pixels_per_metre = bad}, "raster_pixels_per_metre:"});
   for (const int bad : {0, -4, 4097}) cases.push_back({{.pixels_per_tile = bad}, "pixels_per_tile:"});
-  const Scenery<double> square(SceneryDef{{rectangle(0, 0, 1, 1)}});
+  const Scenery square(SceneryDef{{rectangle(0, 0, 1, 1)}});
   for (const std::string_view kind : technique_names()) {
     SCOPED_TRACE(kind);
     const auto message = [&](const ArticleKnobs& knobs) {
@@ -170,7 +166,7 @@ TEST(Chain, blocks_both_ways_or_only_against_its_normal_and_has_no_inside) {
     for (const Case& each : cases) {
       const bool sees_an_inside = kind == "bounding_box" || kind == "discrete";
       if (sees_an_inside && each.start == -20) continue;
-      Rig<double> rig(kind, {chain({{3, 0}, {-3, 0}}, each.one_way ? std::optional(Vec2d{0, 1}) : std::nullopt)});
+      Rig rig(kind, {chain({{3, 0}, {-3, 0}}, each.one_way ? std::optional(Vec2d{0, 1}) : std::nullopt)});
       rig.move({0, half_height + each.start * px}, {0, each.motion * px});
       const bool blocked = each.end != each.start + each.motion;
       const double up = each.motion < 0 ? 1 : -1;
@@ -180,10 +176,10 @@ TEST(Chain, blocks_both_ways_or_only_against_its_normal_and_has_no_inside) {
       EXPECT_NEAR(rig.result.position.y() - half_height, each.end * px + above, slack) << each.what;
       EXPECT_EQ(rig.result.contacts.size(), blocked ? 1U : 0U) << each.what;
       EXPECT_EQ(rig.result.grounded, blocked && up > 0) << each.what;
-      for (const Contact<double>& contact : rig.result.contacts) EXPECT_EQ(contact.normal, Vec2d(0, up)) << each.what;
+      for (const Contact& contact : rig.result.contacts) EXPECT_EQ(contact.normal, Vec2d(0, up)) << each.what;
     }
   }
-  Rig<double> looks_inside("penetration_resolution", {chain({{-3, 0}, {3, 0}})});
+  Rig looks_inside("penetration_resolution", {chain({{-3, 0}, {3, 0}})});
   EXPECT_EQ(looks_inside.move({0, half_height + px}, {0, -8 * px}).position, Vec2d(0, half_height - 7 * px));
 }
 

@@ -12,12 +12,10 @@
 namespace paperproof {
 namespace {
 
-template <class Scalar>
-using Boxes = std::vector<Box2<Scalar>>;
+using Boxes = std::vector<Box2>;
 
 /// Some are points, half of them lines. On the lattice many are alike, or touch.
-template <class Scalar>
-Box2<Scalar> random_box(compare::Random& random, double scale, bool on_lattice) {
+Box2 random_box(compare::Random& random, double scale, bool on_lattice) {
   Vec2d corner = random.point(scale);
   const double width = random.chance(0.25) ? 0 : random.between(0, scale / 4);
   Vec2d size{width, random.chance(0.33) ? 0 : random.between(0, scale / 4)};
@@ -25,12 +23,11 @@ Box2<Scalar> random_box(compare::Random& random, double scale, bool on_lattice) 
     corner = (corner * 8 / scale).array().round() * (scale / 8);
     size = (size * 8 / scale).array().round() * (scale / 8);
   }
-  return {corner.cast<Scalar>(), (corner + size).template cast<Scalar>()};
+  return {corner, (corner + size)};
 }
 
 /// By definition, in ascending order.
-template <class Scalar>
-std::vector<PieceIndex> overlapping(const Boxes<Scalar>& boxes, const Box2<Scalar>& query) {
+std::vector<PieceIndex> overlapping(const Boxes& boxes, const Box2& query) {
   std::vector<PieceIndex> all;
   for (PieceIndex i = 0; i < boxes.size(); ++i)
     if ((boxes[i].lower.array() <= query.upper.array()).all() && (query.lower.array() <= boxes[i].upper.array()).all())
@@ -39,12 +36,11 @@ std::vector<PieceIndex> overlapping(const Boxes<Scalar>& boxes, const Box2<Scala
 }
 
 /// Every kind finds those and no others. Where there is no room for all, it counts them, and writes nothing beyond.
-template <class Scalar>
-void expect_to_be_found(const Boxes<Scalar>& boxes, const Boxes<Scalar>& queries) {
+void expect_to_be_found(const Boxes& boxes, const Boxes& queries) {
   constexpr PieceIndex untouched = 4294967295U;
   for (const BroadPhaseKind kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::buckets, BroadPhaseKind::tree}) {
-    const auto broad_phase = make_broad_phase<Scalar>(kind, boxes);
-    for (const Box2<Scalar>& query : queries) {
+    const auto broad_phase = make_broad_phase(kind, boxes);
+    for (const Box2& query : queries) {
       const std::vector<PieceIndex> expected = overlapping(boxes, query);
       std::vector<PieceIndex> found(boxes.size());
       const std::size_t before = tests::allocations();
@@ -59,82 +55,69 @@ void expect_to_be_found(const Boxes<Scalar>& boxes, const Boxes<Scalar>& queries
   }
 }
 
-template <class Scalar>
-class BroadPhases : public testing::Test {};
-using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(BroadPhases, Scalars, );
-
-TYPED_TEST(BroadPhases, find_exactly_what_overlaps_without_memory_and_no_more_than_most_at_once_on_10000_scenes) {
-  using Scalar = TypeParam;
+TEST(BroadPhases, find_exactly_what_overlaps_without_memory_and_no_more_than_most_at_once_on_10000_scenes) {
   const unsigned scenes = test::sampled(10000U);
   int not_empty = 0;
   int selective = 0;
   for (unsigned seed = 0; seed < scenes; ++seed) {
     compare::Random random(seed);
     const double scale = std::pow(10.0, random.chance(0.1) ? random.integer(-3, 30) : random.integer(0, 3));
-    Boxes<Scalar> boxes(static_cast<std::size_t>(random.integer(0, 200)));
-    Boxes<Scalar> asked(4);
-    for (Boxes<Scalar>* some : {&boxes, &asked})
-      for (Box2<Scalar>& box : *some) box = random_box<Scalar>(random, scale, seed % 2 == 0);
+    Boxes boxes(static_cast<std::size_t>(random.integer(0, 200)));
+    Boxes asked(4);
+    for (Boxes* some : {&boxes, &asked})
+      for (Box2& box : *some) box = random_box(random, scale, seed % 2 == 0);
     ASSERT_NO_FATAL_FAILURE(expect_to_be_found(boxes, asked)) << "seed " << seed;
-    for (const Box2<Scalar>& query : asked) {
+    for (const Box2& query : asked) {
       const std::size_t count = overlapping(boxes, query).size();
       not_empty += count > 0;
       selective += count > 0 && count < boxes.size();
-      const Vec2<Scalar> size = query.upper - query.lower;
-      ASSERT_TRUE(boxes.empty() || size.isZero(0) || count <= broad_phase::most_at_once<Scalar>(boxes, size)) << seed;
+      const Vec2d size = query.upper - query.lower;
+      ASSERT_TRUE(boxes.empty() || size.isZero(0) || count <= broad_phase::most_at_once(boxes, size)) << seed;
     }
   }
   EXPECT_GE(not_empty, 4 * scenes * 3 / 10);
   EXPECT_GE(selective, 4 * scenes * 3 / 10);
 }
 
-template <class Scalar>
-Box2<Scalar> square_at(Scalar x, Scalar y, Scalar side) {
-  return {{x, y}, {x + side, y + side}};
-}
+Box2 square_at(double x, double y, double side) { return {{x, y}, {x + side, y + side}}; }
 
 /// `columns` wide, from the origin on.
-template <class Scalar>
-Boxes<Scalar> tiles(int count, int columns) {
-  Boxes<Scalar> all;
+Boxes tiles(int count, int columns) {
+  Boxes all;
   for (int i = 0; i < count; ++i)
-    all.push_back(square_at<Scalar>(static_cast<Scalar>(i % columns), static_cast<Scalar>(i / columns), 1));
+    all.push_back(square_at(static_cast<double>(i % columns), static_cast<double>(i / columns), 1));
   return all;
 }
 
-TYPED_TEST(BroadPhases, find_exactly_what_overlaps_at_the_edges) {
-  using Scalar = TypeParam;
-  const Scalar most = std::numeric_limits<Scalar>::max();
-  const Scalar beyond = std::nextafter(Scalar(1), Scalar(2));
-  Boxes<Scalar> wide{{{-most, 0}, {most, 1}}, {{most / 2, 0}, {most / 2, 0}}};
-  for (int i = 0; i < 100; ++i) wide.push_back(square_at<Scalar>(Scalar(i), Scalar(0.5), Scalar(0.25)));
+TEST(BroadPhases, find_exactly_what_overlaps_at_the_edges) {
+  const double most = std::numeric_limits<double>::max();
+  const double beyond = std::nextafter(1.0, 2.0);
+  Boxes wide{{{-most, 0}, {most, 1}}, {{most / 2, 0}, {most / 2, 0}}};
+  for (int i = 0; i < 100; ++i) wide.push_back(square_at(double(i), 0.5, 0.25));
   struct Case {
     const char* name;
-    Boxes<Scalar> boxes;
-    Boxes<Scalar> queries;
+    Boxes boxes;
+    Boxes queries;
   };
-  const std::array cases{Case{"nothing", {}, {square_at<Scalar>(-1, -1, 2)}},
-                         Case{"touched, and an ulp beyond",
-                              {square_at<Scalar>(0, 0, 1)},
-                              {square_at<Scalar>(1, 1, 1), {{beyond, 0}, {2, 2}}, {{0, beyond}, {2, 2}}}},
-                         Case{"points in one place",
-                              Boxes<Scalar>(100, square_at<Scalar>(3, 4, 0)),
-                              {square_at<Scalar>(3, 4, 0), square_at<Scalar>(2, 3, 1), square_at<Scalar>(5, 4, 1)}},
-                         Case{"a million cells, and the end of the world",
-                              tiles<Scalar>(1000, 40),
-                              {square_at<Scalar>(-500, -500, 1000),
-                               square_at<Scalar>(-1e6, 20, 2e6),
-                               {{-most, -most}, {most, most}},
-                               {{most, most}, {most, most}}}},
-                         Case{"one as wide as the world among small ones",
-                              wide,
-                              {square_at<Scalar>(3, 0, 1),
-                               square_at<Scalar>(1e9F, 0, 1),
-                               {{most / 2, 0}, {most / 2, 1}},
-                               square_at<Scalar>(3, 2, 1)}}};
+  const std::array cases{
+      Case{"nothing", {}, {square_at(-1, -1, 2)}},
+      Case{"touched, and an ulp beyond",
+           {square_at(0, 0, 1)},
+           {square_at(1, 1, 1), {{beyond, 0}, {2, 2}}, {{0, beyond}, {2, 2}}}},
+      Case{"points in one place",
+           Boxes(100, square_at(3, 4, 0)),
+           {square_at(3, 4, 0), square_at(2, 3, 1), square_at(5, 4, 1)}},
+      Case{"a million cells, and the end of the world",
+           tiles(1000, 40),
+           {square_at(-500, -500, 1000),
+            square_at(-1e6, 20, 2e6),
+            {{-most, -most}, {most, most}},
+            {{most, most}, {most, most}}}},
+      Case{"one as wide as the world among small ones",
+           wide,
+           {square_at(3, 0, 1), square_at(1e9F, 0, 1), {{most / 2, 0}, {most / 2, 1}}, square_at(3, 2, 1)}}};
   for (const Case& edge : cases) ASSERT_NO_FATAL_FAILURE(expect_to_be_found(edge.boxes, edge.queries)) << edge.name;
-  EXPECT_LE(broad_phase::most_at_once<Scalar>(tiles<Scalar>(10'000, 100), {Scalar(0.6), Scalar(1.2)}), 144U);
+  EXPECT_LE(broad_phase::most_at_once(tiles(10'000, 100), {0.6, 1.2}), 144U);
 }
 
 }  // namespace

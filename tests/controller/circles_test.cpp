@@ -3,7 +3,7 @@
 #include "geometry/circle.hpp"
 
 #include "campaign/shapes.hpp"
-#include "controller/stepping.hpp"
+#include "controller/stepping_in_float.hpp"
 #include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ const std::span<const Vec2d> outline = article.hull();
 // The distance, and the time of approach.
 
 /// By the edges alone, without a case more than a polygon has.
-double slow_separation(const Vec2d& at, const Circle<double>& circle) {
+double slow_separation(const Vec2d& at, const Circle& circle) {
   const Vec2d centre = circle.centre - at;
   double outside = std::numeric_limits<double>::infinity();
   double inside = -outside;
@@ -45,9 +45,9 @@ TEST(NearCircle, has_the_distance_of_a_slow_twin) {
   int inside = 0;
   int corners = 0;
   for (int i = 0; i < 10'000; ++i) {
-    const Circle<double> circle{{random.between(-1, 1), random.between(-1, 1)}, random.log_between(1e-4, 1e3)};
+    const Circle circle{{random.between(-1, 1), random.between(-1, 1)}, random.log_between(1e-4, 1e3)};
     const Vec2d at = circle.centre + Vec2d{random.between(-1, 1), random.between(-1, 1)};
-    const auto near = geometry::near_circle<double>(outline, at, circle);
+    const auto near = geometry::near_circle(outline, at, circle);
     ASSERT_NEAR(near.separation, slow_separation(at, circle), 1e-13 * (1 + circle.radius)) << i;
     ASSERT_NEAR(near.normal.norm(), 1, 1e-15);
     // The normal leads to where they just touch.
@@ -67,7 +67,7 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
   int hits = 0;
   constexpr int cases = 10'000;
   for (int i = 0; i < cases; ++i) {
-    const Circle<double> circle{{random.between(-3, 3), random.between(-3, 3)}, random.log_between(1e-3, 2)};
+    const Circle circle{{random.between(-3, 3), random.between(-3, 3)}, random.log_between(1e-3, 2)};
     const Vec2d from{random.between(-8, 8), random.between(-8, 8)};
     if (slow_separation(from, circle) <= 0.01) continue;
     const Vec2d aim = circle.centre + 2 * Vec2d{random.between(-1, 1), random.between(-1, 1)};
@@ -82,7 +82,7 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
       (separation_at(a) < separation_at(b) ? high : low) = separation_at(a) < separation_at(b) ? b : a;
     }
     const double nearest = separation_at(low);
-    const auto found = geometry::approach<double>(outline, from, way, circle, 0);
+    const auto found = geometry::approach(outline, from, way, circle, 0);
     if (std::abs(nearest) < 1e-9) continue;  // too near to tell
     ASSERT_EQ(found.has_value(), nearest < 0) << i;
     if (!found) continue;
@@ -96,16 +96,16 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
 }
 
 TEST(CircleInFloat, is_landed_on_and_slid_along) {
-  Stepper<float> stepper({circle({0, -2}, 2)});
+  Stepper stepper = in_float({circle({0, -2}, 2)});
   stepper.at(0.25, 3).steps(120);
   EXPECT_TRUE(stepper.state.grounded);
   const double arc = std::sqrt(4 - (0.25 - foot) * (0.25 - foot));  // where the left corner of the foot is
   EXPECT_NEAR(stepper.state.position.y(), half_height + arc - 2, 1e-3);
-  Stepper<float> bullet({circle({0, 0}, 1)});
-  const MoveResult<float>& move = bullet.at(-4, 0).fly(100, 0);
+  Stepper bullet = in_float({circle({0, 0}, 1)});
+  const MoveResult& move = bullet.at(-4, 0).fly(100, 0);
   ASSERT_EQ(move.contacts.size(), 1U);
   EXPECT_NEAR(move.contacts[0].fraction, (4 - 1 - half_width) / 100, 1e-6);
-  EXPECT_LT(move.position.x(), -1 - static_cast<float>(half_width));
+  EXPECT_LT(move.position.x(), -1 - half_width);
 }
 
 TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
@@ -119,16 +119,16 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
       const double y = random.between(-1, 2);
       colliders.push_back(circle({x, y}, random.log_between(0.05, 2)));
     }
-    Stepper<float> stepper(colliders);
+    Stepper stepper = in_float(colliders);
     stepper.at(random.between(-4, 4), 5);
     for (int i = 0; i < 100; ++i) {
       if (random.chance(0.1)) stepper.with_velocity(random.between(-50, 50), -20);
       stepper.step({.move = random.chance(0.5) ? 1.0 : -1.0});
       ASSERT_TRUE(stepper.state.position.allFinite()) << run;
       contacts += static_cast<int>(stepper.report.move.contacts.size());
-      const Vec2d at = stepper.state.position.cast<double>();
+      const Vec2d at = stepper.state.position;
       for (std::size_t c = 3; c < colliders.size(); ++c) {
-        const Circle<double> round{colliders[c].points[0], colliders[c].radius};
+        const Circle round{colliders[c].points[0], colliders[c].radius};
         ASSERT_GT(slow_separation(at, round), -1e-4) << "run " << run << ", step " << i;
       }
     }
@@ -137,7 +137,7 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
 }
 
 TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
-  Stepper<double> stepper({circle({0, 0}, 5)});
+  Stepper stepper({circle({0, 0}, 5)});
   const auto overlaps = [&](double x, double y) -> bool {
     return stepper.sweep().overlaps({x, y}, {{0, 0}, frame}, stepper.scratch) == std::size_t{1};
   };
@@ -153,8 +153,8 @@ TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
 
 /// What is overlapped, how far, and when, is asked of circles in tests/agreement/query_test.cpp.
 TEST(QuestionsAboutACircle, are_answered_with_points_and_normals_by_formula) {
-  Stepper<double> stepper({circle({4, 0}, 1), circle({0, 50}, 2)});
-  const StepContext<double> context{{0, 0}, frame};
+  Stepper stepper({circle({4, 0}, 1), circle({0, 50}, 2)});
+  const StepContext context{{0, 0}, frame};
   const auto hit = stepper.sweep().cast({0, 0}, {8, 0}, context, stepper.scratch);
   ASSERT_TRUE(hit.has_value());
   EXPECT_EQ(hit->normal, Vec2d(-1, 0));
@@ -163,7 +163,7 @@ TEST(QuestionsAboutACircle, are_answered_with_points_and_normals_by_formula) {
   ASSERT_TRUE(near.has_value());
   EXPECT_NEAR((near->point - Vec2d(3, 0)).norm(), 0, 1e-14);
   // A corner is nearest: along the line through the centre.
-  std::array<Contact<double>, 4> found;
+  std::array<Contact, 4> found;
   const Vec2d at = Vec2d(4 + 0.9, 0.9) - Vec2d(-foot, -half_height);
   ASSERT_EQ(stepper.sweep().contacts_at(at, 1, context, stepper.scratch, found), 1U);
   EXPECT_NEAR(found[0].separation, 0.9 * std::sqrt(2.0) - 1, 1e-14);

@@ -36,7 +36,7 @@ TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
   };
   for (const ColliderIndex gone : {no_collider, ColliderIndex{0}, ColliderIndex{1}}) {
     filter.user = &gone;
-    Stepper<double> faller({box(-1, -0.2, 1, 0, 0), coin});
+    Stepper faller({box(-1, -0.2, 1, 0, 0), coin});
     faller.at(0, 2);
     std::size_t events = 0;
     for (int step = 0; step < 60; ++step) {
@@ -50,11 +50,11 @@ TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
 }
 
 TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
-  Stepper<double> standing({ground});
+  Stepper standing({ground});
   standing.at(0, half_height + 1e-3).steps(20);
   ColliderFilter nothing;
   nothing.is_there = [](ColliderIndex /*collider*/, const void* /*user*/) { return false; };
-  CharacterState<double> ghost = standing.state;
+  CharacterState ghost = standing.state;
   standing.controller.step(ghost, {}, {{0, -30}, frame, {}, &nothing}, standing.scratch, standing.report);
   const Vec2d before = standing.state.position;
   standing.step();
@@ -70,7 +70,7 @@ TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
     many.back().sensor = true;
     many.back().filter.category = i < 80 ? 2 : 1;
   }
-  Stepper<double> flyer(many);
+  Stepper flyer(many);
   ColliderFilter light;
   light.mask = 1;
   flyer.sweep().move(flyer.state, {6, 0}, {{}, 1, {}, &light}, flyer.scratch, flyer.report);
@@ -80,21 +80,21 @@ TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
 
 TEST(Filter, that_a_technique_does_not_have_is_refused) {
   const ColliderFilter ghost{{.category = 2}};
-  Stepper<double> boxed({ground}, {}, "bounding_box");
+  Stepper boxed({ground}, {}, "bounding_box");
   EXPECT_EQ(boxed.controller.step(boxed.state, {}, {{0, -10}, frame, {}, &ghost}, boxed.scratch, boxed.report),
             StepStatus::invalid_input);
   ColliderDef filtered = ground;
   filtered.filter.mask = 2;
-  EXPECT_THROW(Stepper<double>({filtered}, {}, "bounding_box"), std::invalid_argument);
+  EXPECT_THROW(Stepper({filtered}, {}, "bounding_box"), std::invalid_argument);
 }
 
-StepStatus move(Stepper<double>& stepper, const Vec2d& displacement, double dt = frame) {
+StepStatus move(Stepper& stepper, const Vec2d& displacement, double dt = frame) {
   return stepper.sweep().move(stepper.state, displacement, {{0, -99}, dt, stepper.movers}, stepper.scratch,
                               stepper.report);
 }
 
 TEST(Move, goes_by_its_displacement_and_slides) {
-  Stepper<double> stepper({ground, box(2, 0, 3, 5)});
+  Stepper stepper({ground, box(2, 0, 3, 5)});
   stepper.at(0, half_height + 1);
   EXPECT_EQ(move(stepper, {0.25, -0.5}), StepStatus::moved);
   EXPECT_EQ(stepper.state.position, Vec2d(0.25, half_height + 0.5)) << "no gravity is added";
@@ -108,7 +108,7 @@ TEST(Move, goes_by_its_displacement_and_slides) {
 }
 
 TEST(Move, is_carried_in_the_same_step) {
-  Stepper<double> rider({box(-3, -1, 3, 0, 0)});
+  Stepper rider({box(-3, -1, 3, 0, 0)});
   rider.at(0, half_height + 1e-3).steps(10);
   ASSERT_TRUE(rider.state.grounded);
   const Vec2d before = rider.state.position;
@@ -119,7 +119,7 @@ TEST(Move, is_carried_in_the_same_step) {
 }
 
 TEST(Move, lets_the_time_of_a_jump_pass) {
-  Stepper<double> climber({ground}, {.coyote_time = 0.1, .jump_buffer = 0.1});
+  Stepper climber({ground}, {.coyote_time = 0.1, .jump_buffer = 0.1});
   climber.at(0, half_height + 1e-3).steps(5);
   for (int step = 0; step < 60; ++step) move(climber, {0.01, 0.1});
   EXPECT_EQ(climber.state.coyote_left, 0);
@@ -132,15 +132,15 @@ TEST(Move, lets_the_time_of_a_jump_pass) {
 }
 
 TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
-  Stepper<double> stepper({ground});
+  Stepper stepper({ground});
   stepper.at(0, 3);
-  const CharacterState<double> before = stepper.state;
+  const CharacterState before = stepper.state;
   EXPECT_EQ(move(stepper, {nan, 0}), StepStatus::invalid_input);
   EXPECT_EQ(move(stepper, {1, 0}, 0), StepStatus::invalid_input);
   EXPECT_EQ(move(stepper, {1e300, 0}, 1e-300), StepStatus::invalid_input) << "no finite velocity";
   EXPECT_EQ(move(stepper, {3e6, 0}), StepStatus::out_of_range);
   EXPECT_EQ(stepper.state, before);
-  for (double CharacterState<>::*left : {&CharacterState<>::coyote_left, &CharacterState<>::pending_left}) {
+  for (double CharacterState::*left : {&CharacterState::coyote_left, &CharacterState::pending_left}) {
     stepper.state.*left = nan;
     EXPECT_EQ(move(stepper, {0, 0}), StepStatus::invalid_input);
     stepper.state.*left = 0;
@@ -149,11 +149,11 @@ TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
 
 // What it finds: see query_test.
 TEST(Query, finds_nothing_where_it_may_not_be_asked) {
-  const Stepper<double> asked({ground});
-  const Controller<>& controller = asked.sweep();
-  Scratch<> own = controller.make_scratch();
-  Scratch<> foreign = Stepper<double>({ground}).scratch;
-  const std::vector<MoverMotion<>> one(1);  // but the scenery has no mover
+  const Stepper asked({ground});
+  const Controller& controller = asked.sweep();
+  Scratch own = controller.make_scratch();
+  Scratch foreign = Stepper({ground}).scratch;
+  const std::vector<MoverMotion> one(1);  // but the scenery has no mover
   EXPECT_TRUE(controller.cast({0, 2}, {0, -5}, {}, own));
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5}, {}, foreign));
   EXPECT_FALSE(controller.cast({0, std::numeric_limits<double>::infinity()}, {0, -5}, {}, own));

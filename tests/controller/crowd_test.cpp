@@ -30,7 +30,7 @@ TEST(Crowd, two_bullets_do_not_pass_through_each_other) {
     ASSERT_EQ(two.step(), StepStatus::moved);
     for (const CharacterIndex i : {0U, 1U}) {
       ASSERT_EQ(two.report.members[i].met.size(), 1U);
-      const CrowdContact<double>& met = two.report.members[i].met[0];
+      const CrowdContact& met = two.report.members[i].met[0];
       EXPECT_NEAR(met.fraction, d / (v1 + v2), 1e-12);
       EXPECT_EQ(met.normal, Vec2d(i == 0 ? -1 : 1, 0));
       EXPECT_EQ(met.side, i == 0 ? Side::right : Side::left);
@@ -86,7 +86,7 @@ TEST(Crowd, those_that_press_each_other_or_a_wall_or_stand_on_a_head_keep_their_
   Together tower = under_gravity({{0.1, 3 * half_height + 0.05}, {0, half_height + rest_gap}}, {floor_at_zero()});
   for (Together* all : {&two, &queue, &tower}) {
     all->steps(180);
-    const std::vector<CharacterState<double>> rest = all->states;
+    const std::vector<CharacterState> rest = all->states;
     for (int step = 0; step < 3000; ++step) {
       all->step();
       for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -174,14 +174,14 @@ TEST(Crowd, an_input_that_is_refused_changes_nothing_for_anybody) {
          static const Together other({{0, 1}, {2, 1}, {4, 1}}, {box(9, 0, 10, 1, 0)});
          t.scratch = other.crowd.make_scratch(3);
        }},
-      {"a report of two", [](Together& t) { t.report = CrowdReport<double>(2); }},
+      {"a report of two", [](Together& t) { t.report = CrowdReport(2); }},
       {"too fast", [](Together& t) { t.states[1].velocity.x() = 3e6; }, StepStatus::out_of_range}};
   for (const std::string_view kind : {"octagon_sweep", "discrete"}) {
     for (const auto& [what, spoil, status] : all) {
       Together three({{0, 1}, {2, 1}, {4, 1}}, {box(9, 0, 10, 1, 0)}, {}, {.name = kind});
       three.states[0].velocity = {1, 1};
       spoil(three);
-      const std::vector<CharacterState<double>> before = three.states;
+      const std::vector<CharacterState> before = three.states;
       EXPECT_EQ(three.step(), status) << kind << ": " << what;
       for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(three.states[i], before[i])) << kind << ": " << what;
     }
@@ -220,21 +220,6 @@ TEST(Crowd, a_step_takes_no_memory_on_the_ground_and_on_a_lift) {
       EXPECT_GT(impacts, 100U) << kind;
     }
   }
-}
-
-TEST(Crowd, floats_keep_apart_as_well) {
-  const Scenery<float> scenery(SceneryDef{{floor_at_zero()}});
-  const Crowd<float> crowd(scenery, {});
-  CrowdScratch scratch = crowd.make_scratch(2);
-  CrowdReport<float> report(2);
-  std::vector<CharacterState<float>> states(2);
-  states[0].position = {0, 1};
-  states[1].position = {2, 1};
-  const std::vector<Input> inputs{{.move = 1}, {.move = -1}};
-  for (int step = 0; step < 120; ++step) crowd.step(states, inputs, {{0, -30}, 1.0F / 60}, scratch, report);
-  const float gap = states[1].position.x() - states[0].position.x() - static_cast<float>(2 * half_width);
-  EXPECT_GT(gap, 0);
-  EXPECT_LT(gap, 1e-3F);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using namespace stepping;
 
-constexpr double gap = Tolerances<double>{}.stop;
+constexpr double gap = Tolerances{}.stop;
 
 /// A step takes a second and nothing pulls: velocities are displacements.
 Together flying(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {}) {
@@ -36,7 +36,7 @@ TEST(DiscreteCrowd, two_that_meet_share_the_overlap_and_go_on_with_the_mean_of_t
       for (const CharacterIndex i : {0U, 1U}) {
         EXPECT_NEAR(two.states[i].velocity.x(), (v1 - v2) / 2, 1e-15) << "the momentum of both is kept";
         ASSERT_EQ(two.report.members[i].met.size(), 1U);
-        const CrowdContact<double>& met = two.report.members[i].met[0];
+        const CrowdContact& met = two.report.members[i].met[0];
         EXPECT_EQ(met.other, 1 - i);
         EXPECT_NEAR(met.fraction, apart / (v1 + v2), 1e-12);
         EXPECT_EQ(met.normal, Vec2d(i == 0 ? -1 : 1, 0));
@@ -98,12 +98,12 @@ TEST(DiscreteCrowd, who_is_pushed_on_tells_whom_it_met_in_order_of_time) {
 TEST(DiscreteCrowd, two_pairs_far_apart_are_two_islands_and_a_chain_is_one) {
   const double near = 2 * half_width + 0.1;
   Together six = flying({{100, 0}, {0, 0}, {100 + near, 0}, {near, 0}, {50, 0}, {2 * near, 0}});
-  for (CharacterState<double>& state : six.states) state.velocity = {0.2, 0};
+  for (CharacterState& state : six.states) state.velocity = {0.2, 0};
   six.step();
   std::vector<CharacterIndex> islands;
-  for (const CrowdMember<double>& member : six.report.members) islands.push_back(member.island);
+  for (const CrowdMember& member : six.report.members) islands.push_back(member.island);
   EXPECT_EQ(islands, (std::vector<CharacterIndex>{0, 1, 0, 1, 4, 1}));
-  for (CharacterState<double>& state : six.states) state.velocity = {0, 0};
+  for (CharacterState& state : six.states) state.velocity = {0, 0};
   six.step();
   EXPECT_EQ(six.report.members[2].island, 2U) << "boxes that do not overlap: nobody is at risk";
 }

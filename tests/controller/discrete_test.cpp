@@ -16,14 +16,14 @@ using discrete::Pair;
 using discrete::PairList;
 using discrete::Reaches;
 
-constexpr double gap = Tolerances<double>{}.stop;
-constexpr double touch = Tolerances<double>{}.touch;
+constexpr double gap = Tolerances{}.stop;
+constexpr double touch = Tolerances{}.touch;
 constexpr std::string_view kind = "discrete";
 
 /// Bodies, and the outlines that they refer to.
 class Bodies {
  public:
-  using Body = discrete::Body<double>;
+  using Body = discrete::Body;
 
   Body& add(std::vector<Vec2d> outline, const Vec2d& position, const Vec2d& movement = {0, 0}) {
     outlines_.push_back(std::move(outline));
@@ -81,7 +81,7 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   for (const double y : {-2.5, -2.0, -1.5}) bodies.add_box({0, y}).inverse_mass = 0;
   bodies.add_box({0, 1}, {0, -3});
   for (BodyIndex i = 0; i < 3; ++i) ASSERT_TRUE(find_impact(bodies.all[3], bodies.all[i], touch));
-  discrete::Solver<double> solver{gap, touch};
+  discrete::Solver solver{gap, touch};
   ASSERT_TRUE(solver.solve_once(bodies.all));
   ASSERT_EQ(solver.solved().size(), 1U) << "after the first impact there is no other";
   EXPECT_EQ(solver.solved()[0].bodies.second, 2U);
@@ -91,10 +91,10 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
 }
 
 TEST(Discrete, begins_inside_and_comes_out_the_nearest_way_or_is_stuck) {
-  Rig<double> rig(kind, {rectangle(-5, -5, 5, 0)});
+  Rig rig(kind, {rectangle(-5, -5, 5, 0)});
   EXPECT_NEAR(rig.move({0, half_height - 0.125}, {0, 0}).position.y(), half_height + gap, 1e-12);
   EXPECT_EQ(rig.result.status, MoveStatus::moved);
-  Rig<double> narrow(kind, {rectangle(-5, -5, 0.1, 5), rectangle(-0.1, -5, 5, 5)});
+  Rig narrow(kind, {rectangle(-5, -5, 0.1, 5), rectangle(-0.1, -5, 5, 5)});
   EXPECT_EQ(narrow.move({0, 0}, {0, 0}).status, MoveStatus::stuck);
 }
 
@@ -107,7 +107,7 @@ std::vector<Pair> sorted(const auto& find) {
   return all;
 }
 
-std::vector<Pair> expect_both_alike(Reaches<double> reaches) {
+std::vector<Pair> expect_both_alike(Reaches reaches) {
   const std::vector<Pair> slow = sorted([&](PairList& pairs) { find_pairs_one_by_one(reaches, pairs); });
   EXPECT_EQ(sorted([&](PairList& pairs) { find_pairs_by_sweep(reaches, pairs); }), slow);
   return slow;
@@ -123,7 +123,7 @@ TEST(DiscretePairs, of_a_sweep_are_those_of_looking_at_all) {
     const Vec2d field{random.between(0.5, 12), random.between(0.5, 12)};
     const double share_that_moves = random.unit();
     const auto place = [&random](double most) { return std::floor(random.between(0, 4 * most)) / 4; };
-    Reaches<double> reaches;
+    Reaches reaches;
     const auto count = static_cast<BodyIndex>(random.below(60));
     for (BodyIndex i = 0; i < count; ++i) {
       const Vec2d lower{place(field.x()), place(field.y())};
@@ -139,8 +139,8 @@ TEST(DiscretePairs, of_a_sweep_are_those_of_looking_at_all) {
 }
 
 TEST(DiscretePairs, have_first_what_can_be_moved_and_the_lower_of_two_that_can) {
-  const Box2<double> here{{0, 0}, {1, 1}};
-  const Reaches<double> reaches{.movable = {{here, 3}, {here, 1}}, .fixed = {{here, 0}, {here, 2}}};
+  const Box2 here{{0, 0}, {1, 1}};
+  const Reaches reaches{.movable = {{here, 3}, {here, 1}}, .fixed = {{here, 0}, {here, 2}}};
   const std::vector<Pair> expected{{1, 0}, {1, 2}, {1, 3}, {3, 0}, {3, 2}};
   EXPECT_EQ(expect_both_alike(reaches), expected);
 }

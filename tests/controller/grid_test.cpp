@@ -15,7 +15,7 @@ namespace {
 using grid::Square;
 using grid::Squares;
 
-constexpr double tolerance = Tolerances<double>{}.touch;
+constexpr double tolerance = Tolerances{}.touch;
 
 /// A square of the side 1 as large as the character, so that its centre is the position.
 CharacterShape unit_square() { return CharacterShape(rectangle(-0.5, -0.5, 0.5, 0.5).points); }
@@ -23,20 +23,17 @@ CharacterShape unit_square() { return CharacterShape(rectangle(-0.5, -0.5, 0.5, 
 Vec2d centre_of(double column, double row) { return {column + 0.5, row + 0.5}; }
 
 /// Hands the remainder on, as the controller does.
-template <class Scalar>
-struct GridWalk : Rig<Scalar> {
+struct GridWalk : Rig {
   GridWalk(std::vector<ColliderDef> colliders, const Vec2d& start)
-      : Rig<Scalar>("grid", std::move(colliders), {}, unit_square()) {
-    this->result.position = start.cast<Scalar>();
-    this->request.dt = Scalar(1) / 64;
+      : Rig("grid", std::move(colliders), {}, unit_square()) {
+    this->result.position = start;
+    this->request.dt = 1.0 / 64;
   }
-  const MoveResult<Scalar>& move(const Vec2d& displacement) {
+  const MoveResult& move(const Vec2d& displacement) {
     this->request.technique_memory = this->result.technique_memory;
-    return Rig<Scalar>::move(this->result.position.template cast<double>(), displacement);
+    return Rig::move(this->result.position, displacement);
   }
-  [[nodiscard]] bool is_in(double column, double row) const {
-    return this->result.position == centre_of(column, row).template cast<Scalar>();
-  }
+  [[nodiscard]] bool is_in(double column, double row) const { return this->result.position == centre_of(column, row); }
 };
 
 TEST(Squares, are_solid_where_a_polygon_with_bays_and_holes_is_and_name_the_first_collider) {
@@ -78,47 +75,42 @@ TEST(Squares, are_refused_with_the_reason_where_scenery_is_not_made_of_them) {
   EXPECT_NE(refusal(rectangle(1e6, 1e6, 1e6 + 1, 1e6 + 1)), "") << "a million squares each way";
 }
 
-template <class Scalar>
-class GridMoves : public testing::Test {};
-using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(GridMoves, Scalars, );
-
-TYPED_TEST(GridMoves, end_exactly_in_the_next_square_once_half_of_it_was_wanted) {
-  GridWalk<TypeParam> walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
+TEST(GridMoves, end_exactly_in_the_next_square_once_half_of_it_was_wanted) {
+  GridWalk walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
   for (int step = 1; step <= 200; ++step) {
     walk.move({0.125, 0});
     const double column = std::floor(0.125 * step + 0.5);
     ASSERT_TRUE(walk.is_in(column, 0)) << "step " << step;
-    ASSERT_EQ(walk.result.technique_memory.x(), static_cast<TypeParam>(0.125 * step - column));
+    ASSERT_EQ(walk.result.technique_memory.x(), 0.125 * step - column);
   }
 }
 
-TYPED_TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
-  GridWalk<TypeParam> walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
+TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
+  GridWalk walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
   for (int step = 0; step < 11; ++step) walk.move({0.125, 0});
   ASSERT_TRUE(walk.is_in(1, 0));
-  ASSERT_EQ(walk.result.technique_memory.x(), TypeParam(0.375));
+  ASSERT_EQ(walk.result.technique_memory.x(), 0.375);
   // 6 m/s, 64 steps per second: 3/32 m per step, 4 steps.
   for (int step = 1; step <= 6; ++step) {
     walk.move({0, 0});
-    EXPECT_EQ(walk.result.technique_memory.x(), std::max(TypeParam(0), TypeParam(0.375) - TypeParam(step) * 3 / 32));
+    EXPECT_EQ(walk.result.technique_memory.x(), std::max(0.0, 0.375 - static_cast<double>(step) * 3 / 32));
     EXPECT_TRUE(walk.is_in(1, 0)) << "step " << step;
   }
   for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
   for (int step = 0; step < 2; ++step) walk.move({0, 0});
-  EXPECT_EQ(walk.result.technique_memory.x(), TypeParam(-0.3125 + 0.1875)) << "from the other side, too";
+  EXPECT_EQ(walk.result.technique_memory.x(), (-0.3125 + 0.1875)) << "from the other side, too";
 }
 
-TYPED_TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
-  GridWalk<TypeParam> walk({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 1)}, centre_of(0, 0));
-  const MoveResult<TypeParam>& result = walk.move({0.125, -0.25});
+TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
+  GridWalk walk({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 1)}, centre_of(0, 0));
+  const MoveResult& result = walk.move({0.125, -0.25});
   EXPECT_TRUE(walk.is_in(0, 0));
   EXPECT_TRUE(result.velocity.isZero(0));
   EXPECT_TRUE(result.technique_memory.isZero(0));
   EXPECT_TRUE(result.grounded);
-  const std::array<Contact<TypeParam>, 2> expected{
-      Contact<TypeParam>{.collider = 0, .point = {TypeParam(0.5), 0}, .normal = {0, 1}, .side = Side::bottom},
-      Contact<TypeParam>{.collider = 1, .point = {1, TypeParam(0.5)}, .normal = {-1, 0}, .side = Side::right}};
+  const std::array<Contact, 2> expected{
+      Contact{.collider = 0, .point = {0.5, 0}, .normal = {0, 1}, .side = Side::bottom},
+      Contact{.collider = 1, .point = {1, 0.5}, .normal = {-1, 0}, .side = Side::right}};
   ASSERT_EQ(result.contacts.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(result.contacts[i].collider, expected[i].collider);
@@ -130,7 +122,7 @@ TYPED_TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
   }
 }
 
-TYPED_TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
+TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
   Random random(31);
   std::vector<ColliderDef> tiles;
   std::set<std::pair<int, int>> solid;
@@ -143,7 +135,7 @@ TYPED_TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square
       solid.insert({column, row});
     }
   }
-  GridWalk<TypeParam> walk(tiles, centre_of(12, 12));
+  GridWalk walk(tiles, centre_of(12, 12));
   std::array<bool, 576> visited{};
   int moves = 0;
   int contacts = 0;
@@ -151,9 +143,9 @@ TYPED_TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square
   const std::size_t before_all = tests::allocations();
   for (int step = 0; step < 100'000; ++step) {
     if (step % 20 == 0) wanted = random.point(1.5);
-    const Vec2<TypeParam> before = walk.result.position;
+    const Vec2d before = walk.result.position;
     contacts += walk.move(wanted).contacts.empty() ? 0 : 1;
-    const TypeParam way = (walk.result.position - before).cwiseAbs().sum();
+    const double way = (walk.result.position - before).cwiseAbs().sum();
     ASSERT_TRUE(way == 0 || way == 1) << "seed 31, step " << step;
     const std::pair here{static_cast<int>(std::floor(walk.result.position.x())),
                          static_cast<int>(std::floor(walk.result.position.y()))};
@@ -171,14 +163,14 @@ TYPED_TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square
 TEST(Grid, puts_the_feet_on_the_edge_of_the_square_and_replays_from_a_copy_of_the_state) {
   // 20 by 40 px in squares of a metre: the head is in the square above, which is not looked at.
   const std::vector<ColliderDef> level{rectangle(-20, -1, 20, 0), rectangle(3, 1, 4, 2)};
-  stepping::Stepper<double> walker(level, {}, "grid");
+  stepping::Stepper walker(level, {}, "grid");
   walker.at(0.3, 0.7).steps(1);
   EXPECT_EQ(walker.state.position, Vec2d(0.5, half_height));
   EXPECT_TRUE(walker.state.grounded);
   walker.steps(60, {.move = 1});
   ASSERT_GT(walker.state.position.x(), 3) << "under the block, with the head in it, and beyond its left side";
   ASSERT_GT(std::abs(walker.state.technique_memory.x()), 0.01) << "else there is nothing to carry";
-  stepping::Stepper<double> copy(level, {}, "grid");
+  stepping::Stepper copy(level, {}, "grid");
   copy.state = walker.state;
   for (int step = 0; step < 100; ++step) {
     walker.step({.move = 1});
@@ -188,10 +180,10 @@ TEST(Grid, puts_the_feet_on_the_edge_of_the_square_and_replays_from_a_copy_of_th
 }
 
 TEST(Grid, begins_inside_and_stays_stuck_until_there_is_a_free_square) {
-  GridWalk<double> walk({rectangle(0, 0, 3, 3)}, centre_of(1, 1));
+  GridWalk walk({rectangle(0, 0, 3, 3)}, centre_of(1, 1));
   EXPECT_EQ(walk.move({0.75, 0}).status, MoveStatus::stuck);
   EXPECT_TRUE(walk.is_in(1, 1));
-  GridWalk<double> beside({rectangle(0, 0, 3, 3)}, centre_of(2, 1));
+  GridWalk beside({rectangle(0, 0, 3, 3)}, centre_of(2, 1));
   EXPECT_EQ(beside.move({0.75, 0}).status, MoveStatus::moved);
   EXPECT_TRUE(beside.is_in(3, 1));
 }

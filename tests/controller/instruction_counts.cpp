@@ -39,12 +39,12 @@ Input input_of_step(int step) { return {.move = step / 1000 % 2 == 0 ? 1.0 : -1.
 
 /// One step of each of some characters in turns, through one scratch. @return where they end.
 double steps(int count, int of_characters) {
-  const Scenery<double> scenery(level(1000));
-  const Controller<double> controller(scenery, CharacterDef{});
-  Scratch<double> scratch = controller.make_scratch();
-  std::vector<CharacterState<double>> states(static_cast<std::size_t>(of_characters));
+  const Scenery scenery(level(1000));
+  const Controller controller(scenery, CharacterDef{});
+  Scratch scratch = controller.make_scratch();
+  std::vector<CharacterState> states(static_cast<std::size_t>(of_characters));
   for (std::size_t i = 0; i < states.size(); ++i) states[i].position = {2.5 + 3 * static_cast<double>(i), 0.7};
-  StepReport<double> report;
+  StepReport report;
   for (int step = 0; step < count; ++step)
     controller.step(states[static_cast<std::size_t>(step) % states.size()], input_of_step(step / of_characters),
                     {{0, -30}, 1.0 / 60}, scratch, report);
@@ -52,8 +52,8 @@ double steps(int count, int of_characters) {
 }
 
 double set_up(int pieces) {
-  const Scenery<double> scenery(level(pieces));
-  const Controller<double> controller(scenery, CharacterDef{});
+  const Scenery scenery(level(pieces));
+  const Controller controller(scenery, CharacterDef{});
   return static_cast<double>(scenery.pieces().size());
 }
 

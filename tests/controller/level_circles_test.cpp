@@ -70,7 +70,7 @@ TEST(WheelThatTurns, about_another_point_pushes_no_faster_than_it_comes) {
   for (int i = 0; i < 600; ++i) {
     ride.step_by({0, 0}, -0.03, {.move = ride.state.position.x() > 1.5 ? -1.0 : 1.0});
     pushed += std::any_of(ride.report.move.contacts.begin(), ride.report.move.contacts.end(),
-                          [](const Contact<double>& contact) { return contact.collider == 0; });
+                          [](const Contact& contact) { return contact.collider == 0; });
     fastest = std::max(fastest, ride.state.velocity.norm());
   }
   EXPECT_GT(pushed, 5);

@@ -233,10 +233,10 @@ TEST(SensorsThatTurn, report_each_visit_and_are_known_at_the_end_of_each_step) {
       const Vec2d before = played.state.position;
       played.step(input);
       double last = 0;
-      for (const SensorEvent<double>& event : played.report.sensors) {
+      for (const SensorEvent& event : played.report.sensors) {
         ASSERT_GE(event.fraction, last);
         last = event.fraction;
-        const bool enters = event.change == SensorEvent<double>::Change::enter;
+        const bool enters = event.change == SensorEvent::Change::enter;
         ASSERT_TRUE(enters ? inside.insert(event.sensor).second : inside.erase(event.sensor) == 1);
         ++events;
         events_at_rest += before == played.state.position;
@@ -273,11 +273,11 @@ TEST(LevelTurning, a_wheel_that_does_not_carry_lets_its_belt_alone_carry) {
 TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   Played played({{box(-3, -0.1, 3, 0.1, 0)}}, {999'999, 0.8});
   played.state.velocity = {1e9, 0};
-  const CharacterState<double> before = played.state;
+  const CharacterState before = played.state;
   played.movers = {{{{999'999, 0}, 0}, {{999'999, 0}, 0.01}}};
   EXPECT_EQ(played.step(), StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
-  const MoveResult<double>& move = played.report.move;
+  const MoveResult& move = played.report.move;
   EXPECT_EQ(move.status, MoveStatus::out_of_range);
   ASSERT_GE(move.path.size(), 1U);
   EXPECT_EQ(move.path.back().position, before.position);
@@ -352,8 +352,8 @@ TEST(LevelTurning, a_step_depends_on_its_state_alone) {
       if (i % 20 == 0) input = random_input(random);
       played.movers = in_step(spins, i);
       const LevelContext context{played.gravity, frame, played.movers};
-      CharacterState<double> other = played.state;
-      StepReport<double> report;
+      CharacterState other = played.state;
+      StepReport report;
       LevelController(played.level, {}).step(other, input, context, report);
       static_cast<void>(played.controller.overlaps({random.between(-8, 8), 3}, context));
       played.step(input);
@@ -387,7 +387,7 @@ TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_grou
   Played played(tiles, {19'900.5, 0.7});
   played.steps(30);
   ASSERT_GT(played.state.ground.collider, 10'000U);
-  const CharacterState<double> before = played.state;
+  const CharacterState before = played.state;
   EXPECT_EQ(played.controller.move(played.state, {3e6, 0}, {played.gravity, frame}, played.report),
             StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
@@ -404,11 +404,11 @@ TEST(LocalControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
   LocalController controller({});
   const ColliderDef wall = box(-1, -1, 1, 1);
   const auto wait = [&](MoverIndex mover, const Vec2d& from) {
-    const auto find = [&](const Box2<double>&, std::vector<NearCollider>& found) {
+    const auto find = [&](const Box2&, std::vector<NearCollider>& found) {
       found.push_back({.id = 0, .version = 1, .def = &wall, .mover = mover, .motion = {{from}, {}}});
     };
-    CharacterState<double> state;
-    StepReport<double> report;
+    CharacterState state;
+    StepReport report;
     return controller.wait(state, {.dt = frame}, find, report);
   };
   EXPECT_EQ(wait(no_mover, {0, 0}), StepStatus::stuck);
@@ -421,13 +421,13 @@ TEST(LocalControllerStep, costs_the_same_beside_a_mover_that_is_unusable) {
   LocalController controller({});
   const ColliderDef floor = box(-5, -1, 5, 0);
   const ColliderDef nothing{.shape = ColliderDef::Shape::chain, .points = {{1, 1}, {1, 1}}};
-  const auto find = [&](const Box2<double>&, std::vector<NearCollider>& found) {
+  const auto find = [&](const Box2&, std::vector<NearCollider>& found) {
     found.push_back({.id = 0, .version = 1, .def = &floor, .mover = no_mover, .motion = {}});
     found.push_back({.id = 1, .version = 1, .def = &nothing, .mover = 0, .motion = {}});
   };
-  CharacterState<double> state;
+  CharacterState state;
   state.position = {0, 0.63};
-  StepReport<double> report;
+  StepReport report;
   const auto step = [&] { controller.step(state, {.move = 0.0}, {.gravity = {0, -20}, .dt = frame}, find, report); };
   for (int i = 0; i < 30; ++i) step();
   ASSERT_EQ(controller.unusable().size(), 1U);

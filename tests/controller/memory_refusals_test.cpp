@@ -15,7 +15,7 @@ using compare::box;
 
 /// Some techniques are for scenery that stands still.
 bool knows_movers(std::string_view kind) {
-  const auto make = [kind] { (void)Stepper<double>({box(0, 0, 1, 1, 0)}, {}, kind); };
+  const auto make = [kind] { (void)Stepper({box(0, 0, 1, 1, 0)}, {}, kind); };
   return test::refusal_by<NotExpressible>(make).empty();
 }
 
@@ -32,10 +32,9 @@ std::vector<ColliderDef> level(int tiles, std::string_view kind = "octagon_sweep
 }
 
 /// A step through the whole level, with what would be asked for in it.
-template <class Scalar>
-void expect_refused(Stepper<Scalar>& stepper, Scratch<Scalar>& scratch, const char* what) {
+void expect_refused(Stepper& stepper, Scratch& scratch, const char* what) {
   stepper.with_velocity(300, -20);
-  const CharacterState<Scalar> before = stepper.state;
+  const CharacterState before = stepper.state;
   const Input input{.move = 1.0, .jump = true, .drop = true};
   EXPECT_EQ(stepper.controller.step(stepper.state, input, {stepper.gravity, stepper.dt, stepper.movers}, scratch,
                                     stepper.report),
@@ -45,18 +44,17 @@ void expect_refused(Stepper<Scalar>& stepper, Scratch<Scalar>& scratch, const ch
   EXPECT_TRUE(same_bits(stepper.state, before)) << what;
 }
 
-template <class Scalar>
 void expect_only_its_own_is_taken(std::string_view kind) {
   SCOPED_TRACE(kind);
-  Stepper<Scalar> small(level(3, kind), {}, kind);
-  Stepper<Scalar> large(level(300, kind), {}, kind);
+  Stepper small(level(3, kind), {}, kind);
+  Stepper large(level(300, kind), {}, kind);
   large.at(250, 0.7).step();  // remembers candidates that the small level does not have
-  Scratch<Scalar> none;
+  Scratch none;
   small.at(-1, 1.5);
   expect_refused(small, none, "nobody's");
   expect_refused(small, large.scratch, "a larger level's");
   expect_refused(large, small.scratch, "a smaller level's");
-  Scratch<Scalar> taken = std::move(small.scratch);
+  Scratch taken = std::move(small.scratch);
   expect_refused(small, small.scratch, "moved from");
   small.scratch = std::move(taken);
   EXPECT_NE(small.step(), StepStatus::invalid_input) << "its own, moved";
@@ -64,22 +62,21 @@ void expect_only_its_own_is_taken(std::string_view kind) {
 
 TEST(ScratchMemory, of_anybody_else_is_refused_by_every_technique) {
   for (const std::string_view kind : technique_names()) {
-    expect_only_its_own_is_taken<double>(kind);
-    expect_only_its_own_is_taken<float>(kind);
+    expect_only_its_own_is_taken(kind);
   }
 }
 
 TEST(ScratchMemory, goes_along_with_its_controller_and_is_not_the_next_ones_in_the_same_place) {
-  const Scenery<double> large(SceneryDef{level(300)});
-  const Scenery<double> small(SceneryDef{level(3)});
-  const std::vector<MoverMotion<double>> movers(1);
-  std::optional<Controller<double>> controller;
-  StepReport<double> report;
+  const Scenery large(SceneryDef{level(300)});
+  const Scenery small(SceneryDef{level(3)});
+  const std::vector<MoverMotion> movers(1);
+  std::optional<Controller> controller;
+  StepReport report;
   for (int i = 0; i < 100; ++i) {
     controller.emplace(large, CharacterDef{});
-    Scratch<double> scratch = controller->make_scratch();
-    const Controller<double> moved = std::move(*controller);
-    CharacterState<double> state;
+    Scratch scratch = controller->make_scratch();
+    const Controller moved = std::move(*controller);
+    CharacterState state;
     state.position = {250, 0.7};
     ASSERT_EQ(moved.step(state, {}, {{0, -10}, 1.0 / 60, movers}, scratch, report), StepStatus::moved);
     controller.emplace(small, CharacterDef{});
@@ -90,11 +87,11 @@ TEST(ScratchMemory, goes_along_with_its_controller_and_is_not_the_next_ones_in_t
 TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const double range = Tolerances<double>{}.range;
+  const double range = Tolerances{}.range;
   const double beyond = std::nextafter(range, infinity);
   struct Bad {
     const char* what;
-    MoverMotion<double> motion;
+    MoverMotion motion;
     double dt = 0.1;
   };
   const std::vector<Bad> all_bad{{"not a number", {{nan, 0}, {0, 0}}},
@@ -108,7 +105,7 @@ TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique) {
   for (const std::string_view kind : technique_names()) {
     if (!knows_movers(kind)) continue;
     SCOPED_TRACE(kind);
-    Stepper<double> stepper(colliders, {}, kind);
+    Stepper stepper(colliders, {}, kind);
     stepper.at(0, 1);
     for (const auto& [what, motion, dt] : all_bad) {
       stepper.movers = {motion};
@@ -116,7 +113,7 @@ TEST(Movers, that_no_step_can_begin_with_are_refused_by_every_technique) {
       expect_refused(stepper, stepper.scratch, what);
     }
   }
-  Stepper<double> far(colliders);
+  Stepper far(colliders);
   far.movers = {{{-range, range}, {range, range}}};
   EXPECT_EQ(far.at(0, 1).step(), StepStatus::moved) << "as far away as a character may be";
 }

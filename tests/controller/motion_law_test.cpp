@@ -18,7 +18,7 @@ namespace {
 using test::Random;
 
 /// One character among scenery that stands still.
-struct Player : Stepper<double> {
+struct Player : Stepper {
   Player(const SceneryDef& def, const CharacterDef& character) : Stepper(def.colliders, character) {
     gravity = {0, -30};
   }
@@ -29,9 +29,9 @@ struct Player : Stepper<double> {
   }
   /// The last step met ground that is walked on.
   [[nodiscard]] bool landed() const {
-    const double least_up = sweep().character().walkable_cosine<double>();
+    const double least_up = sweep().character().walkable_cosine();
     return state.grounded || std::any_of(report.move.contacts.begin(), report.move.contacts.end(),
-                                         [&](const Contact<double>& met) { return met.normal.y() >= least_up; });
+                                         [&](const Contact& met) { return met.normal.y() >= least_up; });
   }
 };
 
@@ -54,7 +54,7 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
       player.play(move, std::max(dt, 1 / 240.0), random.chance(0.02));
       if (player.state.grounded || player.report.move.contacts.empty()) continue;
       ++states;
-      const CharacterState<double> touching = player.state;
+      const CharacterState touching = player.state;
       player.play(std::nullopt, dt);
       const double fall = player.state.position.y() - touching.position.y();
       const bool falls = player.report.requested.y() < 0;
@@ -70,7 +70,7 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
       if (landed || !falls || fall >= 0) continue;
       ++falling;
       // To the order of dt: what steering changes on the way to a surface, and the gap that is kept there.
-      const double allowed = 0.5 * std::abs(fall) + 2 * Tolerances<double>{}.touch;
+      const double allowed = 0.5 * std::abs(fall) + 2 * Tolerances{}.touch;
       ASSERT_LE(highest - fall, allowed) << test::name_of(level) << ", seed " << seed << ", step " << i
                                          << ": without a key " << fall << " m, with one " << highest << " m";
     }

@@ -14,9 +14,9 @@
 namespace paperproof::test {
 namespace {
 
-using Event = SensorEvent<double>;
-using Path = std::vector<PathPoint<double>>;
-using Motions = std::vector<MoverMotion<double>>;
+using Event = SensorEvent;
+using Path = std::vector<PathPoint>;
+using Motions = std::vector<MoverMotion>;
 
 constexpr double extent = 8;  ///< Of the sceneries [m].
 
@@ -40,7 +40,7 @@ void move_some(Random& random, SceneryDef& def) {
 
 Motions random_motions(Random& random) {
   Motions motions(3);
-  for (MoverMotion<double>& motion : motions) {
+  for (MoverMotion& motion : motions) {
     motion.from = on_lattice(random.point(2));
     motion.to = random.index(3) == 0 ? motion.from : on_lattice(random.point(2));
   }
@@ -66,9 +66,9 @@ Path random_path(Random& random, const Vec2d& from) {
   return path;
 }
 
-using Seen = Sensors<double>::Events;
+using Seen = Sensors::Events;
 
-Seen seen_by(const Sensors<double>& sensors, const Path& path, const Motions& motions, Candidates<double>& candidates) {
+Seen seen_by(const Sensors& sensors, const Path& path, const Motions& motions, Candidates& candidates) {
   Seen events;
   sensors.observe(path, motions, candidates, events);
   return events;
@@ -82,9 +82,9 @@ std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, cons
     MoverIndex& mover = alone.colliders[0].mover;
     const Motions motion = mover == no_mover ? Motions{} : Motions{motions[mover]};
     if (mover != no_mover) mover = 0;
-    const Scenery<double> scenery(alone);
-    const Sensors<double> watch(scenery, CharacterShape::article());
-    Candidates<double> fresh = watch.make_candidates();
+    const Scenery scenery(alone);
+    const Sensors watch(scenery, CharacterShape::article());
+    Candidates fresh = watch.make_candidates();
     for (const Event& event : seen_by(watch, path, motion, fresh)) all.push_back({i, event.change, event.fraction});
   }
   std::ranges::stable_sort(all, {}, &Event::fraction);
@@ -120,20 +120,20 @@ TEST(SensorsNearby, are_those_of_a_look_at_each_alone) {
   for (unsigned seed = 0; seed < static_cast<unsigned>(sceneries); ++seed) {
     Random random(seed);
     const SceneryDef def = random_sensors(random);
-    std::optional<Scenery<double>> scenery;
+    std::optional<Scenery> scenery;
     try {
       scenery.emplace(def);
     } catch (const InvalidScenery&) {
       continue;  // a star that touches itself
     }
-    const Sensors<double> watch(*scenery, CharacterShape::article());
-    Candidates<double> candidates = watch.make_candidates();
+    const Sensors watch(*scenery, CharacterShape::article());
+    Candidates candidates = watch.make_candidates();
     Vec2d at = random_place(random);
     for (int step = 0; step < 6; ++step) {
       const Path path = random_path(random, at);
       const Motions motions = random_motions(random);
       at = path.back().position;
-      quiet += candidates.quiet.contains(PieceFinder<double>::positions_seen(path, {}));
+      quiet += candidates.quiet.contains(PieceFinder::positions_seen(path, {}));
       const Seen events = seen_by(watch, path, motions, candidates);
       std::vector<Event> all = seen_one_by_one(def, path, motions);
       ASSERT_EQ(events.overflowed(), all.size() > Seen::capacity()) << "seed " << seed << ", step " << step;

@@ -10,14 +10,14 @@
 namespace paperproof::stepping {
 namespace {
 
-constexpr Tolerances<double> tolerances{};
+constexpr Tolerances tolerances{};
 
 TEST(Wedge, of_two_movers_ends_a_fall_and_is_not_climbed) {
   for (const double side : {1.0, -1.0}) {
     // It falls onto the steeper one, and what it slides with points up the other.
     const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}}, 0);
     const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}}, 1);
-    Stepper<double> fallen({flatter, steeper}, {.max_climb_degrees = 20});  // both are steep
+    Stepper fallen({flatter, steeper}, {.max_climb_degrees = 20});  // both are steep
     fallen.movers = {{{0, 0}, {-8e-4 * side, 0}}, {{0, 0}, {0, -9e-4}}};
     fallen.at(0.3 * side, 2).with_velocity(0, -300);
     fallen.step();
@@ -33,7 +33,7 @@ TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the
   // of the lower one with the normal n = (2, 1) / sqrt(5): that is (2 x + y - 3 m - 30 px) / sqrt(5) away from the
   // lower tile's corner at (1, 1). Its top is 0.1 m below the feet.
   const double slack = 0.4;  // of 2 x + y
-  Stepper<double> character({compare::box(0, 0, 1, 1, 0), compare::box(1, 1, 2, 2, 0)});
+  Stepper character({compare::box(0, 0, 1, 1, 0), compare::box(1, 1, 2, 2, 0)});
   const double y = 1 + half_height + 0.1;
   character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
   character.state.crushers.push_back({.collider = 1, .has_side = false});
@@ -68,7 +68,7 @@ struct Corner {
   /// Two seconds of a walker, and a jump in the last step.
   /// @returns where it is and how fast, relative to the body, and in how many steps of the last second it stood.
   [[nodiscard]] std::tuple<Vec2d, Vec2d, int> play(const CharacterDef& character, double move) const {
-    Stepper<double> walker(colliders(), character);
+    Stepper walker(colliders(), character);
     walker.at(-0.8, half_height + 0.8).with_velocity(velocity.x(), velocity.y());
     int stood = 0;
     for (int step = 0; step < 120; ++step) {

@@ -1,5 +1,5 @@
 /// octagon_sweep over a million steps, an hour, and a thousand kilometres: what must not change does not.
-#include "controller/stepping.hpp"
+#include "controller/stepping_in_float.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,8 @@ const int a_million = test::sampled(1'000'000);
 const int an_hour = test::sampled(216'000);
 
 /// Steps until position and velocity repeat, then a given number of steps more, on which nothing may change.
-template <class Scalar>
-void expect_rest(Stepper<Scalar>& stepper, const Input& input, int steps) {
-  CharacterState<Scalar> before;
+void expect_rest(Stepper& stepper, const Input& input, int steps) {
+  CharacterState before;
   int settling = 0;
   do {
     before = stepper.state;
@@ -36,20 +35,20 @@ void expect_rest(Stepper<Scalar>& stepper, const Input& input, int steps) {
 }
 
 TEST(Rest, on_flat_ground_changes_no_bit_in_a_million_steps) {
-  Stepper<double> stepper({rectangle(-4, -1, 4, 0)});
+  Stepper stepper({rectangle(-4, -1, 4, 0)});
   expect_rest(stepper.at(0.3, half_height + 0.25), {}, a_million);
 }
 
 TEST(Rest, a_thousand_kilometres_away_changes_no_bit_in_a_million_steps) {
   const double far = 1e6 - 8;
-  Stepper<double> stepper({rectangle(far - 4, far - 1, far + 4, far)});
+  Stepper stepper({rectangle(far - 4, far - 1, far + 4, far)});
   expect_rest(stepper.at(far + 0.3, far + half_height + 0.25), {}, a_million);
 }
 
 TEST(Rest, in_float_changes_no_bit_either) {
-  Stepper<float> flat({rectangle(-4, -1, 4, 0)});
+  Stepper flat = in_float({rectangle(-4, -1, 4, 0)});
   expect_rest(flat.at(0.3, half_height + 0.25), {}, 100'000);
-  Stepper<float> one_way({chain({{-4, 0}, {4, 0}}, Vec2d{0, 1})});
+  Stepper one_way = in_float({chain({{-4, 0}, {4, 0}}, Vec2d{0, 1})});
   expect_rest(one_way.at(0.3, half_height + 0.25), {}, 100'000);
 }
 
@@ -61,7 +60,7 @@ std::vector<Vec2d> journey(double origin) {
   std::vector<ColliderDef> colliders;
   for (int i = 0; i < 14; ++i) colliders.push_back(rectangle(origin + i - 1, origin - 1, origin + i, origin));
   colliders.push_back(rectangle(origin + 12, origin, origin + 13, origin + 12));
-  Stepper<double> walker(colliders);
+  Stepper walker(colliders);
   walker.dt = 1.0 / 64;
   walker.at(origin + 0.5, origin + half_height + px);
   std::vector<Vec2d> positions;
@@ -99,9 +98,9 @@ class Lift : public ::testing::TestWithParam<Vec2d> {};
 TEST_P(Lift, carries_for_an_hour_without_a_step_of_difference) {
   ColliderDef lift = rectangle(-1.5, -0.25, 1.5, 0);
   lift.mover = 0;
-  Stepper<double> rider({lift});
+  Stepper rider({lift});
   rider.gravity = {0, -30};
-  rider.at(0.1, half_height + Tolerances<double>{}.stop).step();
+  rider.at(0.1, half_height + Tolerances{}.stop).step();
   const Vec2d start = rider.state.position;
   double furthest_off_in_ulps = 0;
   for (int step = 1; step <= an_hour; ++step) {
@@ -132,16 +131,16 @@ TEST_P(Belt, carries_for_an_hour_without_a_toggle) {
     if (GetParam() != 0) tile.mover = 0;
     tiles.push_back(tile);
   }
-  Stepper<double> rider(tiles);
+  Stepper rider(tiles);
   rider.gravity = {0, -30};
-  rider.at(0, half_height + Tolerances<double>{}.stop).step();
+  rider.at(0, half_height + Tolerances{}.stop).step();
   const Vec2d start = rider.state.position;
   int toggles = 0;
   double furthest_off = 0;
   for (int step = 1; step <= an_hour; ++step) {
-    for (MoverMotion<double>& lift : rider.movers) lift = {lift.to, ping_pong({0, GetParam()}, step)};
+    for (MoverMotion& lift : rider.movers) lift = {lift.to, ping_pong({0, GetParam()}, step)};
     rider.step();
-    toggles += !rider.state.grounded || rider.state.ride.ground == Ride<double>::none;
+    toggles += !rider.state.grounded || rider.state.ride.ground == Ride::none;
     const Vec2d lift = rider.movers.empty() ? Vec2d(0, 0) : rider.movers[0].to;
     furthest_off = std::max(furthest_off, (rider.state.position - lift - start - Vec2d(step / 30.0, 0)).norm());
   }

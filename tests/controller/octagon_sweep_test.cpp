@@ -1,6 +1,6 @@
 /// octagon_sweep: what no situation of tests/situations can say. In `float`, with few iterations, what its report calls
 /// the ground, what bits a scale keeps, and starts inside a solid.
-#include "controller/stepping.hpp"
+#include "controller/stepping_in_float.hpp"
 #include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@ namespace paperproof::stepping {
 namespace {
 
 TEST(Float, meets_the_scenes_within_its_own_tolerances) {
-  Stepper<float> bullet({rectangle(-100 * px, -5 * px, 100 * px, 0)}, of_shape(single_pixel()));
-  const MoveResult<float>& move = bullet.at(0, 30.5 * px).fly(0, -50 * px);
+  Stepper bullet = in_float({rectangle(-100 * px, -5 * px, 100 * px, 0)}, of_shape(single_pixel()));
+  const MoveResult& move = bullet.at(0, 30.5 * px).fly(0, -50 * px);
   ASSERT_EQ(move.contacts.size(), 1U);
-  EXPECT_NEAR(move.contacts[0].fraction, 0.6F, 4 * std::numeric_limits<float>::epsilon());
-  EXPECT_GT(move.position.y(), 0.5F * px);
-  EXPECT_LE(move.position.y(), 0.5F * px + Tolerances<float>{}.touch);
+  EXPECT_NEAR(move.contacts[0].fraction, 0.6, 4 * std::numeric_limits<float>::epsilon());
+  EXPECT_GT(move.position.y(), 0.5 * px);
+  EXPECT_LE(move.position.y(), 0.5 * px + tolerances_in_float.touch);
 
   int met = 0;
   for (int tenths = 0; tenths <= 900; ++tenths) {
@@ -27,20 +27,20 @@ TEST(Float, meets_the_scenes_within_its_own_tolerances) {
       return Vec2d{along_normal * n.x() - along_wall * n.y(), along_normal * n.y() + along_wall * n.x()};
     };
     const double face = std::max(n.dot(Vec2d{10, 10}), n.dot(Vec2d{5, 20})) * px + 1.5;
-    Stepper<float> flyer({polygon({at(face, -9), at(face + 0.01, -9), at(face + 0.01, 9), at(face, 9)})});
-    const MoveResult<float>& into = flyer.at(0, 0).fly(n.x() * 3, n.y() * 3);
+    Stepper flyer = in_float({polygon({at(face, -9), at(face + 0.01, -9), at(face + 0.01, 9), at(face, 9)})});
+    const MoveResult& into = flyer.at(0, 0).fly(n.x() * 3, n.y() * 3);
     if (into.contacts.empty()) continue;
     ++met;
     // Vertices up to 9.3 m away are rounded by half of 2^-20 m, which the face turns into as much; then a few ulp.
     EXPECT_NEAR(into.contacts[0].fraction, 0.5, 4e-6 / 3) << tenths;
-    EXPECT_LT(into.position.cast<double>().dot(n), 1.5) << tenths;
+    EXPECT_LT(into.position.dot(n), 1.5) << tenths;
   }
   EXPECT_EQ(met, 901) << "of 901 walls in float";
 }
 
 TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
   for (const int iterations : {1, 2, 3}) {
-    Stepper<double> faller({rectangle(-4, -1, 4, 0)}, {}, {.sweep_iterations = iterations});
+    Stepper faller({rectangle(-4, -1, 4, 0)}, {}, {.sweep_iterations = iterations});
     faller.gravity = {0, -30};
     faller.at(0, 2).steps(200);
     EXPECT_EQ(faller.state.velocity.y(), 0) << iterations;
@@ -50,7 +50,7 @@ TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
 
 /// Two floors, and a step down to a third one.
 TEST(Ground, names_the_collider_that_is_stood_on) {
-  Stepper<double> walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, {.snap = 0.5});
+  Stepper walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, {.snap = 0.5});
   walker.at(-1, half_height + 0.01).steps(20);
   std::vector<ColliderIndex> grounds;
   for (int step = 0; step < 50; ++step) {
@@ -67,7 +67,7 @@ TEST(Ground, names_the_collider_that_is_stood_on) {
 TEST(Ground, is_air_walkable_or_steep) {
   // A slope of 60 degrees that ends on a floor.
   const double rise = 4 * std::tan(60 * degree);
-  Stepper<double> faller({rectangle(-1, -1, 20, 0), rectangle(-1, 0, 0, rise), polygon({{0, rise}, {0, 0}, {4, 0}})});
+  Stepper faller({rectangle(-1, -1, 20, 0), rectangle(-1, 0, 0, rise), polygon({{0, rise}, {0, 0}, {4, 0}})});
   faller.gravity = {0, -30};
   faller.at(2, rise).step();
   EXPECT_EQ(faller.report.move.ground.state, GroundState::air);
@@ -86,7 +86,7 @@ TEST(Ground, is_air_walkable_or_steep) {
 }
 
 TEST(Ground, is_a_wedge_between_two_steep_faces) {
-  Stepper<double> faller({polygon({{0, 0}, {2, 5}, {3, 5}, {3, -1}, {-3, -1}, {-3, 5}, {-2, 5}})});
+  Stepper faller({polygon({{0, 0}, {2, 5}, {3, 5}, {3, -1}, {-3, -1}, {-3, 5}, {-2, 5}})});
   faller.at(0.01, 3).steps(240);
   EXPECT_TRUE(faller.state.grounded);
   EXPECT_EQ(faller.report.move.ground.state, GroundState::wedge);
@@ -99,8 +99,8 @@ double fraction_at(double scale) {
   const CharacterShape article = CharacterShape::article();
   for (const Vec2d& point : article.points()) points.push_back(point * scale);
   const auto at = [scale](double x, double y) { return Vec2d{x * scale, y * scale}; };
-  Stepper<double> flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, of_shape(CharacterShape(points)));
-  const MoveResult<double>& move = flyer.at(0.3 * scale, 0.2 * scale).fly(7.7 * scale, -1.3 * scale);
+  Stepper flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, of_shape(CharacterShape(points)));
+  const MoveResult& move = flyer.at(0.3 * scale, 0.2 * scale).fly(7.7 * scale, -1.3 * scale);
   EXPECT_FALSE(move.contacts.empty()) << scale;
   return move.contacts.empty() ? -1 : move.contacts[0].fraction;
 }
@@ -119,7 +119,7 @@ TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
   std::vector<ColliderDef> colliders;
   for (int k = 0; k < 300; ++k)
     colliders.push_back(rectangle(-1 - k * 0.01, -1 - k * 0.01, 1 + k * 0.01, 1 + k * 0.01));
-  Stepper<double> stepper(colliders);
+  Stepper stepper(colliders);
   stepper.gravity = {0, 0};
   stepper.at(0.1, 0.3);
   const std::size_t before = tests::allocations();
@@ -129,8 +129,8 @@ TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
 }
 
 TEST(StartInside, without_a_way_out_counts_the_steps_as_far_as_a_byte_goes) {
-  Stepper<double> stepper({rectangle(-2, -2, 2, 2), rectangle(-3, -3, -2.5, 3), rectangle(2.5, -3, 3, 3),
-                           rectangle(-2.5, -3, 2.5, -2.5), rectangle(-2.5, 2.5, 2.5, 3)});
+  Stepper stepper({rectangle(-2, -2, 2, 2), rectangle(-3, -3, -2.5, 3), rectangle(2.5, -3, 3, 3),
+                   rectangle(-2.5, -3, 2.5, -2.5), rectangle(-2.5, 2.5, 2.5, 3)});
   stepper.at(0.5, 1);
   for (int n = 1; n <= 300; ++n) {
     ASSERT_EQ(stepper.step({.move = 1}), StepStatus::stuck);

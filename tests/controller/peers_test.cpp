@@ -13,7 +13,7 @@
 namespace paperproof::stepping {
 namespace {
 
-constexpr double stop = Tolerances<double>{}.stop;
+constexpr double stop = Tolerances{}.stop;
 constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
 
 CharacterDef box_character() {
@@ -24,7 +24,7 @@ CharacterDef box_character() {
 
 /// How high a character jumps beside the corner of a ceiling that catches so much of its width [m].
 double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
-  Stepper<double> jumper({rectangle(-9, -1, 9, 0), rectangle(-3, 2, 0, 3)}, character);
+  Stepper jumper({rectangle(-9, -1, 9, 0), rectangle(-3, 2, 0, 3)}, character);
   jumper.gravity = {0, -30};
   jumper.at(half_width - caught, half_height + stop).steps(2);
   double highest = 0;
@@ -37,12 +37,12 @@ double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
 
 TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {
   const auto with = [](ColliderIndex collider, double fraction) {
-    return Contact<double>{.collider = collider, .fraction = fraction};
+    return Contact{.collider = collider, .fraction = fraction};
   };
-  const std::vector<Contact<double>> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
-  const std::vector<Contact<double>> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
+  const std::vector<Contact> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
+  const std::vector<Contact> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
   std::vector<std::tuple<ContactChange, ColliderIndex, double>> changes;
-  for_each_change<double>(before, now, [&](ContactChange change, const Contact<double>& contact) {
+  for_each_change(before, now, [&](ContactChange change, const Contact& contact) {
     changes.emplace_back(change, contact.collider, contact.fraction);
   });
   using enum ContactChange;
@@ -64,7 +64,7 @@ TEST(PeersFeature, corner_correction_by_a_slanted_head) {
 TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
   for (const double speed : {-60.0, -12.0, -1.0, 1.0, 12.0, 60.0, 400.0}) {
     for (const double rate : {30.0, 60.0, 240.0}) {
-      Stepper<double> faller({compare::box(-3, -0.01, 3, 0, 0)});
+      Stepper faller({compare::box(-3, -0.01, 3, 0, 0)});
       faller.dt = 1 / rate;
       faller.gravity = {0, -30};
       faller.at(0, 3).with_velocity(0, -20);
@@ -84,7 +84,7 @@ TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #8747
     tiles.push_back(rectangle(-9, i, -8, i + 1));
   }
   for (int i = -8; i < 1; ++i) tiles.push_back(rectangle(i, 10, i + 1, 11));
-  Stepper<double> faller(tiles);
+  Stepper faller(tiles);
   faller.at(0, 8).with_velocity(6, 0);
   for (int n = 1; n <= 120; ++n) {
     faller.step({.move = 1});
@@ -95,7 +95,7 @@ TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #8747
   for (int n = 0; n < 60; ++n) {
     faller.state.velocity.y() = 5;
     faller.step({.move = 1});
-    const auto is_on_top = [](const Contact<double>& contact) { return contact.side == Side::top; };
+    const auto is_on_top = [](const Contact& contact) { return contact.side == Side::top; };
     ASSERT_TRUE(std::ranges::any_of(faller.report.move.contacts, is_on_top)) << n;
     ASSERT_EQ(faller.state.velocity, Vec2d(6, 0)) << "at the ceiling, step " << n;
   }
@@ -105,12 +105,12 @@ TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #429
   // Ledges, 0.3 m apart: the character spans several.
   std::vector<ColliderDef> ledges{rectangle(-9, -1, 9, 0)};
   for (int i = 1; i <= 20; ++i) ledges.push_back(chain({{-9, 0.3 * i}, {9, 0.3 * i}}, Vec2d{0, 1}));
-  Stepper<double> jumper(ledges);
+  Stepper jumper(ledges);
   jumper.gravity = {0, -30};
   jumper.at(0, half_height + stop).steps(2);
   int jumps = 0;
   for (int n = 0; n < 240; ++n) {
-    const CharacterState<double> before = jumper.state;
+    const CharacterState before = jumper.state;
     jumper.step({.move = 0.2, .jump = before.grounded});
     const double speed = jumper.report.requested.y() / jumper.dt;
     const double rise = jumper.state.position.y() - before.position.y();
@@ -126,7 +126,7 @@ TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
   // A lift that goes 4 m/s up, then 4 m/s down, at once. The jump is pressed at any time around that.
   for (const double first : {4.0, -4.0}) {
     for (int pressed = 0; pressed < 20; ++pressed) {
-      Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, {.snap = 0.2});
+      Stepper rider({compare::box(-3, -1, 3, 0, 0)}, {.snap = 0.2});
       rider.gravity = {0, -30};
       rider.at(0, half_height + stop).step();
       double speed = 0;
@@ -143,11 +143,11 @@ TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
 }
 
 TEST(PeersComplaint, climbs_corners) {  // box2d #1032: a capsule does, users want a box
-  Stepper<double> walker({rectangle(-9, -1, 9, 0), rectangle(1, 0, 9, 0.002)}, box_character());
+  Stepper walker({rectangle(-9, -1, 9, 0), rectangle(1, 0, 9, 0.002)}, box_character());
   walker.at(0, half_height + stop).steps(60, {.move = 1});
   EXPECT_NEAR(walker.state.position.x(), 1 - half_width, touch) << "a kerb of 2 mm is a wall";
   EXPECT_NEAR(walker.state.position.y(), half_height, touch);
-  Stepper<double> on_the_brink({rectangle(-9, -1, 0, 0)}, box_character());
+  Stepper on_the_brink({rectangle(-9, -1, 0, 0)}, box_character());
   const Vec2d brink{half_width - 0.001, half_height + stop};
   on_the_brink.at(brink.x(), brink.y()).steps(600, {.move = 0});
   EXPECT_EQ(on_the_brink.state.position, brink) << "it stands on a millimetre";
@@ -156,14 +156,14 @@ TEST(PeersComplaint, climbs_corners) {  // box2d #1032: a capsule does, users wa
 // ----------------------------------------------------------------------------------------------------- situations
 
 TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
-  Stepper<double> idle({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 4)});
+  Stepper idle({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 4)});
   idle.at(0, half_height + stop).steps(60, {.move = 1});
   ASSERT_TRUE(idle.state.wall_right);
   idle.steps(60, {.move = 0});
   EXPECT_FALSE(idle.state.wall_right) << "nothing was wanted to the right";
-  std::array<Contact<double>, 4> found;
+  std::array<Contact, 4> found;
   const std::size_t count = idle.sweep().contacts_at(idle.state.position, touch, {.dt = idle.dt}, idle.scratch, found);
-  EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact<double>::side), 0);
+  EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact::side), 0);
 }
 
 }  // namespace

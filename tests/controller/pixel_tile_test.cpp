@@ -14,7 +14,7 @@ namespace paperproof::article_tests {
 namespace {
 
 TEST(PixelTileSlope, takes_nobody_down_who_jumps) {
-  Rig<double> rig("pixel_tile", {{.points = {{-20, -1}, {22, -1}, {22, 2}, {2, 2}, {0, 0}, {-20, 0}}}});
+  Rig rig("pixel_tile", {{.points = {{-20, -1}, {22, -1}, {22, 2}, {2, 2}, {0, 0}, {-20, 0}}}});
   const Vec2d start = rig.move({1, 4}, {0, -4}).position;
   EXPECT_NEAR(start.y() - half_height, 1 + 4.5 * px, px) << "the front foot, 4 px further on, stands";
   const Vec2d displacement{-5 * px, px / 4};

@@ -28,8 +28,8 @@ struct Played {
 
   Level level;
   LevelController controller{level, {}};
-  CharacterState<double> state;
-  StepReport<double> report;
+  CharacterState state;
+  StepReport report;
   Vec2d gravity{0, -30};
   std::vector<PoseMotion> movers{level.mover_count()};  ///< How they go in the next step.
 };

@@ -132,7 +132,7 @@ TEST(Rasteriser, draws_neither_sensors_nor_what_moves) {
 TEST(Rasteriser, says_why_it_cannot_draw_something) {
   for (const std::string_view kind : {"mask", "pixel_colour", "pixel_tile"}) {
     const auto reason = [&](const ColliderDef& collider) {
-      return refusal_by<NotExpressible>([&] { Rig<double>(kind, {collider}); });
+      return refusal_by<NotExpressible>([&] { Rig(kind, {collider}); });
     };
     EXPECT_NE(reason(chain({{-1, 0}, {1, 0}}, Vec2d{0, 1})).find("one-way"), std::string::npos);
     const std::string too_large = reason({.points = {{-1e6, 0}, {1e6, 0}, {0, 1e6}}});
@@ -200,7 +200,7 @@ TEST(Sprite, has_the_outermost_pixel_of_each_row_and_column_on_its_edges) {
 TEST(Mask, refuses_a_picture_that_is_not_as_large_as_the_character) {
   TechniqueDef too_low{.name = "mask"};
   too_low.sprite.assign(39, std::string(20, '#'));
-  EXPECT_THROW(Rig<double>(too_low, {rectangle(0, 0, 1, 1)}), std::invalid_argument);
+  EXPECT_THROW(Rig(too_low, {rectangle(0, 0, 1, 1)}), std::invalid_argument);
 }
 
 }  // namespace

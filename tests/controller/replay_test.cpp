@@ -21,32 +21,29 @@ constexpr std::uint64_t seed = 20;
 constexpr std::size_t steps = 240;
 
 /// A random level and a character in it, which is thrown now and then.
-template <class Scalar>
 struct Walk {
   test::Random random{seed};
-  Scenery<Scalar> scenery;
-  TechniqueController<Scalar> controller;
+  Scenery scenery;
+  TechniqueController controller;
 
   Walk(Terrain family, std::string_view kind)
       : scenery(test::random_terrain(family, random, {0, 0})),
         controller(make_controller(scenery, CharacterDef{}, {.name = kind})) {}
 
-  void take(std::size_t step, CharacterState<Scalar>& state, Scratch<Scalar>& scratch,
-            StepReport<Scalar>& report) const {
+  void take(std::size_t step, CharacterState& state, Scratch& scratch, StepReport& report) const {
     test::Random keys(step / 10);
-    if (step % 60 == 30) state.velocity = keys.point(300).template cast<Scalar>();
+    if (step % 60 == 30) state.velocity = keys.point(300);
     // What fell out of the level comes in again.
     if (state.position.cwiseAbs().maxCoeff() > 12) state.position = {0, 3};
     const Input input{.move = keys.integer(-1, 1), .jump = keys.chance(0.5)};
-    controller.step(state, input, {{0, -30}, Scalar(1) / 60}, scratch, report);
+    controller.step(state, input, {{0, -30}, 1.0 / 60}, scratch, report);
   }
 
   /// @return whether the steps after this one come to the same states from a copy of its state.
-  [[nodiscard]] bool goes_on(std::size_t after, const std::vector<CharacterState<Scalar>>& all,
-                             bool fresh_scratch) const {
-    CharacterState<Scalar> state = all[after];
-    Scratch<Scalar> scratch = controller.make_scratch();
-    StepReport<Scalar> report;
+  [[nodiscard]] bool goes_on(std::size_t after, const std::vector<CharacterState>& all, bool fresh_scratch) const {
+    CharacterState state = all[after];
+    Scratch scratch = controller.make_scratch();
+    StepReport report;
     for (std::size_t i = after + 1; i < all.size(); ++i) {
       if (fresh_scratch) scratch = controller.make_scratch();
       take(i, state, scratch, report);
@@ -57,20 +54,19 @@ struct Walk {
 };
 
 /// @return steps with contact; nothing where the technique does not express the level.
-template <class Scalar>
 std::optional<int> expect_replays(Terrain family, std::string_view kind) {
-  std::optional<Walk<Scalar>> walk;
+  std::optional<Walk> walk;
   try {
     walk.emplace(family, kind);
   } catch (const NotExpressible&) {  // a picture and a one-way chain, for example
     return {};
   }
   SCOPED_TRACE(testing::Message() << test::name_of(family) << ", " << kind << ", seed " << seed);
-  std::vector<CharacterState<Scalar>> all(steps);
-  CharacterState<Scalar> state;
+  std::vector<CharacterState> all(steps);
+  CharacterState state;
   state.position = {0, 3};
-  Scratch<Scalar> scratch = walk->controller.make_scratch();
-  StepReport<Scalar> report;
+  Scratch scratch = walk->controller.make_scratch();
+  StepReport report;
   int contacts = 0;
   const std::size_t before = tests::allocations();
   for (std::size_t i = 0; i < steps; ++i) {
@@ -98,9 +94,9 @@ TEST(Replay, from_a_copied_state_gives_the_same_bits) {
     int contacts = 0;
     bool walked = false;
     for (const Terrain family : test::all_terrains) {
-      const std::optional<int> touched = expect_replays<double>(family, kind);
+      const std::optional<int> touched = expect_replays(family, kind);
       walked = walked || touched;
-      contacts += touched.value_or(0) + expect_replays<float>(family, kind).value_or(0);
+      contacts += touched.value_or(0);
     }
     // No family is made of whole squares: see grid_test.
     EXPECT_TRUE(walked || kind == "grid") << kind;
@@ -108,19 +104,14 @@ TEST(Replay, from_a_copied_state_gives_the_same_bits) {
   }
 }
 
-template <class Scalar>
-class SavedStates : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(SavedStates, Scalars);
-
-TYPED_TEST(SavedStates, are_restored_whole_and_have_the_bytes_of_equal_states_and_no_others) {
-  using State = CharacterState<TypeParam>;
+TEST(SavedStates, are_restored_whole_and_have_the_bytes_of_equal_states_and_no_others) {
+  using State = CharacterState;
   const auto same_bytes = [](const State& a, const State& b) {
-    const SavedState<TypeParam> one = save(a);
-    const SavedState<TypeParam> other = save(b);
+    const SavedState one = save(a);
+    const SavedState other = save(b);
     return std::memcmp(&one, &other, sizeof one) == 0;
   };
-  const State state = busy<TypeParam>();
+  const State state = busy();
   State more_crushed = state;
   more_crushed.crushers[2].has_side = true;
   State less_crushed = state;
@@ -132,24 +123,24 @@ TYPED_TEST(SavedStates, are_restored_whole_and_have_the_bytes_of_equal_states_an
     EXPECT_EQ(same_bytes(state, other), state == other);
   }
   State negative_zero;
-  negative_zero.velocity.x() = TypeParam(-0.0);
+  negative_zero.velocity.x() = -0.0;
   EXPECT_TRUE(same_bytes(State(), negative_zero));
 }
 
 TEST(SavedBytes, of_any_kind_give_a_state_that_is_refused_or_stepped) {
   test::Random random(seed);
-  const Walk<double> walk(Terrain::tiles, "octagon_sweep");
-  Scratch<double> scratch = walk.controller.make_scratch();
-  StepReport<double> report;
+  const Walk walk(Terrain::tiles, "octagon_sweep");
+  Scratch scratch = walk.controller.make_scratch();
+  StepReport report;
   int refused = 0;
   for (int i = 0; i < 2000; ++i) {
-    SavedState<double> noise = save(busy<double>());
+    SavedState noise = save(busy());
     auto* bytes = reinterpret_cast<unsigned char*>(&noise);
     for (int changes = random.integer(1, 30); changes > 0; --changes) {
       const int place = random.below(static_cast<int>(sizeof noise));
       bytes[place] = static_cast<unsigned char>(random.below(256));
     }
-    CharacterState<double> state = restored(noise);
+    CharacterState state = restored(noise);
     const bool cannot = is_refused(walk.controller.step(state, {}, {{0, -10}, 1.0 / 60}, scratch, report));
     EXPECT_TRUE(cannot || state.position.allFinite());
     refused += cannot;

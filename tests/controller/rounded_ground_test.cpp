@@ -1,5 +1,5 @@
 /// Ground that is straight but for the rounding of its vertices: a walk does not leave it (the law is at
-/// `StepSolver::leaves`). The rest of such walks the campaign judges: lines/ramp.
+/// `leaves` of step_ground.hpp). The rest of such walks the campaign judges: lines/ramp.
 #include "campaign/shapes.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
@@ -15,7 +15,7 @@
 namespace paperproof::test {
 namespace {
 
-constexpr double touch = Tolerances<double>{}.touch;
+constexpr double touch = Tolerances{}.touch;
 
 /// A ramp of straight pieces, from left to right. Its line rises at one angle; its vertices are off it.
 std::vector<Vec2d> random_ramp(Random& random) {
@@ -75,13 +75,13 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) steepest = std::max(steepest, std::abs(std::tan(slope(line, i))));
     const double climb = character.walk_speed * steepest;
     character.jump_speed = climb - gravity.y() * dt + random.log_between(1e-6, 12);  // it may hardly leave
-    const Scenery<double> scenery(SceneryDef{made_of(line, random)});
-    const Controller<double> controller(scenery, character);
-    Scratch<double> scratch = controller.make_scratch();
-    const Box2<double>& shape = character.shape.box();
-    CharacterState<double> state;
+    const Scenery scenery(SceneryDef{made_of(line, random)});
+    const Controller controller(scenery, character);
+    Scratch scratch = controller.make_scratch();
+    const Box2& shape = character.shape.box();
+    CharacterState state;
     state.position = (line.front() + line.back()) / 2 + Vec2d{0, 1.2};
-    StepReport<double> report;
+    StepReport report;
     double move = random.chance(0.5) ? 1 : -1;
     int same = 0;  // steps of one wish
     for (int step = 0; step < 600; ++step) {
@@ -91,7 +91,7 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
       const double wish = left < 6 ? 1 : right < 6 ? -1 : random.chance(0.01) ? -move : move;
       same = wish == move ? same + 1 : 0;
       move = wish;
-      const CharacterState<double> before = state;
+      const CharacterState before = state;
       const bool presses_key = state.grounded && random.chance(0.02);
       ASSERT_EQ(controller.step(state, {.move = move, .jump = presses_key}, {gravity, dt}, scratch, report),
                 StepStatus::moved);

@@ -17,9 +17,8 @@ inline ColliderDef one_way(ColliderDef def, const Vec2d& direction) {
   return def;
 }
 
-template <class Scalar = double>
-std::string refusal_of(const SceneryDef& def) {
-  return refusal_by<InvalidScenery>([&] { Scenery<Scalar>{def}; }, "accepted");
+inline std::string refusal_of(const SceneryDef& def) {
+  return refusal_by<InvalidScenery>([&] { Scenery{def}; }, "accepted");
 }
 
 enum class Where { inside, on_the_outline, outside };

@@ -126,7 +126,6 @@ TEST(Refusals, coordinates_that_are_not_finite_or_too_far_out_are_named) {
   const std::string reason = " has a coordinate that is not a finite number of at most 2e6 m";
   for (const double bad : {infinity - infinity, infinity, -infinity, std::nextafter(2e6, 3e6), -1e300}) {
     EXPECT_EQ(refusal_of({{polygon({{0, 0}, {1, bad}, {0, 1}})}}), "point 1" + reason);
-    EXPECT_EQ(refusal_of<float>({{polygon({{0, 0}, {1, bad}, {0, 1}})}}), "point 1" + reason);
     EXPECT_EQ(refusal_of({{with_holes({{0, 0}, {9, 0}, {0, 9}}, {{{1, 1}, {2, 1}, {bad, 2}}})}}),
               "point 2 of hole 0" + reason);
     EXPECT_EQ(refusal_of({{one_way(chain({{0, 0}, {1, 0}}), {bad, 1})}}), "one_way" + reason);
@@ -135,17 +134,10 @@ TEST(Refusals, coordinates_that_are_not_finite_or_too_far_out_are_named) {
   EXPECT_EQ(refusal_of({{polygon({{0, 0}, {2e6, 0}, {0, -2e6}})}}), "accepted");
 }
 
-TEST(Refusals, what_rounding_to_float_destroys_is_refused_with_the_reason) {
-  for (const ColliderDef& thin : {compare::box(1000, 0, 1000 + 1e-6, 1), circle({0, 0}, 1e-60)}) {
-    EXPECT_EQ(refusal_of<double>({{thin}}), "accepted");
-    EXPECT_NE(refusal_of<float>({{thin}}).find("after rounding the coordinates"), std::string::npos);
-  }
-}
-
 TEST(Refusals, the_collider_that_was_refused_is_named) {
   const ColliderDef good = compare::box(0, 0, 1, 1);
   try {
-    const Scenery<double> scenery(SceneryDef{{good, good, polygon({{0, 0}, {1, 0}})}});
+    const Scenery scenery(SceneryDef{{good, good, polygon({{0, 0}, {1, 0}})}});
     FAIL() << "accepted";
   } catch (const InvalidScenery& refused) {
     EXPECT_EQ(refused.collider(), 2U);

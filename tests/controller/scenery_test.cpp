@@ -20,19 +20,18 @@ using test::refusal_of;
 using test::Where;
 using test::where_is;
 
-template <class Scalar>
-std::vector<Points> pieces_of(const Scenery<Scalar>& scenery) {
+std::vector<Points> pieces_of(const Scenery& scenery) {
   std::vector<Points> pieces;
   for (PieceIndex i = 0; i < scenery.pieces().size(); ++i) {
     pieces.emplace_back();
-    for (const Vec2<Scalar>& vertex : scenery.vertices_of(i)) {
-      pieces.back().push_back(vertex.template cast<double>());
+    for (const Vec2d& vertex : scenery.vertices_of(i)) {
+      pieces.back().push_back(vertex);
       EXPECT_TRUE(scenery.box(i).overlaps({vertex, vertex}));
     }
   }
   return pieces;
 }
-std::vector<Points> pieces_of(const ColliderDef& def) { return pieces_of(Scenery<double>(SceneryDef{{def}})); }
+std::vector<Points> pieces_of(const ColliderDef& def) { return pieces_of(Scenery(SceneryDef{{def}})); }
 
 /// From left to right, and upwards.
 std::vector<Points> sorted(std::vector<Points> pieces) {
@@ -93,10 +92,9 @@ void expect_exact_tiling(const ColliderDef& polygon, const std::vector<Points>& 
 }
 
 /// @return into how many pieces it was cut; none: it was refused.
-template <class Scalar>
 std::size_t cut(const ColliderDef& def, test::Random& random) {
-  if (refusal_of<Scalar>({{def}}) != "accepted") return 0;
-  const Scenery<Scalar> scenery(SceneryDef{{def}});
+  if (refusal_of({{def}}) != "accepted") return 0;
+  const Scenery scenery(SceneryDef{{def}});
   const std::vector<Points> pieces = pieces_of(scenery);
   expect_exact_tiling(scenery.as_run(0), pieces, random);
   return pieces.size();
@@ -110,11 +108,10 @@ struct Family {
 
 class Cutting : public testing::TestWithParam<Family> {};
 
-TEST_P(Cutting, pieces_tile_random_polygons_exactly_whatever_the_winding_and_the_scalar) {
+TEST_P(Cutting, pieces_tile_random_polygons_exactly_whatever_the_winding) {
   const unsigned polygons = test::sampled(1000U);
   int valid = 0;
   int concave = 0;
-  int valid_in_float = 0;
   for (unsigned seed = 0; seed < polygons; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     test::Random random(seed);
@@ -125,16 +122,14 @@ TEST_P(Cutting, pieces_tile_random_polygons_exactly_whatever_the_winding_and_the
       std::rotate(def.points.begin(), def.points.begin() + 1, def.points.end());
       for (Points& hole : def.holes) std::reverse(hole.begin(), hole.end());
     }
-    const std::size_t pieces = cut<double>(def, random);
+    const std::size_t pieces = cut(def, random);
     ASSERT_TRUE(pieces > 0 || !GetParam().always_valid);
     valid += pieces > 0;
     concave += pieces > 1;
-    valid_in_float += cut<float>(def, random) > 0;
     if (HasFatalFailure()) return;
   }
   EXPECT_GE(valid, polygons * 3 / 10);
   EXPECT_GE(concave, polygons / 4);
-  EXPECT_GE(valid_in_float, GetParam().always_valid ? polygons * 8 / 10 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Cutting,
@@ -146,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Families, Cutting,
 
 TEST(Cutting, polygons_of_thousands_of_vertices_are_cut_completely) {
   test::Random random(1);
-  EXPECT_GT(cut<double>({.points = test::star_ring(random, 3000, Vec2d::Zero(), 1, 3)}, random), 1000U);
+  EXPECT_GT(cut({.points = test::star_ring(random, 3000, Vec2d::Zero(), 1, 3)}, random), 1000U);
 }
 
 TEST(Cutting, gives_few_pieces) {
@@ -154,15 +149,15 @@ TEST(Cutting, gives_few_pieces) {
   const ColliderDef ell{.points = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
   const ColliderDef frame{.points = {{0, 0}, {3, 0}, {3, 3}, {0, 3}}, .holes = {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}};
   test::Random random(1);
-  EXPECT_EQ(cut<double>(flat_corners, random), 1U);
-  EXPECT_EQ(cut<double>(ell, random), 2U);
-  EXPECT_LE(cut<double>(frame, random), 8U);
+  EXPECT_EQ(cut(flat_corners, random), 1U);
+  EXPECT_EQ(cut(ell, random), 2U);
+  EXPECT_LE(cut(frame, random), 8U);
 }
 
 TEST(Cutting, a_rectangle_has_its_vertices_counter_clockwise_from_the_first_that_was_given) {
   Points square{{1, 2}, {4, 2}, {4, 7}, {1, 7}};
   for (int corner = 0; corner < 4; ++corner) {
-    const Scenery<float> scenery(SceneryDef{{{.points = square}}});
+    const Scenery scenery(SceneryDef{{{.points = square}}});
     EXPECT_TRUE(scenery.pieces()[0].is_rectangle());
     EXPECT_EQ(pieces_of(scenery), std::vector<Points>{square});
     std::rotate(square.begin(), square.begin() + 1, square.end());
@@ -170,7 +165,7 @@ TEST(Cutting, a_rectangle_has_its_vertices_counter_clockwise_from_the_first_that
 }
 
 TEST(Chains, every_segment_of_a_two_sided_chain_is_a_piece_in_the_given_direction) {
-  const Scenery<double> scenery(SceneryDef{{chain({{0, 0}, {1, 0}, {1, 2}, {0, 0}})}});
+  const Scenery scenery(SceneryDef{{chain({{0, 0}, {1, 0}, {1, 2}, {0, 0}})}});
   EXPECT_EQ(pieces_of(scenery), (std::vector<Points>{{{0, 0}, {1, 0}}, {{1, 0}, {1, 2}}, {{1, 2}, {0, 0}}}));
   EXPECT_FALSE(scenery.pieces()[0].one_way);
 }
@@ -207,18 +202,8 @@ TEST(OneWayPolygons, have_a_line_for_each_run_of_such_edges) {
   EXPECT_EQ(one_way_lines(one_way(chain({{0, 0}, {2, 0}}), {0, 1})), (std::vector<Points>{{{0, 0}, {2, 0}}}));
 }
 
-TEST(AsRun, says_to_what_float_rounds_and_that_traces_of_a_length_become_zero) {
-  const ColliderDef triangle{.points = {{0.1, 0.2}, {1.1, 0.3}, {0.7, 1.3}}};
-  const Scenery<float> scenery(SceneryDef{{triangle}});
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2d rounded = triangle.points[i].cast<float>().cast<double>();
-    EXPECT_EQ(scenery.vertices_of(0)[i].cast<double>(), rounded);
-    EXPECT_EQ(scenery.as_run(0).points[i], rounded);
-    EXPECT_NE(rounded, triangle.points[i]);
-  }
-  const Scenery<float> disc(SceneryDef{{compare::circle({1, 2}, 0.1)}});
-  EXPECT_EQ(disc.as_run(0).radius, static_cast<double>(0.1F));
-  const Scenery<double> traces(SceneryDef{{{.points = {{1e-200, 0}, {1, -5e-324}, {0, 1}}}}});
+TEST(AsRun, says_that_traces_of_a_length_become_zero) {
+  const Scenery traces(SceneryDef{{{.points = {{1e-200, 0}, {1, -5e-324}, {0, 1}}}}});
   EXPECT_EQ(traces.as_run(0).points, (Points{{0, 0}, {1, 0}, {0, 1}}));
 }
 
@@ -244,7 +229,7 @@ TEST(AsRun, is_the_definition_that_was_given_whatever_is_kept_of_it) {
   def.colliders.push_back(one_way(chain({{0, 0}, {1, 0}, {2, 1}}, 0), {0, 1}));
   def.colliders.back().carries = false;
   def.colliders.push_back(compare::circle({1, 2}, 0.1));
-  const Scenery<double> scenery(def);
+  const Scenery scenery(def);
   const SceneryDef as_run = scenery.as_run();
   ASSERT_EQ(as_run.colliders.size(), def.colliders.size());
   for (ColliderIndex i = 0; i < def.colliders.size(); ++i) {
@@ -257,7 +242,7 @@ TEST(AsRun, is_the_definition_that_was_given_whatever_is_kept_of_it) {
     for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
       EXPECT_EQ(scenery.pieces()[piece].collider == i, pieces.first <= piece && piece < pieces.end) << i;
   }
-  EXPECT_TRUE(Scenery<double>(SceneryDef{}).pieces().empty());
+  EXPECT_TRUE(Scenery(SceneryDef{}).pieces().empty());
 }
 
 }  // namespace

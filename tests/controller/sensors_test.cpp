@@ -10,7 +10,7 @@
 namespace paperproof::stepping {
 namespace {
 
-using Change = SensorEvent<double>::Change;
+using Change = SensorEvent::Change;
 
 ColliderDef sensor(ColliderDef def, MoverIndex mover = no_mover) {
   def.sensor = true;
@@ -21,7 +21,7 @@ ColliderDef sensor(ColliderDef def, MoverIndex mover = no_mover) {
 TEST(SensorOrder, more_events_than_fit_keep_the_earliest_say_so_and_take_no_memory) {
   std::vector<ColliderDef> row;
   for (int i = 19; i >= 0; --i) row.push_back(sensor(rectangle(2 * i + 1, -1, 2 * i + 1.5, 1)));
-  Stepper<double> stepper(row);
+  Stepper stepper(row);
   const std::size_t before = tests::allocations();
   for (const double way : {0.5, 4.0, 20.0, 100.0}) stepper.at(0, 0).fly(way, 0);
   EXPECT_EQ(tests::allocations(), before);
@@ -55,18 +55,17 @@ std::vector<Visit> visits() {
           {"on the move", sensor(polygon({{6, 0.1}, {7.3, 0}, {6.6, 1.7}}), 0), start, right}};
 }
 
-template <class Scalar>
 void expect_visit(const Visit& visit, std::string_view kind) {
   SCOPED_TRACE(std::string(kind) + ", " + visit.what);
   const std::vector<ColliderDef> solids{rectangle(-4, -2, 16, -1), rectangle(12, -1, 13, 6)};
   std::vector<ColliderDef> watched{visit.sensor};
   watched.insert(watched.end(), solids.begin(), solids.end());
-  Stepper<Scalar> with(watched, {}, kind);
-  Stepper<Scalar> without(solids, {}, kind);
-  for (Stepper<Scalar>* each : {&with, &without}) {
+  Stepper with(watched, {}, kind);
+  Stepper without(solids, {}, kind);
+  for (Stepper* each : {&with, &without}) {
     each->at(visit.from.x(), visit.from.y()).with_velocity(visit.velocity.x(), visit.velocity.y());
-    each->gravity = visit.gravity.cast<Scalar>();
-    each->dt = Scalar(1) / 64;
+    each->gravity = visit.gravity;
+    each->dt = 1.0 / 64;
   }
   std::vector<Change> changes;
   int contacts = 0;
@@ -76,8 +75,8 @@ void expect_visit(const Visit& visit, std::string_view kind) {
     ASSERT_TRUE(same_bits(with.state, without.state)) << "step " << step;
     ASSERT_EQ(with.report.status, without.report.status) << "step " << step;
     ASSERT_EQ(with.report.move.contacts.size(), without.report.move.contacts.size()) << "step " << step;
-    for (const Contact<Scalar>& contact : with.report.move.contacts) contacts += contact.collider != 0 ? 1 : 0;
-    for (const SensorEvent<Scalar>& event : with.report.sensors) changes.push_back(static_cast<Change>(event.change));
+    for (const Contact& contact : with.report.move.contacts) contacts += contact.collider != 0 ? 1 : 0;
+    for (const SensorEvent& event : with.report.sensors) changes.push_back(static_cast<Change>(event.change));
   }
   EXPECT_EQ(changes, visit.changes);
   EXPECT_GT(contacts, 0) << "nothing solid was met";
@@ -86,14 +85,13 @@ void expect_visit(const Visit& visit, std::string_view kind) {
 TEST(SensorsOfAController, change_no_bit_of_the_motion_by_any_technique) {
   for (const std::string_view kind : technique_names()) {
     for (const Visit& visit : visits()) {
-      expect_visit<double>(visit, kind);
-      expect_visit<float>(visit, kind);
+      expect_visit(visit, kind);
     }
   }
 }
 
 TEST(SensorsOfAController, a_step_that_is_refused_reports_nothing) {
-  Stepper<double> stepper({sensor(rectangle(1, -1, 2, 1))});
+  Stepper stepper({sensor(rectangle(1, -1, 2, 1))});
   stepper.at(0, 0).fly(4, 0);
   EXPECT_EQ(stepper.report.sensors.size(), 2U);
   stepper.at(0, 0).fly(5e6, 0);

@@ -27,7 +27,7 @@ TEST(StepHeight, stairs_of_any_tread_are_climbed_and_descended) {
           for (const double dt : {1.0 / 240, 1.0 / 60}) {
             SCOPED_TRACE(testing::Message() << character.shape.points().size() << " corners, rise " << rise
                                             << ", tread " << tread << ", " << speed << " m/s, dt " << dt);
-            Stepper<double> walker(stairs(rise, tread, 8), character);
+            Stepper walker(stairs(rise, tread, 8), character);
             walker.gravity = {0, -30};
             walker.dt = dt;
             walker.at(0, half_height + 1e-6);

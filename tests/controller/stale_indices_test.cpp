@@ -22,19 +22,17 @@ constexpr ColliderIndex press = 2;
 
 /// Any index, mostly a small one.
 ColliderIndex any_index(Random& random) {
-  if (random.chance(0.2)) return Ride<double>::none - static_cast<ColliderIndex>(random.integer(0, 3));
+  if (random.chance(0.2)) return Ride::none - static_cast<ColliderIndex>(random.integer(0, 3));
   return static_cast<ColliderIndex>(random.chance(0.3) ? random.integer(0, 1 << 30) : random.integer(0, 40));
 }
 
-template <class Scalar>
-void garble(CharacterState<Scalar>& state, Random& random) {
+void garble(CharacterState& state, Random& random) {
   state.ride.ground = any_index(random);
   state.crushed = random.chance(0.8);
   state.crushers.clear();
   for (int i = random.integer(0, 8); i > 0; --i)
-    state.crushers.push_back({.collider = any_index(random),
-                              .last_free = random.point(2).template cast<Scalar>(),
-                              .displacement = random.point(2).template cast<Scalar>()});
+    state.crushers.push_back(
+        {.collider = any_index(random), .last_free = random.point(2), .displacement = random.point(2)});
 }
 
 /// The lift goes up and down, the press between 3 m and 1 m above the floor.
@@ -44,12 +42,11 @@ std::array<Vec2d, 2> offsets(int step) {
 }
 
 /// Steps with garbage in every index. @return how often it walked.
-template <class Scalar>
 int walk_by_every_technique() {
   int walked = 0;
   for (const std::string_view kind : technique_names()) {
     for (const bool moves : {true, false}) {
-      std::optional<Stepper<Scalar>> walker;
+      std::optional<Stepper> walker;
       try {
         walker.emplace(level(moves), CharacterDef{}, kind);
       } catch (const NotExpressible&) {
@@ -62,7 +59,7 @@ int walk_by_every_technique() {
         for (int step = 0; step < 20; ++step) {
           garble(walker->state, random);
           for (std::size_t k = 0; k < walker->movers.size(); ++k)
-            walker->movers[k] = {walker->movers[k].to, offsets(step)[k].template cast<Scalar>()};
+            walker->movers[k] = {walker->movers[k].to, offsets(step)[k]};
           EXPECT_NE(walker->step({.move = random.integer(-1, 1)}), StepStatus::invalid_input) << kind << " " << seed;
           EXPECT_TRUE(walker->state.position.allFinite()) << kind << " " << seed;
           if (kind != "octagon_sweep") continue;
@@ -76,8 +73,7 @@ int walk_by_every_technique() {
 }
 
 TEST(StaleIndices, of_any_kind_are_survived_by_every_technique) {
-  EXPECT_GE(walk_by_every_technique<double>(), 12) << "not every technique knows movers";
-  EXPECT_GE(walk_by_every_technique<float>(), 12);
+  EXPECT_GE(walk_by_every_technique(), 12) << "not every technique knows movers";
 }
 
 TEST(StaleIndices, of_any_kind_are_survived_by_a_crowd) {
@@ -85,19 +81,19 @@ TEST(StaleIndices, of_any_kind_are_survived_by_a_crowd) {
     Random random(seed);
     Together all = standing({-1.2, 0, 1.2}, level());
     for (int step = 0; step < 20; ++step) {
-      for (CharacterState<double>& state : all.states) garble(state, random);
+      for (CharacterState& state : all.states) garble(state, random);
       for (Input& input : all.inputs) input.move = random.integer(-1, 1);
       for (std::size_t k = 0; k < 2; ++k) all.movers[k] = {all.movers[k].to, offsets(step)[k]};
       ASSERT_EQ(all.step(), StepStatus::moved) << "seed " << seed;
-      for (const CharacterState<double>& state : all.states)
+      for (const CharacterState& state : all.states)
         ASSERT_TRUE(state.position.allFinite() && state.position.y() >= half_height) << "seed " << seed;
     }
   }
 }
 
 /// The press has come down into the character, which stands on the floor.
-Stepper<double> crushed_by_the_press() {
-  Stepper<double> pressed(level());
+Stepper crushed_by_the_press() {
+  Stepper pressed(level());
   pressed.gravity = {0, 0};
   pressed.at(0, half_height + 5e-7);
   pressed.movers[1] = {{0, 0}, {0, -1.5}};
@@ -110,11 +106,11 @@ Stepper<double> crushed_by_the_press() {
 }
 
 TEST(StaleIndices, of_what_does_not_move_here_are_forgotten) {
-  Stepper<double> clean = crushed_by_the_press();
+  Stepper clean = crushed_by_the_press();
   clean.step();
   for (const ColliderIndex stale : {ColliderIndex{0}, ColliderIndex{3}, ColliderIndex{4}, ColliderIndex{1} << 31,
                                     std::numeric_limits<ColliderIndex>::max()}) {
-    Stepper<double> pressed = crushed_by_the_press();
+    Stepper pressed = crushed_by_the_press();
     pressed.state.crushers.push_back({.collider = stale});
     pressed.step();
     EXPECT_EQ(pressed.state, clean.state) << stale;
@@ -123,14 +119,14 @@ TEST(StaleIndices, of_what_does_not_move_here_are_forgotten) {
 
 TEST(StaleIndices, a_ride_into_a_level_where_nothing_moves_keeps_its_speed) {
   for (const MoverIndex mover : {no_mover, MoverIndex{0}}) {
-    Stepper<double> rider({box(-40, -1, 40, 0), box(100, 0, 101, 1, mover)});
+    Stepper rider({box(-40, -1, 40, 0), box(100, 0, 101, 1, mover)});
     rider.at(0, 5).with_velocity(3, 0);
     rider.state.ride = {.ground = 7, .velocity = {3, 0}};
     rider.dt = 0.1;
     ASSERT_EQ(rider.step(), StepStatus::moved);
     EXPECT_EQ(rider.state.velocity, Vec2d(3, -1)) << mover;
     EXPECT_NEAR(rider.state.position.x(), 0.3, 1e-12) << mover;
-    EXPECT_EQ(rider.state.ride.ground, Ride<double>::none);
+    EXPECT_EQ(rider.state.ride.ground, Ride::none);
   }
 }
 

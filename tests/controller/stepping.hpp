@@ -19,34 +19,37 @@ using compare::half_width;
 using compare::polygon;
 using test::same_bits;
 
-template <class Scalar>
 struct Stepper {
-  std::unique_ptr<const Scenery<Scalar>> scenery;  ///< Stays where it is when the stepper is moved.
-  TechniqueController<Scalar> controller;
-  Scratch<Scalar> scratch;
-  CharacterState<Scalar> state;
-  StepReport<Scalar> report;
-  std::vector<MoverMotion<Scalar>> movers;  ///< Of the next step.
-  Vec2<Scalar> gravity{0, -10};
-  Scalar dt = Scalar(1) / 60;
+  std::unique_ptr<const Scenery> scenery;  ///< Stays where it is when the stepper is moved.
+  TechniqueController controller;
+  Scratch scratch;
+  CharacterState state;
+  StepReport report;
+  std::vector<MoverMotion> movers;  ///< Of the next step.
+  Vec2d gravity{0, -10};
+  double dt = 1.0 / 60;
 
   explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
                    const TechniqueDef& technique = {})
-      : scenery(std::make_unique<const Scenery<Scalar>>(SceneryDef{std::move(colliders)})),
-        controller(make_controller(*scenery, character, technique)),
+      : Stepper(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)}),
+                [&](const Scenery& level) { return make_controller(level, character, technique); }) {}
+  template <class Make>
+  Stepper(std::unique_ptr<const Scenery> level, const Make& make)
+      : scenery(std::move(level)),
+        controller(make(*scenery)),
         scratch(controller.make_scratch()),
         movers(scenery->mover_count()) {}
   Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character, std::string_view kind)
       : Stepper(std::move(colliders), character, TechniqueDef{.name = kind}) {}
 
   /// For what only `octagon_sweep` does.
-  [[nodiscard]] const Controller<Scalar>& sweep() const { return *controller.sweep(); }
+  [[nodiscard]] const Controller& sweep() const { return *controller.sweep(); }
   Stepper& at(double x, double y) {
-    state.position = Vec2d{x, y}.cast<Scalar>();
+    state.position = Vec2d{x, y};
     return *this;
   }
   Stepper& with_velocity(double x, double y) {
-    state.velocity = Vec2d{x, y}.cast<Scalar>();
+    state.velocity = Vec2d{x, y};
     return *this;
   }
   StepStatus step(const Input& input = {}) {
@@ -54,13 +57,13 @@ struct Stepper {
   }
   /// The mover goes on from where it is.
   StepStatus step_with_mover_by(double x, double y, const Input& input = {}) {
-    for (MoverMotion<Scalar>& mover : movers) mover = {mover.to, mover.to + Vec2d{x, y}.cast<Scalar>()};
+    for (MoverMotion& mover : movers) mover = {mover.to, mover.to + Vec2d{x, y}};
     return step(input);
   }
   /// A step of a second without gravity: the displacement is this, to the last bit.
-  const MoveResult<Scalar>& fly(double x, double y) {
-    state.velocity = Vec2d{x, y}.cast<Scalar>();
-    gravity = Vec2<Scalar>::Zero();
+  const MoveResult& fly(double x, double y) {
+    state.velocity = Vec2d{x, y};
+    gravity = Vec2d::Zero();
     dt = 1;
     step();
     return report.move;
@@ -71,8 +74,7 @@ struct Stepper {
 };
 
 /// Every field, NaN and the sign of zero included.
-template <class Scalar>
-bool same_bits(const CharacterState<Scalar>& a, const CharacterState<Scalar>& b) {
+inline bool same_bits(const CharacterState& a, const CharacterState& b) {
   return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
          same_bits(a.last_free, b.last_free) && same_bits(a.technique_memory, b.technique_memory) &&
          a.has_last_free == b.has_last_free && a.grounded == b.grounded && a.jumping == b.jumping &&

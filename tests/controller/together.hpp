@@ -20,19 +20,19 @@ inline constexpr double rest_gap = 5e-7;
 [[nodiscard]] inline bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
 
 struct Together {
-  std::unique_ptr<const Scenery<double>> scenery;
-  TechniqueCrowd<double> crowd;
+  std::unique_ptr<const Scenery> scenery;
+  TechniqueCrowd crowd;
   CrowdScratch scratch;
-  CrowdReport<double> report;
-  std::vector<CharacterState<double>> states;
+  CrowdReport report;
+  std::vector<CharacterState> states;
   std::vector<Input> inputs;
-  std::vector<MoverMotion<double>> movers;  ///< Of the next step.
+  std::vector<MoverMotion> movers;  ///< Of the next step.
   Vec2d gravity{0, 0};
   double dt = 1;
 
   explicit Together(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {},
                     const CharacterDef& character = {}, const TechniqueDef& technique = {})
-      : scenery(std::make_unique<const Scenery<double>>(SceneryDef{std::move(colliders)})),
+      : scenery(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)})),
         crowd(make_crowd(*scenery, character, technique)),
         scratch(crowd.make_scratch(positions.size())),
         report(positions.size()),

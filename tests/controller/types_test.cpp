@@ -7,7 +7,7 @@ namespace paperproof {
 namespace {
 
 TEST(FixedVector, refuses_what_does_not_fit_remembers_it_and_is_copied_with_that) {
-  using Corners = FixedVector<PathPoint<double>, 2>;
+  using Corners = FixedVector<PathPoint, 2>;
   Corners corners;
   EXPECT_TRUE(corners.push_back({{1, -1}, 1}));
   EXPECT_TRUE(corners.push_back({{2, -2}, 2}));

@@ -14,9 +14,9 @@ namespace {
 constexpr double frame = 1.0 / 60;
 
 /// With gravity along -up.
-StepContext<double> standing_with(const Vec2d& up) { return {-30 * up, frame, {}, nullptr, up}; }
+StepContext standing_with(const Vec2d& up) { return {-30 * up, frame, {}, nullptr, up}; }
 
-StepStatus step_with(Stepper<double>& stepper, const Vec2d& up, const Input& input = {}) {
+StepStatus step_with(Stepper& stepper, const Vec2d& up, const Input& input = {}) {
   return stepper.controller.step(stepper.state, input, standing_with(up), stepper.scratch, stepper.report);
 }
 
@@ -25,9 +25,9 @@ CharacterDef box_shaped(double half_width, double bottom, double top) {
 }
 
 TEST(Up, that_is_no_unit_vector_is_refused) {
-  Stepper<double> stepper({rectangle(-9, -1, 9, 0)});
+  Stepper stepper({rectangle(-9, -1, 9, 0)});
   stepper.at(0, 3);
-  const CharacterState<double> before = stepper.state;
+  const CharacterState before = stepper.state;
   for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{std::nan(""), 1}, Vec2d{0, std::nan("")},
                           Vec2d{HUGE_VAL, 0}, Vec2d{1, 1}, Vec2d{0, 1 + 1e-14}}) {
     EXPECT_EQ(step_with(stepper, up), StepStatus::invalid_input) << up.transpose();
@@ -38,13 +38,13 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
   }
   for (int i = 0; i < 1000; ++i)
     ASSERT_EQ(step_with(stepper, Vec2d{7 * std::cos(i), 7 * std::sin(i)}.normalized()), StepStatus::moved) << i;
-  Stepper<double> boxed({rectangle(-9, -1, 9, 0)}, {}, "bounding_box");
+  Stepper boxed({rectangle(-9, -1, 9, 0)}, {}, "bounding_box");
   EXPECT_EQ(step_with(boxed, {0, 1}), StepStatus::moved);
   EXPECT_EQ(step_with(boxed, {0, -1}), StepStatus::invalid_input) << "of another technique";
 }
 
 TEST(Up, decides_how_fast_a_fall_may_be) {
-  Stepper<double> faller({rectangle(-9, -99, 9, -98)}, {.max_fall_speed = 5});
+  Stepper faller({rectangle(-9, -99, 9, -98)}, {.max_fall_speed = 5});
   const Vec2d up{0.6, 0.8};
   for (int step = 0; step < 60; ++step) step_with(faller, up);
   EXPECT_NEAR(faller.state.velocity.dot(up), -5, 1e-12);
@@ -52,7 +52,7 @@ TEST(Up, decides_how_fast_a_fall_may_be) {
 }
 
 TEST(Up, decides_the_sides_of_questions) {
-  Stepper<double> stepper({rectangle(-9, -1, 9, 0)});
+  Stepper stepper({rectangle(-9, -1, 9, 0)});
   const auto side_below = [&](const Vec2d& up) {
     return stepper.sweep().nearest({0, 1}, 2, {.up = up}, stepper.scratch)->side;
   };
@@ -87,7 +87,7 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         ASSERT_EQ(scene.states[i].position, turn(scenes[0].states[i].position, quarters)) << step << ", " << i;
         const auto& contacts = scene.report.members[i].met;
-        constexpr auto side = &CrowdContact<double>::side;
+        constexpr auto side = &CrowdContact::side;
         ASSERT_TRUE(std::ranges::equal(contacts, scenes[0].report.members[i].met, {}, side, side)) << step;
         met += contacts.size();
       }
@@ -98,14 +98,14 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
 
 TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
   const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
-  Stepper<double> rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, {.coyote_time = 0.1});
+  Stepper rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, {.coyote_time = 0.1});
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.1, 0);
   ASSERT_NE(rider.state.ride.ground, no_collider);
   rider.state.jump_held = true;
   const Vec2d velocity = rider.state.velocity;
   teleport(rider.state, {45, 3});
-  CharacterState<double> expected;
+  CharacterState expected;
   expected.position = {45, 3};
   expected.velocity = velocity;
   expected.jump_held = true;
@@ -114,7 +114,7 @@ TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
 }
 
 TEST(KnockBack, leaves_the_ground_and_what_carries) {
-  Stepper<double> rider({compare::box(-3, -1, 3, 0, 0)}, {.coyote_time = 0.1, .jump_cut = 0.25, .snap = 0.5});
+  Stepper rider({compare::box(-3, -1, 3, 0, 0)}, {.coyote_time = 0.1, .jump_cut = 0.25, .snap = 0.5});
   rider.gravity = {0, -30};
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.05, 0);
@@ -131,20 +131,20 @@ TEST(KnockBack, leaves_the_ground_and_what_carries) {
 
 TEST(Shape, may_change_between_steps) {
   // A lift carries the character below a bar, and out again.
-  const Scenery<double> scenery(SceneryDef{{compare::box(-3, -1, 9, 0, 0), rectangle(2, 1, 4, 2)}});
-  const Controller<double> standing(scenery, box_shaped(0.3, -0.4, 1.2));
-  const Controller<double> crouching(scenery, box_shaped(0.3, -0.4, 0.4));
-  Scratch<double> high = standing.make_scratch();
-  Scratch<double> flat = crouching.make_scratch();
-  StepReport<double> report;
-  CharacterState<double> state;
+  const Scenery scenery(SceneryDef{{compare::box(-3, -1, 9, 0, 0), rectangle(2, 1, 4, 2)}});
+  const Controller standing(scenery, box_shaped(0.3, -0.4, 1.2));
+  const Controller crouching(scenery, box_shaped(0.3, -0.4, 0.4));
+  Scratch high = standing.make_scratch();
+  Scratch flat = crouching.make_scratch();
+  StepReport report;
+  CharacterState state;
   state.position = {0, 0.401};
-  MoverMotion<double> motion;
+  MoverMotion motion;
   int crouched = 0;
   bool is_low = false;
   for (int step = 0; step < 120; ++step) {
     motion = {motion.to, motion.to + Vec2d{0.05, 0}};
-    const StepContext<double> context{{0, -30}, frame, std::span(&motion, 1)};
+    const StepContext context{{0, -30}, frame, std::span(&motion, 1)};
     is_low = state.position.x() > 1 && state.position.x() < 2.5;  // the button to crouch
     is_low = is_low || standing.overlaps(state.position, context, high) != std::size_t{0};
     (is_low ? crouching : standing).step(state, {}, context, is_low ? flat : high, report);

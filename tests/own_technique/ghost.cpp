@@ -5,18 +5,17 @@ namespace {
 
 using namespace paperproof;
 
-template <class Scalar>
-class Ghost final : public Technique<Scalar> {
+class Ghost final : public Technique {
  public:
-  Ghost(const TechniqueDef& def, const Scenery<Scalar>&, const CharacterDef&) {
+  Ghost(const TechniqueDef& def, const Scenery&, const CharacterDef&) {
     if (const auto turned = def.own.find("share"); turned != def.own.end())
-      share_ = static_cast<Scalar>(real_in(turned->second));
+      share_ = static_cast<double>(real_in(turned->second));
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "ghost"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return {}; }
+  [[nodiscard]] Scratch make_scratch() const override { return {}; }
 
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>&, MoveResult<Scalar>& result) const noexcept override {
+  void move(const MoveRequest& request, Scratch&, MoveResult& result) const noexcept override {
     result.clear();
     result.position = request.position + request.displacement * share_;
     result.velocity = request.velocity;
@@ -25,7 +24,7 @@ class Ghost final : public Technique<Scalar> {
   }
 
  private:
-  Scalar share_ = 1;  ///< Share of what is wanted that it goes.
+  double share_ = 1;  ///< Share of what is wanted that it goes.
 };
 
 const bool is_known = register_technique(

@@ -16,7 +16,7 @@
 namespace paperproof::stepping {
 namespace {
 
-constexpr Tolerances<double> tolerances{};
+constexpr Tolerances tolerances{};
 
 using compare::box;
 
@@ -25,7 +25,7 @@ using compare::box;
 TEST(Regression, what_is_pushed_out_to_where_it_is_free_is_not_crushed) {
   const double gap = 0.1;
   const double out = 1.5;  // how far the wall gets; floor and ceiling reach to 1
-  Stepper<double> pressed({rectangle(-1, 2 * half_height + gap, 1, 3), box(-1, -1, 1, 0, 0), box(-31, -5, -30, 5, 1)});
+  Stepper pressed({rectangle(-1, 2 * half_height + gap, 1, 3), box(-1, -1, 1, 0, 0), box(-31, -5, -30, 5, 1)});
   pressed.at(0, half_height + tolerances.stop);
   pressed.gravity = {0, 0};
   pressed.movers = {{{0, 0}, {0, 0.11}}, {{0, 0}, {30 + out, 0}}};
@@ -41,9 +41,9 @@ TEST(Regression, what_is_crushed_does_not_follow_the_ground_down) {
   CharacterDef character;
   character.snap = 0.5;
   const double stop_at = 0.6;  // of the character's centre, where the standing wall is met
-  Stepper<double> walker({rectangle(-5, -1, 0, 0), rectangle(0, -1, 5, -ledge),
-                          rectangle(stop_at + half_width, 0, 5, 9), box(-5, 0.1, -4, 9, 0)},
-                         character);
+  Stepper walker({rectangle(-5, -1, 0, 0), rectangle(0, -1, 5, -ledge), rectangle(stop_at + half_width, 0, 5, 9),
+                  box(-5, 0.1, -4, 9, 0)},
+                 character);
   walker.at(-1, half_height + tolerances.stop);
   walker.step();
   ASSERT_TRUE(walker.state.grounded);
@@ -59,7 +59,7 @@ TEST(Regression, what_is_crushed_does_not_follow_the_ground_down) {
 /// Inside a block, below a shaft that a press comes down: up is the shortest way out of the block, and a trap.
 TEST(Regression, room_may_lie_on_another_side_of_what_the_step_began_inside) {
   const double shaft = 0.4;
-  Stepper<double> trapped(
+  Stepper trapped(
       {rectangle(-2, 0, -shaft, 3), rectangle(shaft, 0, 2, 3), box(-1, -1, 1, 0, 0), box(-0.39, 1.5, 0.39, 9, 1)});
   trapped.at(0, half_height - 0.2);
   trapped.gravity = {0, 0};
@@ -81,7 +81,7 @@ TEST(Regression, more_movers_at_once_than_are_remembered_neither_crush_nor_pass)
     colliders.push_back(box(left, -1, left + width, 0, static_cast<MoverIndex>(k)));
   }
   for (const double sign : {1.0, -1.0}) {
-    Stepper<double> lifted(colliders);
+    Stepper lifted(colliders);
     lifted.at(0, half_height + tolerances.stop);
     lifted.gravity = {0, 0};
     double highest = 0;

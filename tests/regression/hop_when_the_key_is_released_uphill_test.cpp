@@ -10,7 +10,7 @@
 namespace paperproof {
 namespace {
 
-struct Walk : stepping::Stepper<double> {
+struct Walk : stepping::Stepper {
   /// @param rise of the slope over its run.
   Walk(double rise, const CharacterDef& character)
       : Stepper({compare::chain({{-60, -60 * rise}, {60, 60 * rise}})}, character), slope(rise) {

@@ -21,18 +21,18 @@ TEST(Regression, a_way_out_does_not_depend_on_earlier_steps) {
     cross.points.insert(cross.points.end(), corners.begin(), corners.end());
     for (Vec2d& corner : corners) corner = Vec2d(-corner.y(), corner.x());
   }
-  const auto from_the_middle = [](Stepper<double>& stepper) {
+  const auto from_the_middle = [](Stepper& stepper) {
     stepper.state = {};
     EXPECT_EQ(stepper.at(0.2, 0.3).fly(0, 0).status, MoveStatus::moved);
     return stepper.state.position;
   };
-  Stepper<double> fresh({cross});
+  Stepper fresh({cross});
   const Vec2d out = from_the_middle(fresh);
   EXPECT_GT(out.cwiseAbs().minCoeff(), 20) << "out in the notch between two arms, the nearest place there is";
   EXPECT_LT(out.cwiseAbs().maxCoeff(), 20 + 2) << out.transpose();
 
   // A long flight past the cross, in whose bounding box the middle lies.
-  Stepper<double> used({cross});
+  Stepper used({cross});
   ASSERT_TRUE(used.at(-200, -12).fly(212, 212).contacts.empty());
   EXPECT_EQ(from_the_middle(used), out);
 }

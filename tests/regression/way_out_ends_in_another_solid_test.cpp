@@ -13,7 +13,7 @@ namespace {
 TEST(Regression, a_way_out_further_than_ten_metres_does_not_end_in_another_solid) {
   const double block = 100;  // half its side
   const double beam = 50;    // half its length
-  Stepper<double> stepper({rectangle(-block, -block, block, block), rectangle(-beam, block + 0.3, beam, block + 1)});
+  Stepper stepper({rectangle(-block, -block, block, block), rectangle(-beam, block + 0.3, beam, block + 1)});
   stepper.gravity = {0, 0};
   ASSERT_EQ(stepper.at(1, 2).step(), StepStatus::moved);
   const Vec2d p = stepper.state.position.cwiseAbs();

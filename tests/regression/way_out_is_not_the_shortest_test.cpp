@@ -17,7 +17,7 @@ using compare::box;
 
 /// The way out, which is found at once.
 Vec2d way_out_of(std::vector<ColliderDef> colliders, const Vec2d& from) {
-  stepping::Stepper<double> stepper(std::move(colliders));
+  stepping::Stepper stepper(std::move(colliders));
   stepper.gravity = {0, 0};
   EXPECT_EQ(stepper.at(from.x(), from.y()).step(), StepStatus::moved);
   return stepper.state.position - from;

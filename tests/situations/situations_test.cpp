@@ -47,7 +47,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
   void run(const SituationCase& situation) {
     std::ofstream(stem() + ".json") << situation.scene.dump(1);
     const compare::Scene scene = compare::load_scenes(stem() + ".json").front();
-    const Scenery<double> scenery(scene.scenery);
+    const Scenery scenery(scene.scenery);
     compare::Lane lane(situation.contender, compare::ScalarKind::binary64, scene, scenery, {}, "free", stem(),
                        {.steps = scene.steps});
     ASSERT_TRUE(lane.running()) << lane.row().reason;

@@ -14,7 +14,7 @@
 namespace paperproof::test {
 
 /// The pieces of a level as static fixtures: convex polygons, and chains of one segment each.
-inline void build_level(b2World& world, const Scenery<double>& scenery) {
+inline void build_level(b2World& world, const Scenery& scenery) {
   b2Body* body = world.CreateBody(std::make_unique<b2BodyDef>().get());
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
     std::vector<b2Vec2> points;

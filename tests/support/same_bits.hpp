@@ -7,45 +7,31 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 
 namespace paperproof::test {
 
-template <class Scalar>
-requires std::is_floating_point_v<Scalar>
-bool same_bits(Scalar a, Scalar b) {
-  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
-  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
-}
+inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-template <class Scalar>
-bool same_bits(const Vec2<Scalar>& a, const Vec2<Scalar>& b) {
-  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y());
-}
+inline bool same_bits(const Vec2d& a, const Vec2d& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()); }
 
-template <class Scalar>
-bool same_bits(const PathPoint<Scalar>& a, const PathPoint<Scalar>& b) {
+inline bool same_bits(const PathPoint& a, const PathPoint& b) {
   return same_bits(a.position, b.position) && same_bits(a.fraction, b.fraction);
 }
 
-template <class Scalar>
-bool same_bits(const Contact<Scalar>& a, const Contact<Scalar>& b) {
+inline bool same_bits(const Contact& a, const Contact& b) {
   return a.collider == b.collider && a.side == b.side && same_bits(a.point, b.point) && same_bits(a.normal, b.normal) &&
          same_bits(a.fraction, b.fraction) && same_bits(a.separation, b.separation);
 }
 
-template <class Scalar>
-bool same_bits(const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
+inline bool same_bits(const CrowdContact& a, const CrowdContact& b) {
   return a.other == b.other && a.side == b.side && same_bits(a.normal, b.normal) && same_bits(a.fraction, b.fraction);
 }
 
-template <class Scalar>
-bool same_bits(const SensorEvent<Scalar>& a, const SensorEvent<Scalar>& b) {
+inline bool same_bits(const SensorEvent& a, const SensorEvent& b) {
   return a.sensor == b.sensor && a.change == b.change && same_bits(a.fraction, b.fraction);
 }
 
-template <class Scalar>
-bool same_bits(const MoverMotion<Scalar>& a, const MoverMotion<Scalar>& b) {
+inline bool same_bits(const MoverMotion& a, const MoverMotion& b) {
   return same_bits(a.from, b.from) && same_bits(a.to, b.to);
 }
 

@@ -15,7 +15,7 @@
 namespace paperproof::test {
 namespace {
 
-using State = CharacterState<double>;
+using State = CharacterState;
 
 constexpr int characters = 4;
 constexpr int steps = 300;
@@ -70,15 +70,15 @@ void expect_the_same_in_threads(const auto& make_stepper) {
 
 TEST(SharedController, gives_each_thread_what_it_gives_one_alone) {
   Random random(7);
-  const Scenery<double> scenery(play_level(PlayLevel::kerbs, random));
+  const Scenery scenery(play_level(PlayLevel::kerbs, random));
   CharacterDef character;
   character.step_height = 0.3;
-  const Controller<double> controller(scenery, character);
+  const Controller controller(scenery, character);
   expect_the_same_in_threads([&] {
-    return [&, scratch = controller.make_scratch(), report = StepReport<double>()](State& state, const Input& input,
-                                                                                   int) mutable {
-      controller.step(state, input, {gravity, dt}, scratch, report);
-    };
+    return
+        [&, scratch = controller.make_scratch(), report = StepReport()](State& state, const Input& input, int) mutable {
+          controller.step(state, input, {gravity, dt}, scratch, report);
+        };
   });
 }
 
@@ -100,7 +100,7 @@ TEST(SharedLevel, gives_each_thread_what_it_gives_one_alone) {
   for (const ColliderDef& collider : play_level(PlayLevel::platforms, random).colliders) level.add(collider);
   for (MoverIndex mover = 0; mover < 4; ++mover) level.add(compare::box(-3, -0.1, 3, 0.1, mover));
   expect_the_same_in_threads([&] {
-    return [controller = LevelController(level, CharacterDef{}), report = StepReport<double>()](
+    return [controller = LevelController(level, CharacterDef{}), report = StepReport()](
                State& state, const Input& input, int step) mutable {
       const std::vector<PoseMotion> poses = poses_in(step);
       controller.step(state, input, {gravity, dt, poses}, report);

@@ -62,7 +62,7 @@ void add_rail(b2World& world, b2Body& ground, b2Body& body, const JointDef& join
 }  // namespace
 
 struct BodyWorld::Impl {
-  Impl(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
+  Impl(const Scenery& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
        std::span<const JointDef> joints)
       : world(checked(gravity, "gravity")), stage(world, scenery, {}, bodies) {
     world.SetAllowSleeping(false);
@@ -99,14 +99,14 @@ struct BodyWorld::Impl {
   SceneryBodies stage;
 };
 
-BodyWorld::BodyWorld(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies,
-                     const Vec2d& gravity, std::span<const JointDef> joints)
+BodyWorld::BodyWorld(const Scenery& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
+                     std::span<const JointDef> joints)
     : impl_(std::make_unique<Impl>(scenery, bodies, gravity, joints)) {}
 BodyWorld::~BodyWorld() = default;
 BodyWorld::BodyWorld(BodyWorld&&) noexcept = default;
 BodyWorld& BodyWorld::operator=(BodyWorld&&) noexcept = default;
 
-void BodyWorld::step(double dt, std::span<MoverMotion<double>> motions, std::span<const MoverTurn> turns) {
+void BodyWorld::step(double dt, std::span<MoverMotion> motions, std::span<const MoverTurn> turns) {
   SceneryBodies& stage = impl_->stage;
   stage.send(dt, motions, turns);
   stage.step({});

@@ -92,7 +92,7 @@ void add_polygon_piece(b2Body& body, std::span<const Vec2d> vertices, const Fixt
 /// Polygons have pieces of three vertices and more.
 bool is_chain(const PieceInfo& piece) { return piece.vertex_count == 2; }
 
-void add_pieces(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryFixtures& made) {
+void add_pieces(b2Body& body, const Scenery& scenery, const Part& part, SceneryFixtures& made) {
   const PieceRange range = part.mover == no_mover ? scenery.static_pieces() : scenery.pieces_of_mover(part.mover);
   for (PieceIndex i = range.first; i < range.end; ++i) {
     const PieceInfo& piece = scenery.pieces()[i];
@@ -226,8 +226,7 @@ std::vector<Part> parts_of(const SceneryDef& as_run, std::size_t mover_count) {
   return parts;
 }
 
-void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryMode mode,
-                SceneryFixtures& made) {
+void add_solids(b2Body& body, const Scenery& scenery, const Part& part, SceneryMode mode, SceneryFixtures& made) {
   switch (mode) {
     case SceneryMode::chain_loops:
       add_loops(body, part, made);
@@ -245,7 +244,7 @@ void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, 
   }
 }
 
-void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery, const SceneryDef& as_run,
+void add_sensors(std::span<b2Body* const> bodies, const Scenery& scenery, const SceneryDef& as_run,
                  SceneryFixtures& made) {
   const PieceRange range = scenery.sensor_pieces();
   for (PieceIndex i = range.first; i < range.end; ++i) {
@@ -253,9 +252,9 @@ void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery
     const MoverIndex mover = as_run.colliders[piece.collider].mover;
     b2Body& body = *bodies[mover == no_mover ? 0 : mover + 1];
     const FixtureSource source{.collider = piece.collider, .mover = mover, .sensor = true};
-    const PieceVertices<double> vertices = scenery.vertices_of(i);
+    const PieceVertices vertices = scenery.vertices_of(i);
     if (piece.is_circle()) {
-      const Circle<double> circle = scenery.circle(i);
+      const Circle circle = scenery.circle(i);
       add_circle(body, circle.centre, circle.radius, source, made);
     } else if (is_chain(piece)) {
       add_two_sided_edge(body, rounded(vertices[0]), rounded(vertices[1]), source, made);

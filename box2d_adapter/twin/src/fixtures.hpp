@@ -61,12 +61,11 @@ struct SceneryFixtures {
 /// - A chain segment is a two-sided edge; a one-way segment a one-sided edge whose ghost vertices are its neighbours
 ///   where these block the same way, and its own continuation where not.
 /// @param scenery gives the convex pieces.
-void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryMode mode,
-                SceneryFixtures& made);
+void add_solids(b2Body& body, const Scenery& scenery, const Part& part, SceneryMode mode, SceneryFixtures& made);
 
 /// Gives every sensor to the body of its mover, piece by piece.
 /// @param bodies of the parts, in their order.
-void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery, const SceneryDef& as_run,
+void add_sensors(std::span<b2Body* const> bodies, const Scenery& scenery, const SceneryDef& as_run,
                  SceneryFixtures& made);
 
 /// A convex polygon exactly as given: counter-clockwise, 3 to 8 vertices that differ. Two-sided, any thickness above

@@ -17,7 +17,7 @@ namespace paperproof::box2d {
 namespace {
 
 /// A motion into a contact of at most this much per step is none [m]: the rounding of velocities and normals to float.
-/// The controller's own threshold (`Tolerances<double>::hit`). Zero: sliding along a slope makes and loses contacts by
+/// The controller's own threshold (`Tolerances::hit`). Zero: sliding along a slope makes and loses contacts by
 /// rounding. Large: slow pushes are not seen.
 constexpr double least_approach = 1e-7;
 
@@ -26,7 +26,7 @@ constexpr double least_approach = 1e-7;
 constexpr double standing_gap = touch_gap + static_cast<double>(b2_linearSlop);
 
 /// By the definition's order: what is met first, then the lowest collider.
-bool comes_before(const Contact<double>& a, const Contact<double>& b) {
+bool comes_before(const Contact& a, const Contact& b) {
   if (a.fraction != b.fraction) return a.fraction < b.fraction;
   if (a.collider != b.collider) return a.collider < b.collider;
   return a.side < b.side;
@@ -59,10 +59,10 @@ std::string box2d_build() { return PAPERPROOF_BOX2D_BUILD; }
 std::string box2d_asserts() { return PAPERPROOF_BOX2D_ASSERTS; }
 
 struct ReferenceWorld::Impl {
-  Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
+  Impl(const Scenery& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
        const ReferenceWorldDef& definition)
       : def(checked_definition(definition)),
-        least_up(static_cast<double>(character.walkable_cosine<float>())),
+        least_up(static_cast<double>(static_cast<float>(character.walkable_cosine(tolerances_in_float.climb)))),
         stage(world, scenery, def),
         looks_for_ground(any_ground_carries(stage.as_run)),
         has_one_way(any_one_way(stage.as_run)) {
@@ -211,7 +211,7 @@ Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const Scene
                                                const TouchPoint& touch) const {
   const FixtureSource& source = stage.fixtures.sources[end.source];
   if (source.character) {
-    const std::vector<PathPoint<double>>& path = characters[*source.character].recorder.path();
+    const std::vector<PathPoint>& path = characters[*source.character].recorder.path();
     return who.wanted - (path.back().position - path.front().position);
   }
   if (source.mover == no_mover) return who.wanted;
@@ -263,15 +263,15 @@ void ReferenceWorld::Impl::add_sensor_events(Character& who) {
   std::vector<ColliderIndex>& now = who.sensed;
   std::sort(now.begin(), now.end());
   now.erase(std::unique(now.begin(), now.end()), now.end());
-  std::vector<SensorEvent<double>>& events = who.result.sensors;
+  std::vector<SensorEvent>& events = who.result.sensors;
   events.clear();
   const auto add_missing = [&events](const std::vector<ColliderIndex>& these,
-                                     const std::vector<ColliderIndex>& in_those, SensorEvent<double>::Change change) {
+                                     const std::vector<ColliderIndex>& in_those, SensorEvent::Change change) {
     for (const ColliderIndex sensor : these)
       if (!std::binary_search(in_those.begin(), in_those.end(), sensor)) events.push_back({sensor, change, 0});
   };
-  add_missing(who.sensed_before, now, SensorEvent<double>::Change::exit);
-  add_missing(now, who.sensed_before, SensorEvent<double>::Change::enter);
+  add_missing(who.sensed_before, now, SensorEvent::Change::exit);
+  add_missing(now, who.sensed_before, SensorEvent::Change::enter);
 }
 
 /// The outline was moved by at most 5 mm and the point is rounded to float a few times; but at the end of a chain Box2D
@@ -298,7 +298,7 @@ void ReferenceWorld::Impl::add(Character& who, const SceneryEnd& end, const Touc
   }
   const ColliderIndex collider = collider_of(end, touch.point);
   const Side side = side_of_normal(touch.normal.x(), touch.normal.y());
-  const auto same = std::find_if(result.contacts.begin(), result.contacts.end(), [&](const Contact<double>& known) {
+  const auto same = std::find_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& known) {
     return known.collider == collider && known.side == side;
   });
   if (same != result.contacts.end()) {
@@ -310,20 +310,19 @@ void ReferenceWorld::Impl::add(Character& who, const SceneryEnd& end, const Touc
 
 void ReferenceWorld::Impl::add_met(TwinStep& result, CharacterIndex other, const Vec2d& normal, double fraction) {
   const Side side = side_of_normal(normal.x(), normal.y());
-  const auto same = std::find_if(result.met.begin(), result.met.end(), [&](const CrowdContact<double>& known) {
-    return known.other == other && known.side == side;
-  });
+  const auto same = std::find_if(result.met.begin(), result.met.end(),
+                                 [&](const CrowdContact& known) { return known.other == other && known.side == side; });
   if (same == result.met.end())
     result.met.push_back({other, normal, fraction, side});
   else
     same->fraction = std::min(same->fraction, fraction);
 }
 
-ReferenceWorld::ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
+ReferenceWorld::ReferenceWorld(const Scenery& scenery, const CharacterDef& character, const Vec2d& position,
                                const ReferenceWorldDef& def)
     : ReferenceWorld(scenery, character, std::span(&position, 1), def) {}
-ReferenceWorld::ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character,
-                               std::span<const Vec2d> positions, const ReferenceWorldDef& def)
+ReferenceWorld::ReferenceWorld(const Scenery& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
+                               const ReferenceWorldDef& def)
     : impl_(std::make_unique<Impl>(scenery, character, positions, def)) {}
 ReferenceWorld::~ReferenceWorld() = default;
 ReferenceWorld::ReferenceWorld(ReferenceWorld&&) noexcept = default;
@@ -334,14 +333,14 @@ void ReferenceWorld::place(const Vec2d& position, const Vec2d& velocity, std::si
   Impl::place(impl_->characters.at(character).body, at, checked(velocity, "the character's velocity"));
 }
 
-const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt,
-                                     std::span<const MoverMotion<double>> movers, bool drop) {
+const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion> movers,
+                                     bool drop) {
   const TwinWish wish{wanted_velocity, drop};
   return step_all(std::span(&wish, 1), dt, movers).front();
 }
 
 std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wishes, double dt,
-                                                   std::span<const MoverMotion<double>> movers,
+                                                   std::span<const MoverMotion> movers,
                                                    std::span<const MoverTurn> turns) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
   for (const TwinWish& wish : wishes) (void)checked(wish.velocity, "the wanted velocity");
@@ -350,7 +349,7 @@ std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wis
   return impl_->results;
 }
 
-void ReferenceWorld::step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion<double>> movers,
+void ReferenceWorld::step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers,
                                std::span<const MoverTurn> turns) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
   impl_->stage.send(dt, movers, turns);

@@ -20,9 +20,9 @@ float checked_step(double dt) {
   return static_cast<float>(dt);
 }
 
-void check_motions(std::size_t movers, std::span<const MoverMotion<double>> motions, std::span<const MoverTurn> turns) {
+void check_motions(std::size_t movers, std::span<const MoverMotion> motions, std::span<const MoverTurn> turns) {
   if (motions.size() != movers) throw InvalidDefinition("a step takes one motion for each mover");
-  for (const MoverMotion<double>& motion : motions) {
+  for (const MoverMotion& motion : motions) {
     (void)checked(motion.from, "a mover");
     (void)checked(motion.to, "a mover");
   }
@@ -86,7 +86,7 @@ b2BodyDef body_of(const Part& part, SolidBody solids, const BodyDef* dynamic) {
 
 }  // namespace
 
-SceneryBodies::SceneryBodies(b2World& world, const Scenery<double>& scenery, const ReferenceWorldDef& def,
+SceneryBodies::SceneryBodies(b2World& world, const Scenery& scenery, const ReferenceWorldDef& def,
                              std::span<const std::optional<BodyDef>> dynamic)
     : as_run(rounded(scenery.as_run())),
       parts(parts_of(as_run, scenery.mover_count())),
@@ -118,8 +118,7 @@ SceneryBodies::SceneryBodies(b2World& world, const Scenery<double>& scenery, con
   turns.resize(movers.size());
 }
 
-void SceneryBodies::send(double length, std::span<const MoverMotion<double>> wanted,
-                         std::span<const MoverTurn> wanted_turns) {
+void SceneryBodies::send(double length, std::span<const MoverMotion> wanted, std::span<const MoverTurn> wanted_turns) {
   const float checked_length = checked_step(length);
   check_motions(movers.size(), wanted, wanted_turns);
   dt = checked_length;
@@ -135,7 +134,7 @@ void SceneryBodies::send(double length, std::span<const MoverMotion<double>> wan
 }
 
 /// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
-void SceneryBodies::send(Mover& mover, const MoverMotion<double>& wanted, const MoverTurn& turn) {
+void SceneryBodies::send(Mover& mover, const MoverMotion& wanted, const MoverTurn& turn) {
   const b2Vec2 from = rounded(wanted.from);
   const auto from_angle = static_cast<float>(turn.from);
   if (!(mover.goal == from) || mover.goal_angle != from_angle) mover.body->SetTransform(from, from_angle);

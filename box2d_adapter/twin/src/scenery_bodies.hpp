@@ -20,12 +20,12 @@ struct SceneryBodies {
   /// @param scenery judged and cut for the controller; its colliders are rounded to float here.
   /// @param dynamic which movers are dynamic bodies, one for each mover; or empty: none.
   /// @throws InvalidDefinition before Box2D sees what it would abort on.
-  SceneryBodies(b2World& world, const Scenery<double>& scenery, const ReferenceWorldDef& def,
+  SceneryBodies(b2World& world, const Scenery& scenery, const ReferenceWorldDef& def,
                 std::span<const std::optional<BodyDef>> dynamic = {});
 
   /// Begins a step: gives every kinematic body the velocity that takes it to where it is to be.
   /// @throws InvalidDefinition for what `ReferenceWorld::step_all` refuses; then nothing changed.
-  void send(double length, std::span<const MoverMotion<double>> wanted, std::span<const MoverTurn> wanted_turns);
+  void send(double length, std::span<const MoverMotion> wanted, std::span<const MoverTurn> wanted_turns);
   /// Steps the world, and fills `motions` and `turns`.
   void step(const ReferenceWorldDef& def);
 
@@ -40,14 +40,14 @@ struct SceneryBodies {
   std::vector<Part> parts;  ///< What stands, then each mover. Needed no more once the bodies are there.
   SceneryFixtures fixtures;
   std::vector<Mover> movers;
-  std::vector<Vec2d> offsets;                ///< Of the movers, when the step begins [m].
-  std::vector<MoverMotion<double>> motions;  ///< As Box2D made them.
+  std::vector<Vec2d> offsets;        ///< Of the movers, when the step begins [m].
+  std::vector<MoverMotion> motions;  ///< As Box2D made them.
   std::vector<MoverTurn> turns;
   bool capped = false;  ///< A kinematic body was to go beyond the travel cap.
   float dt = 0;         ///< Of the present step, or the last [s].
 
  private:
-  void send(Mover& mover, const MoverMotion<double>& wanted, const MoverTurn& turn);
+  void send(Mover& mover, const MoverMotion& wanted, const MoverTurn& turn);
 
   b2World& world_;
   MoverDrive drive_;

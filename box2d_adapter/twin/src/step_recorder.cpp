@@ -63,11 +63,11 @@ bool StepRecorder::wholly_above(const FixtureSource& segment, const Vec2d& posit
   });
 }
 
-std::vector<ColliderIndex> StepRecorder::dropped_through(std::span<const MoverMotion<double>> movers) const {
+std::vector<ColliderIndex> StepRecorder::dropped_through(std::span<const MoverMotion> movers) const {
   std::vector<ColliderIndex> passed;
   if (!drops_) return passed;
   for (const FixtureSource& source : sources_)
-    if (source.one_way && leaves(source, source.mover == no_mover ? MoverMotion<double>{} : movers[source.mover]))
+    if (source.one_way && leaves(source, source.mover == no_mover ? MoverMotion{} : movers[source.mover]))
       passed.push_back(*source.collider);
   std::sort(passed.begin(), passed.end());
   passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
@@ -75,11 +75,11 @@ std::vector<ColliderIndex> StepRecorder::dropped_through(std::span<const MoverMo
 }
 
 /// Whether the character was wholly above a segment when the step began, is not when it ends, and came by.
-bool StepRecorder::leaves(const FixtureSource& segment, const MoverMotion<double>& motion) const {
+bool StepRecorder::leaves(const FixtureSource& segment, const MoverMotion& motion) const {
   const Vec2d from = path_.front().position - motion.from;
   const Vec2d to = path_.back().position - motion.to;
   if (!wholly_above(segment, from, Vec2d::Zero()) || wholly_above(segment, to, Vec2d::Zero())) return false;
-  Box2<double> swept{from + hull_.front(), from + hull_.front()};
+  Box2 swept{from + hull_.front(), from + hull_.front()};
   for (const Vec2d& corner : hull_)
     for (const Vec2d& at : {from, to}) swept = swept.merged({at + corner, at + corner});
   const auto& [point, end, normal] = *segment.one_way;

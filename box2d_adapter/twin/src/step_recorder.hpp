@@ -60,11 +60,11 @@ class StepRecorder {
   }
 
   [[nodiscard]] std::span<const Beginning> beginnings() const noexcept { return beginnings_; }
-  [[nodiscard]] const std::vector<PathPoint<double>>& path() const noexcept { return path_; }
+  [[nodiscard]] const std::vector<PathPoint>& path() const noexcept { return path_; }
   /// False for a sensor, and for a one-way segment while the character is not wholly on the side that it blocks.
   [[nodiscard]] bool blocks(std::size_t source) const;
   /// After the step: see `TwinStep`. @param movers as they went.
-  [[nodiscard]] std::vector<ColliderIndex> dropped_through(std::span<const MoverMotion<double>> movers) const;
+  [[nodiscard]] std::vector<ColliderIndex> dropped_through(std::span<const MoverMotion> movers) const;
 
   // For contacts that it watches:
   void begin_contact(const b2Contact& contact);
@@ -78,7 +78,7 @@ class StepRecorder {
 
   void look();
   [[nodiscard]] bool wholly_above(const FixtureSource& segment, const Vec2d& position, const Vec2d& offset) const;
-  [[nodiscard]] bool leaves(const FixtureSource& segment, const MoverMotion<double>& motion) const;
+  [[nodiscard]] bool leaves(const FixtureSource& segment, const MoverMotion& motion) const;
   [[nodiscard]] double fraction_at(const Vec2d& position) const;
 
   const std::vector<FixtureSource>& sources_;
@@ -88,10 +88,10 @@ class StepRecorder {
   bool drops_ = false;
   Phase phase_ = Phase::collide;
   Vec2d step_start_{Vec2d::Zero()};
-  PathPoint<double> leg_start_;   ///< Where the straight leg that the body is on began.
+  PathPoint leg_start_;           ///< Where the straight leg that the body is on began.
   Vec2d leg_end_{Vec2d::Zero()};  ///< Where it leads to at fraction 1.
-  PathPoint<double> seen_;        ///< Last position seen.
-  std::vector<PathPoint<double>> path_;
+  PathPoint seen_;                ///< Last position seen.
+  std::vector<PathPoint> path_;
   std::vector<Beginning> beginnings_;
 };
 

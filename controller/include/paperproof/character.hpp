@@ -1,6 +1,7 @@
 /// The character: its shape, how it wants to move, and its state.
 #pragma once
 
+#include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>
 
 #include <optional>
@@ -40,7 +41,7 @@ class CharacterShape {
   [[nodiscard]] std::span<const Vec2d> points() const noexcept { return {points_.begin(), points_.end()}; }
   /// The same points, counter-clockwise, starting with the lowest (leftmost of equals).
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
-  [[nodiscard]] const Box2<double>& box() const noexcept { return box_; }
+  [[nodiscard]] const Box2& box() const noexcept { return box_; }
   /// The points of one side: those at the extreme of that direction. For the article's character these are its pairs.
   [[nodiscard]] Pair pair(Side side) const noexcept { return pairs_[static_cast<std::size_t>(side)]; }
 
@@ -48,7 +49,7 @@ class CharacterShape {
   FixedVector<Vec2d, max_points> points_;
   FixedVector<Vec2d, max_points> hull_;
   std::array<Pair, 4> pairs_{};
-  Box2<double> box_;
+  Box2 box_;
 };
 
 /// How a character wants to move. The defaults are the values for a scene that gives none.
@@ -85,9 +86,8 @@ struct CharacterDef {
   void validate() const;
 
   /// Least upward component of the unit normal of walkable ground. Ground of exactly the climb limit is walkable: the
-  /// limit is widened by `Tolerances::climb`, so that the rounding of a normal decides nothing.
-  template <class Scalar>
-  [[nodiscard]] Scalar walkable_cosine() const noexcept;
+  /// limit is widened by `climb`, so that the rounding of a normal decides nothing.
+  [[nodiscard]] double walkable_cosine(double climb = Tolerances{}.climb) const noexcept;
 };
 
 /// The player's wishes for one step.
@@ -115,38 +115,35 @@ enum class GroundState : std::uint8_t {
 
 /// What a character stands on or slides down at the end of a step. The rest is valid where the state is not `air`.
 /// `octagon_sweep` tells it; other techniques always say `air`.
-template <class Scalar>
 struct Ground {
   GroundState state = GroundState::air;
-  ColliderIndex collider = no_collider;         ///< None also for another character of a `Crowd`.
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};    ///< Of the surface; of several one that points up most.
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the surface, conveyor included [m/s].
+  ColliderIndex collider = no_collider;  ///< None also for another character of a `Crowd`.
+  Vec2d normal{Vec2d::Zero()};           ///< Of the surface; of several one that points up most.
+  Vec2d velocity{Vec2d::Zero()};         ///< Of the surface, conveyor included [m/s].
 
   friend bool operator==(const Ground&, const Ground&) = default;
 };
 
 /// The ground that carries a character: a mover or a conveyor.
-template <class Scalar>
 struct Ride {
   static constexpr ColliderIndex none = no_collider;
   ColliderIndex ground = none;
   /// Where the character stands relative to the mover's offset [m]. It changes only when the character moves relative
   /// to the ground that carries it, so errors do not add up, however long the ride is.
-  Vec2<Scalar> place{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the ground in the last step, conveyor included [m/s].
+  Vec2d place{Vec2d::Zero()};
+  Vec2d velocity{Vec2d::Zero()};  ///< Of the ground in the last step, conveyor included [m/s].
 
   friend bool operator==(const Ride&, const Ride&) = default;
 };
 
 /// A mover that crushed the character and still overlaps it.
-template <class Scalar>
 struct Crusher {
   ColliderIndex collider = 0;
   /// Where the character was when it was last free of the collider [m].
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};
+  Vec2d last_free{Vec2d::Zero()};
   /// How far the collider has moved since then [m]. Seen from the collider, the character came from
   /// `last_free + displacement`.
-  Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};
+  Vec2d displacement{Vec2d::Zero()};
   bool has_side = true;  ///< False: the list was full, so the side from which the character came is unknown.
 
   friend bool operator==(const Crusher&, const Crusher&) = default;
@@ -154,33 +151,31 @@ struct Crusher {
 /// A state remembers at most eight crushers. If more overlap the character, it does not move until the others have
 /// left, even where there is room, because the side from which it came is unknown. Other movers that run into the
 /// character meanwhile crush it as well.
-template <class Scalar>
-using Crushers = FixedVector<Crusher<Scalar>, 8>;
+using Crushers = FixedVector<Crusher, 8>;
 
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
-template <class Scalar = double>
 struct CharacterState {
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
+  Vec2d position{Vec2d::Zero()};   ///< [m]
+  Vec2d velocity{Vec2d::Zero()};   ///< [m/s]
+  Vec2d last_free{Vec2d::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
   /// Value that the technique hands to its own next step. `octagon_sweep` needs none: zero.
-  Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};
+  Vec2d technique_memory{Vec2d::Zero()};
   bool has_last_free = false;
   bool grounded = false;      ///< It stands: on walkable ground, or in a wedge.
   bool jumping = false;       ///< The article's jumping flag: set by a jump, cleared by ground.
   bool jump_held = false;     ///< The jump button was down in the last step.
   bool jump_pending = false;  ///< A press that has not become a jump yet.
-  Scalar coyote_left = 0;     ///< For how long the character may still jump in the air [s]: see `coyote_time`.
-  Scalar pending_left = 0;    ///< For how long a press stays pending [s]: see `jump_buffer`.
+  double coyote_left = 0;     ///< For how long the character may still jump in the air [s]: see `coyote_time`.
+  double pending_left = 0;    ///< For how long a press stays pending [s]: see `jump_buffer`.
   bool wall_left = false;     ///< The last step met something on the left of the character as it stands.
   bool wall_right = false;
   /// Movers left no room, and one of them still overlaps the character. The character stays in place. Another mover
   /// that runs into it leaves it room on the side from which the character came, or crushes it as well.
   bool crushed = false;
-  Crushers<Scalar> crushers{};   ///< While `crushed`.
+  Crushers crushers{};           ///< While `crushed`.
   std::uint8_t stuck_steps = 0;  ///< Number of consecutive steps that ended inside a solid.
-  Ride<Scalar> ride;             ///< None on ground that does not move.
-  Ground<Scalar> ground{};       ///< After the last step. In the air all of it is as at first.
+  Ride ride;                     ///< None on ground that does not move.
+  Ground ground{};               ///< After the last step. In the air all of it is as at first.
 
   friend bool operator==(const CharacterState&, const CharacterState&) = default;
 };
@@ -190,9 +185,8 @@ struct CharacterState {
 /// and how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
 /// button. If the place is not free, the next step resolves that: see `Controller::overlaps`.
 /// @param position [m]
-template <class Scalar>
-void teleport(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Scalar>>& position) noexcept {
-  CharacterState<Scalar> there;
+inline void teleport(CharacterState& state, const std::type_identity_t<Vec2d>& position) noexcept {
+  CharacterState there;
   there.position = position;
   there.velocity = state.velocity;
   there.jumping = state.jumping;
@@ -207,8 +201,7 @@ void teleport(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Sca
 /// the coyote time is over; a press of the button stays pending. If it was jumping, the jump is over, too: to release
 /// the button does not cut the rise. Steering works as in the air. A crushed character stays in place.
 /// @param velocity [m/s]
-template <class Scalar>
-void knock_back(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Scalar>>& velocity) noexcept {
+inline void knock_back(CharacterState& state, const std::type_identity_t<Vec2d>& velocity) noexcept {
   state.velocity += velocity;
   state.grounded = state.jumping = false;
   state.coyote_left = 0;

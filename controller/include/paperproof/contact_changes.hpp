@@ -35,10 +35,9 @@ void for_each_change(std::span<const Contact> before, std::span<const Contact> n
 /// The same by collider. In a `Level` a collider that was replaced keeps its id and counts as the same surface; one
 /// that was removed does not.
 /// @param before the contacts of the step before: a copy of its `move.contacts`. @param now those of this step.
-template <class Scalar, class Visit>
-void for_each_change(std::span<const Contact<Scalar>> before, std::span<const Contact<Scalar>> now,
-                     const Visit& visit) {
-  const auto same = [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.collider == b.collider; };
+template <class Visit>
+void for_each_change(std::span<const Contact> before, std::span<const Contact> now, const Visit& visit) {
+  const auto same = [](const Contact& a, const Contact& b) { return a.collider == b.collider; };
   for_each_change(before, now, same, visit);
 }
 

@@ -15,12 +15,11 @@
 namespace paperproof {
 
 /// The velocity that a character wants in one step, before any obstacle changes it.
-template <class Scalar>
 struct DesiredVelocity {
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< [m/s]
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
   /// The part of `velocity.x()` that this step's steering added, braking included [m/s]. The rest is momentum and
   /// gravity.
-  Scalar steered = 0;
+  double steered = 0;
 };
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
@@ -31,37 +30,29 @@ struct DesiredVelocity {
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 /// @param wall_ahead a wall is within `CharacterDef::wall_reach` on the side of the move: see `no_jump_toward_wall`.
-template <class Scalar>
-[[nodiscard]] DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
-                                                       const Input& input, Scalar dt, CharacterState<Scalar>& state,
-                                                       bool wall_ahead = false) noexcept;
+[[nodiscard]] DesiredVelocity desired_velocity(const CharacterDef& character, const Vec2d& gravity, const Input& input,
+                                               double dt, CharacterState& state, bool wall_ahead = false) noexcept;
 
 namespace octagon_sweep {
-template <class Scalar>
 class SweepInParts;
-template <class Scalar>
 struct StepRequest;
 }  // namespace octagon_sweep
-template <class Scalar>
 class Sensors;
-template <class Scalar>
 class OneWayChains;
-template <class Scalar>
 class Crowd;
 
 /// Steps characters of one kind through one scenery, by `octagon_sweep`. Const and shareable between threads.
-template <class Scalar = double>
 class Controller {
  public:
   /// `scenery` must outlive the controller.
   /// @throws InvalidCharacter for an impossible character, std::invalid_argument for iterations out of range.
-  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
+  Controller(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep = {});
 
   /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
   /// nothing else carries over. Never allocates, never throws.
   /// @param scratch made by this controller; any other is invalid input.
-  StepStatus step(CharacterState<Scalar>& state, const Input& input, const StepContext<Scalar>& context,
-                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
+  StepStatus step(CharacterState& state, const Input& input, const StepContext& context, Scratch& scratch,
+                  StepReport& report) const noexcept;
 
   /// One step of a game that owns its velocities: the character moves by a displacement, as far as obstacles let it,
   /// and slides along them. No input, jump or gravity is added; gravity is checked, but not used.
@@ -71,8 +62,8 @@ class Controller {
   /// Ground that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave
   /// of displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
   /// @param displacement in the step [m]; relative to what carries the character.
-  StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
-                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
+  StepStatus move(CharacterState& state, const Vec2d& displacement, const StepContext& context, Scratch& scratch,
+                  StepReport& report) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
   // only the movers, the filter and up of the context. No question is answered with a scratch of another controller,
@@ -83,15 +74,13 @@ class Controller {
   /// movers that stand, each motion must end where it begins. What the character overlaps at the start counts, with
   /// fraction 0, if the displacement leads deeper.
   /// @param position,displacement [m]
-  [[nodiscard]] std::optional<Contact<Scalar>> cast(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                                                    const StepContext<Scalar>& context,
-                                                    Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement,
+                                            const StepContext& context, Scratch& scratch) const noexcept;
 
   /// How many solid colliders the character would overlap at a position, exactly. If it is 0, the character fits there.
   /// Movers are where their motions begin. One-way chains do not count.
   /// @param found as many of the colliders as it has room for. @return nothing if the question cannot be answered.
-  [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
-                                                    Scratch<Scalar>& scratch,
+  [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                                     std::span<ColliderIndex> found = {}) const noexcept;
 
   /// The surfaces that the character would have beside it at a position, nearest first; overlaps are nearest of all and
@@ -100,82 +89,70 @@ class Controller {
   /// one-way chain counts if the character is above it.
   /// @param within the largest separation [m]; below zero: only overlaps that are deeper.
   /// @param found at most as many as it has room for. @return how many were written.
-  [[nodiscard]] std::size_t contacts_at(const Vec2<Scalar>& position, Scalar within, const StepContext<Scalar>& context,
-                                        Scratch<Scalar>& scratch, std::span<Contact<Scalar>> found) const noexcept;
+  [[nodiscard]] std::size_t contacts_at(const Vec2d& position, double within, const StepContext& context,
+                                        Scratch& scratch, std::span<Contact> found) const noexcept;
 
   /// The nearest of `contacts_at`.
-  [[nodiscard]] std::optional<Contact<Scalar>> nearest(const Vec2<Scalar>& position, Scalar within,
-                                                       const StepContext<Scalar>& context,
-                                                       Scratch<Scalar>& scratch) const noexcept {
-    std::array<Contact<Scalar>, 1> found;
+  [[nodiscard]] std::optional<Contact> nearest(const Vec2d& position, double within, const StepContext& context,
+                                               Scratch& scratch) const noexcept {
+    std::array<Contact, 1> found;
     if (contacts_at(position, within, context, scratch, found) == 0) return std::nullopt;
     return found[0];
   }
 
-  [[nodiscard]] Scratch<Scalar> make_scratch() const;
+  [[nodiscard]] Scratch make_scratch() const;
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
 
  private:
-  using StepRequest = octagon_sweep::StepRequest<Scalar>;
+  using StepRequest = octagon_sweep::StepRequest;
 
+  friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
+                                             const SweepDef& sweep);
   /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
-  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-             std::shared_ptr<const octagon_sweep::SweepInParts<Scalar>> sweep, PieceSearch search);
-  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
-                             const StepContext<Scalar>& context) const noexcept;
-  [[nodiscard]] bool accepts_turned(const CharacterState<Scalar>& state, const Input& input,
-                                    StepContext<Scalar> context) const noexcept;
+  Controller(const Scenery& scenery, const CharacterDef& character,
+             std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search);
+  [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
+                             const StepContext& context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
-  [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
-                                    const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
-                                    MoveResult<Scalar>& tried) const noexcept;
-  /// Whether a step or a question may have this up.
-  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept { return is_upright(up) || is_unit(up); }
-  /// Without up, which is (0, 1) if nothing else is said.
+  [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
+                                    Scratch& scratch, MoveResult& tried) const noexcept;
   /// @param crushers of the state as it was; must outlive the request, as `context`.
-  [[nodiscard]] StepRequest request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
-                                       const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity, Scalar steered,
-                                       bool drop, bool jumps, const StepContext<Scalar>& context) const noexcept;
+  [[nodiscard]] StepRequest request_of(const CharacterState& state, const Crushers& crushers, const Vec2d& displacement,
+                                       const Vec2d& velocity, double steered, bool drop, bool jumps,
+                                       const StepContext& context) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
-  [[nodiscard]] StepRequest begin_step(const Crushers<Scalar>& crushers, const Input& input,
-                                       const StepContext<Scalar>& context, bool wall_ahead,
-                                       CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
-  [[nodiscard]] StepRequest begin_turned_step(const Crushers<Scalar>& crushers, const Input& input,
-                                              const StepContext<Scalar>& context, bool wall_ahead,
-                                              CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] StepRequest begin_step(const Crushers& crushers, const Input& input, const StepContext& context,
+                                       bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
-  void end_step(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
-                StepReport<Scalar>& report) const noexcept;
+  void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
+                StepReport& report) const noexcept;
   /// Null: all colliders are there.
-  [[nodiscard]] const ColliderFilter* filter_of(const StepContext<Scalar>& context) const noexcept {
+  [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const noexcept {
     static constexpr ColliderFilter usual{};
     return context.filter == nullptr && has_filters_ ? &usual : context.filter;
   }
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
   /// @param before must outlive the request. @return false if the input is not accepted.
-  friend class Crowd<Scalar>;
-  bool begin_together(const CharacterState<Scalar>& before, const Input& input, const StepContext<Scalar>& context,
-                      CharacterState<Scalar>& state, StepRequest& request, StepReport<Scalar>& report) const noexcept;
-  void end_together(const Input& input, const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
-                    CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
+  friend class Crowd;
+  bool begin_together(const CharacterState& before, const Input& input, const StepContext& context,
+                      CharacterState& state, StepRequest& request, StepReport& report) const noexcept;
+  void end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
+                    StepReport& report) const noexcept;
 
   /// Whether a question about a position can be answered.
-  [[nodiscard]] bool can_answer(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                                const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] StepRequest question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                                     const StepContext<Scalar>& context) const noexcept;
+  [[nodiscard]] bool can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
+                                const Scratch& scratch) const noexcept;
+  [[nodiscard]] StepRequest question(const Vec2d& position, const Vec2d& displacement,
+                                     const StepContext& context) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
+  const Scenery* scenery_;
   bool has_filters_;  ///< Some collider is not there for every character, or all are asked anyway.
   CharacterDef character_;
   /// Scratch memory refers to it.
-  std::shared_ptr<const octagon_sweep::SweepInParts<Scalar>> sweep_;
-  std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none,
-  std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< and is not asked all the same.
+  std::shared_ptr<const octagon_sweep::SweepInParts> sweep_;
+  std::shared_ptr<const Sensors> sensors_;       ///< Null where the scenery has none,
+  std::shared_ptr<const OneWayChains> one_way_;  ///< and is not asked all the same.
 };
-
-extern template class Controller<float>;
-extern template class Controller<double>;
 
 }  // namespace paperproof

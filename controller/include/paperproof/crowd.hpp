@@ -15,19 +15,17 @@ namespace paperproof {
 using CharacterIndex = std::uint32_t;
 
 /// Another character was in the way. Both report it, with opposite normals.
-template <class Scalar>
 struct CrowdContact {
   CharacterIndex other = 0;
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, from the other towards this one.
-  Scalar fraction = 0;                        ///< Time of impact as a fraction of the step, in [0, 1].
-  Side side = Side::bottom;                   ///< Of this character.
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the other towards this one.
+  double fraction = 0;          ///< Time of impact as a fraction of the step, in [0, 1].
+  Side side = Side::bottom;     ///< Of this character.
 };
 
 /// The report of one step for one character. Contacts with scenery are in `step.move`, those with characters here.
-template <class Scalar>
 struct CrowdMember {
-  StepReport<Scalar> step;
-  FixedVector<CrowdContact<Scalar>, 16> met;            ///< One per other character and side, in order of time.
+  StepReport step;
+  FixedVector<CrowdContact, 16> met;                    ///< One per other character and side, in order of time.
   FixedVector<CharacterIndex, 16> started_overlapping;  ///< The characters that it overlapped at the beginning.
   /// No path could be shown to be safe: the character is where its step began, with velocity zero.
   bool stayed = false;
@@ -36,36 +34,34 @@ struct CrowdMember {
   CharacterIndex island = 0;
 
   /// Adds a contact with another, seen with this up, unless there is one on the same side.
-  void add_contact(CharacterIndex other, const Vec2<Scalar>& normal, Scalar fraction,
-                   const UpFrame<Scalar>& up) noexcept {
-    const CrowdContact<Scalar> contact{other, normal, fraction, up.side_of(normal)};
-    const bool known = std::any_of(met.begin(), met.end(), [&](const CrowdContact<Scalar>& earlier) {
+  void add_contact(CharacterIndex other, const Vec2d& normal, double fraction, const UpFrame& up) noexcept {
+    const CrowdContact contact{other, normal, fraction, up.side_of(normal)};
+    const bool known = std::any_of(met.begin(), met.end(), [&](const CrowdContact& earlier) {
       return earlier.other == contact.other && earlier.side == contact.side;
     });
     if (!known) met.push_back(contact);
   }
   /// Contacts are not found in the order of their times.
   void sort_contacts() noexcept {
-    std::sort(met.begin(), met.end(), [](const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
+    std::sort(met.begin(), met.end(), [](const CrowdContact& a, const CrowdContact& b) {
       return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
     });
   }
 };
 
-template <class Scalar = double>
 struct CrowdReport {
   explicit CrowdReport(std::size_t most_characters) : members(most_characters) {}
 
   /// `moved`, or why no state changed: `invalid_input`, `out_of_range`.
   StepStatus status = StepStatus::moved;
-  std::vector<CrowdMember<Scalar>> members;  ///< Valid up to the number of states, unless the step was refused.
-  std::size_t impacts = 0;                   ///< How many impacts of two characters were handled.
+  std::vector<CrowdMember> members;  ///< Valid up to the number of states, unless the step was refused.
+  std::size_t impacts = 0;           ///< How many impacts of two characters were handled.
 
   /// Adds the contact of two characters to both. @param normal from the second towards the first.
-  void add_contact(CharacterIndex first, CharacterIndex second, const Vec2<Scalar>& normal, Scalar fraction,
-                   const UpFrame<Scalar>& up) noexcept {
+  void add_contact(CharacterIndex first, CharacterIndex second, const Vec2d& normal, double fraction,
+                   const UpFrame& up) noexcept {
     members[first].add_contact(second, normal, fraction, up);
-    members[second].add_contact(first, Vec2<Scalar>(-normal), fraction, up);
+    members[second].add_contact(first, Vec2d(-normal), fraction, up);
   }
 };
 
@@ -105,11 +101,10 @@ struct CrowdScratch {
 ///
 /// Cost: n²/2 box tests for n characters, then n for each new path; meant for up to a few hundred. One character avoids
 /// at most 12 others in a step. The crowd keeps a copy of the scenery, with 12 more colliders for these characters.
-template <class Scalar = double>
 class Crowd {
  public:
   /// `scenery` must outlive the crowd. @throws as `Controller`.
-  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
+  Crowd(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep = {});
   ~Crowd();
   Crowd(Crowd&&) noexcept;
   Crowd& operator=(Crowd&&) noexcept;
@@ -122,21 +117,17 @@ class Crowd {
   ///   other always.
   /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or if one state,
   ///   input or step is refused (see `StepStatus`), no state changes.
-  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                  const StepContext<Scalar>& context, CrowdScratch& scratch,
-                  CrowdReport<Scalar>& report) const noexcept;
+  StepStatus step(std::span<CharacterState> states, std::span<const Input> inputs, const StepContext& context,
+                  CrowdScratch& scratch, CrowdReport& report) const noexcept;
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
 
  private:
   struct Rules;
-  Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> controller);
+  Crowd(std::unique_ptr<const Rules> rules, Controller controller);
 
   std::shared_ptr<const Rules> rules_;  ///< Has no other owner: scratch memory refers to it.
-  Controller<Scalar> controller_;
+  Controller controller_;
 };
-
-extern template class Crowd<float>;
-extern template class Crowd<double>;
 
 }  // namespace paperproof

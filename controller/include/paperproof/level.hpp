@@ -47,14 +47,14 @@ class Level {
   [[nodiscard]] std::uint64_t last_edit() const noexcept { return last_edit_.number; }
 
   /// Appends all colliders without a mover that are in a box, in no order, each once or more often.
-  void find_standing(const Box2<double>& box, std::vector<NearCollider>& found) const;
+  void find_standing(const Box2& box, std::vector<NearCollider>& found) const;
   /// Appends all colliders of movers that come into a box during a step.
-  void find_moving(const Box2<double>& box, std::span<const PoseMotion> movers, std::vector<NearCollider>& found) const;
+  void find_moving(const Box2& box, std::span<const PoseMotion> movers, std::vector<NearCollider>& found) const;
 
  private:
   struct Slot {
     ColliderDef def;
-    Box2<double> box;  ///< Where the pose is zero.
+    Box2 box;  ///< Where the pose is zero.
     std::uint64_t version = 0;
     std::uint32_t generation = 0;
     bool is_used = false;
@@ -85,9 +85,9 @@ class Level {
   static constexpr std::size_t grid_count = 24;
 
   [[nodiscard]] const Slot* slot_of(ColliderIndex id) const noexcept;
-  [[nodiscard]] static int grid_of(const Box2<double>& box) noexcept;
+  [[nodiscard]] static int grid_of(const Box2& box) noexcept;
   template <class Visit>
-  static void for_each_cell(const Box2<double>& box, int grid, const Visit& visit);
+  static void for_each_cell(const Box2& box, int grid, const Visit& visit);
   void place(ColliderIndex id, Slot& slot, const ColliderDef& def);
   void displace(ColliderIndex id, Slot& slot);
 
@@ -124,11 +124,9 @@ class LevelController {
 
   /// One step: see `Controller::step`. `invalid_input` also if there are fewer movers than `Level::mover_count()`, or
   /// a pose is not finite or beyond 1e6.
-  StepStatus step(CharacterState<double>& state, const Input& input, const LevelContext& context,
-                  StepReport<double>& report);
+  StepStatus step(CharacterState& state, const Input& input, const LevelContext& context, StepReport& report);
   /// One step of a game that owns its velocities: see `Controller::move`.
-  StepStatus move(CharacterState<double>& state, const Vec2d& displacement, const LevelContext& context,
-                  StepReport<double>& report);
+  StepStatus move(CharacterState& state, const Vec2d& displacement, const LevelContext& context, StepReport& report);
   /// How many solid colliders a character of this kind would overlap, where the movers' motions begin.
   [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const LevelContext& context);
   /// What moved near the character in the last step, as the step saw it; empty where nothing near it turned.
@@ -142,7 +140,7 @@ class LevelController {
   const Level* level_;
   LocalController local_;
   std::vector<NearCollider> standing_;  ///< In `read_`, after `last_edit_`.
-  Box2<double> read_{Vec2d::Constant(1), Vec2d::Constant(-1)};
+  Box2 read_{Vec2d::Constant(1), Vec2d::Constant(-1)};
   std::uint64_t last_edit_ = 0;
 };
 

@@ -66,7 +66,7 @@ struct TurnedCollider {
 class LocalController {
  public:
   /// Finds all colliders that come into a box during the step, in any order, each once or more often.
-  using Find = std::function<void(const Box2<double>& box, std::vector<NearCollider>& found)>;
+  using Find = std::function<void(const Box2& box, std::vector<NearCollider>& found)>;
 
   /// How far a point near the character goes at most where a mover turns at once [m]. Zero: many short steps. Large:
   /// the far side of a plank is ahead of its near side.
@@ -80,27 +80,25 @@ class LocalController {
 
   /// One step: see `Controller::step`.
   /// @param context without movers. @param find is called at least once, and not after the call returns.
-  StepStatus step(CharacterState<double>& state, const Input& input, const StepContext<double>& context,
-                  const Find& find, StepReport<double>& report);
+  StepStatus step(CharacterState& state, const Input& input, const StepContext& context, const Find& find,
+                  StepReport& report);
   /// See `Controller::move`.
-  StepStatus move(CharacterState<double>& state, const Vec2d& displacement, const StepContext<double>& context,
-                  const Find& find, StepReport<double>& report);
+  StepStatus move(CharacterState& state, const Vec2d& displacement, const StepContext& context, const Find& find,
+                  StepReport& report);
   /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
   /// @return `crushed` if something reached the character, else `stuck` if something overlaps it at the end, else
   /// `moved`.
-  StepStatus wait(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
-                  StepReport<double>& report);
+  StepStatus wait(CharacterState& state, const StepContext& context, const Find& find, StepReport& report);
   /// See `Controller::overlaps`. @param at_end movers are where their motions end; else where they begin.
-  [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const StepContext<double>& context,
-                                                    const Find& find, bool at_end = false,
-                                                    std::span<ColliderIndex> found = {});
+  [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const StepContext& context, const Find& find,
+                                                    bool at_end = false, std::span<ColliderIndex> found = {});
 
   /// What moved near the character in the last step; empty where nothing near it turned. Valid until the next call.
   [[nodiscard]] std::span<const TurnedCollider> turned() const noexcept;
   /// The box in which colliders were looked for last: while a step needs no more, the next one looks there again. Where
   /// a `Find` misses what only passes through the box, it decides what is found: a roll-back puts it back.
-  [[nodiscard]] const Box2<double>& reach() const noexcept;
-  void set_reach(const Box2<double>& box) noexcept;
+  [[nodiscard]] const Box2& reach() const noexcept;
+  void set_reach(const Box2& box) noexcept;
   /// Colliders near the character that no scenery can be made of: see `InvalidScenery`. Valid until the next call.
   [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept;
   [[nodiscard]] const CharacterDef& character() const noexcept;

@@ -9,31 +9,28 @@
 namespace paperproof {
 
 /// A collider was in the way of the requested motion.
-template <class Scalar = double>
 struct Contact {
   ColliderIndex collider = 0;
-  Vec2<Scalar> point{Vec2<Scalar>::Zero()};   ///< On the obstacle [m].
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, from the obstacle towards the character.
-  Scalar fraction = 0;                        ///< Time of impact as a fraction of the step, in [0, 1].
-  Scalar separation = 0;                      ///< Gap that is left, along the normal [m]; negative: overlap.
+  Vec2d point{Vec2d::Zero()};   ///< On the obstacle [m].
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the character.
+  double fraction = 0;          ///< Time of impact as a fraction of the step, in [0, 1].
+  double separation = 0;        ///< Gap that is left, along the normal [m]; negative: overlap.
   Side side = Side::bottom;
 };
 
 /// The character's open interior came to overlap a sensor (of a chain: its line), or ceased to. Events of one sensor
 /// alternate, also over steps, as long as the filter stays the same; a character that begins inside does not enter.
-template <class Scalar>
 struct SensorEvent {
   enum class Change : std::uint8_t { enter, exit };
   ColliderIndex sensor = 0;
   Change change = Change::enter;
-  Scalar fraction = 0;  ///< Of the step, in [0, 1].
+  double fraction = 0;  ///< Of the step, in [0, 1].
 };
 
 /// A corner of the path.
-template <class Scalar>
 struct PathPoint {
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};  ///< [m]
-  Scalar fraction = 0;                          ///< Of the step, in [0, 1].
+  Vec2d position{Vec2d::Zero()};  ///< [m]
+  double fraction = 0;            ///< Of the step, in [0, 1].
 };
 
 enum class MoveStatus : std::uint8_t {
@@ -49,30 +46,29 @@ enum class MoveStatus : std::uint8_t {
 /// The report of one move. `octagon_sweep` reports everything: elements beyond the inline storage go to memory of its
 /// scratch, which is sized by the scenery (see `ReportVector`). Other techniques, and a `Crowd`, leave out the elements
 /// beyond the inline storage, and the vector has `overflowed()`. A crowd's `crushed` alone is always complete.
-template <class Scalar = double>
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
   static constexpr std::size_t max_contacts = 32;
   static constexpr std::size_t max_crushed = 64;
 
   MoveStatus status = MoveStatus::moved;
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
+  Vec2d position{Vec2d::Zero()};
+  Vec2d velocity{Vec2d::Zero()};
+  Vec2d technique_memory{Vec2d::Zero()};  ///< See `CharacterState::technique_memory`.
   bool grounded = false;
-  Ground<Scalar> ground;
+  Ground ground;
   std::string_view refusal{};  ///< The reason, in static memory. Valid where the status is `refused`.
   /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that tests only the end of the
   /// move has just these two corners. Impacts bound the number of corners. The character's own motion has at most
   /// `SweepDef::iterations` impacts. Movers may add any number: `octagon_sweep` has room for 4 more corners per moving
   /// piece, and a step that needs more is `dropped`.
-  ReportVector<PathPoint<Scalar>, max_corners> path;
+  ReportVector<PathPoint, max_corners> path;
   /// Bounded by the facets of all pieces that block.
-  ReportVector<Contact<Scalar>, max_contacts> contacts;
-  Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
+  ReportVector<Contact, max_contacts> contacts;
+  Ride ride;  ///< For the next step. `velocity` above is in the world, the ride included.
   /// Colliders of movers that ran into the character when it had no room to give way; each once.
   ReportVector<ColliderIndex, max_crushed> crushed;
-  Crushers<Scalar> crushers;  ///< See `CharacterState::crushers`.
+  Crushers crushers;  ///< See `CharacterState::crushers`.
 
   /// Gives up what is in borrowed memory, of a scratch for example: its owner uses it again, or goes.
   void keep_own() noexcept {
@@ -123,15 +119,14 @@ enum class StepStatus : std::uint8_t {
 }
 
 /// The report of one step. `move` is valid unless the status is `invalid_input`.
-template <class Scalar = double>
 struct StepReport {
   StepStatus status = StepStatus::moved;
-  Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
-  Scalar steered = 0;  ///< The part of `requested` across up that this step's steering added [m].
-  MoveResult<Scalar> move;
+  Vec2d requested{Vec2d::Zero()};  ///< Wanted displacement [m].
+  double steered = 0;              ///< The part of `requested` across up that this step's steering added [m].
+  MoveResult move;
   /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
   /// `overflowed()`.
-  FixedVector<SensorEvent<Scalar>, 32> sensors;
+  FixedVector<SensorEvent, 32> sensors;
   /// One-way chains that the character passed against their normal, or missed by less than a micrometre, in a step
   /// whose input asked to drop. Each chain is listed once, in the order of the indices.
   FixedVector<ColliderIndex, 32> dropped_through;

@@ -96,37 +96,35 @@ struct PieceInfo {
   [[nodiscard]] bool is_circle() const noexcept { return vertex_count == 1; }
 };
 
-template <class Scalar>
 struct Circle {
-  Vec2<Scalar> centre;  ///< [m]
-  Scalar radius;        ///< [m]
+  Vec2d centre;   ///< [m]
+  double radius;  ///< [m]
 };
 
 /// The vertices of a piece, as a range. They are stored in the scenery, which must outlive this range. The vertices of
 /// a rectangle are stored in the range itself, so a span of them must not outlive the range.
-template <class Scalar>
 class PieceVertices {
  public:
   // NOLINTNEXTLINE(*-explicit-*): a span of vertices is one of their two forms
-  PieceVertices(std::span<const Vec2<Scalar>> stored) noexcept : stored_(stored.data()), size_(stored.size()) {}
-  PieceVertices(const Box2<Scalar>& box, std::size_t first_corner) noexcept : stored_(nullptr), size_(4) {
-    const auto at = [&](std::size_t corner) -> Vec2<Scalar>& { return corners_[(corner - first_corner) % 4]; };
+  PieceVertices(std::span<const Vec2d> stored) noexcept : stored_(stored.data()), size_(stored.size()) {}
+  PieceVertices(const Box2& box, std::size_t first_corner) noexcept : stored_(nullptr), size_(4) {
+    const auto at = [&](std::size_t corner) -> Vec2d& { return corners_[(corner - first_corner) % 4]; };
     at(0) = box.lower;
     at(1) = {box.upper.x(), box.lower.y()};
     at(2) = box.upper;
     at(3) = {box.lower.x(), box.upper.y()};
   }
 
-  [[nodiscard]] const Vec2<Scalar>* data() const noexcept { return stored_ != nullptr ? stored_ : corners_.data(); }
+  [[nodiscard]] const Vec2d* data() const noexcept { return stored_ != nullptr ? stored_ : corners_.data(); }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] const Vec2<Scalar>* begin() const noexcept { return data(); }
-  [[nodiscard]] const Vec2<Scalar>* end() const noexcept { return data() + size_; }
-  [[nodiscard]] const Vec2<Scalar>& operator[](std::size_t i) const noexcept { return data()[i]; }
+  [[nodiscard]] const Vec2d* begin() const noexcept { return data(); }
+  [[nodiscard]] const Vec2d* end() const noexcept { return data() + size_; }
+  [[nodiscard]] const Vec2d& operator[](std::size_t i) const noexcept { return data()[i]; }
 
  private:
-  const Vec2<Scalar>* stored_;  ///< Null: they are in `corners_`.
+  const Vec2d* stored_;  ///< Null: they are in `corners_`.
   std::size_t size_;
-  std::array<Vec2<Scalar>, 4> corners_;
+  std::array<Vec2d, 4> corners_;
 };
 
 /// Some consecutive pieces.
@@ -137,10 +135,9 @@ struct PieceRange {
 };
 
 /// Immutable after construction; may be shared between threads.
-template <class Scalar = double>
 class Scenery {
  public:
-  /// Rounds every vertex to `Scalar` (and magnitudes below 1e-90 m to zero: their products would underflow), checks
+  /// Rounds every vertex to `double` (and magnitudes below 1e-90 m to zero: their products would underflow), checks
   /// every collider and cuts polygons into convex pieces.
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
@@ -151,14 +148,14 @@ class Scenery {
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
-  [[nodiscard]] PieceVertices<Scalar> vertices_of(PieceIndex piece) const noexcept {
+  [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept {
     const PieceInfo& info = pieces_[piece];
     if (info.is_rectangle()) return {boxes_[piece], info.rectangle_corner};
     return std::span(vertices_).subspan(info.first_vertex, info.vertex_count);
   }
   /// Of a piece that is one.
-  [[nodiscard]] Circle<Scalar> circle(PieceIndex piece) const noexcept {
-    const Vec2<Scalar>* stored = vertices_.data() + pieces_[piece].first_vertex;
+  [[nodiscard]] Circle circle(PieceIndex piece) const noexcept {
+    const Vec2d* stored = vertices_.data() + pieces_[piece].first_vertex;
     return {stored[0], stored[1].x()};
   }
   /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …, sensors.
@@ -173,9 +170,9 @@ class Scenery {
   [[nodiscard]] std::size_t mover_count() const noexcept { return mover_begin_.size() - 1; }
 
   /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
-  [[nodiscard]] const Box2<Scalar>& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
-  [[nodiscard]] std::span<const Box2<Scalar>> boxes() const noexcept { return boxes_; }
-  [[nodiscard]] std::span<const Box2<Scalar>> static_boxes() const noexcept { return boxes().first(static_count_); }
+  [[nodiscard]] const Box2& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
+  [[nodiscard]] std::span<const Box2> boxes() const noexcept { return boxes_; }
+  [[nodiscard]] std::span<const Box2> static_boxes() const noexcept { return boxes().first(static_count_); }
 
   [[nodiscard]] std::size_t collider_count() const noexcept { return colliders_.size(); }
   [[nodiscard]] const ColliderInfo& collider(ColliderIndex collider) const noexcept {
@@ -186,7 +183,7 @@ class Scenery {
   /// The pieces of a collider are consecutive. A one-way chain may have none.
   [[nodiscard]] PieceRange pieces_of(ColliderIndex collider) const noexcept;
 
-  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this definition. Each call
+  /// The definition as it runs: every coordinate rounded to `double`. An exact judge reads this definition. Each call
   /// builds it anew from the stored data.
   [[nodiscard]] SceneryDef as_run() const;
   [[nodiscard]] ColliderDef as_run(ColliderIndex collider) const;
@@ -194,8 +191,8 @@ class Scenery {
  private:
   /// Points of a collider that are not those of one piece.
   struct Shape {
-    std::vector<Vec2<Scalar>> points;
-    std::vector<std::vector<Vec2<Scalar>>> holes;
+    std::vector<Vec2d> points;
+    std::vector<std::vector<Vec2d>> holes;
   };
   /// The data from which a collider's definition is rebuilt.
   struct Collider {
@@ -213,13 +210,10 @@ class Scenery {
   std::vector<Collider> colliders_;
   std::vector<Shape> shapes_;
   std::vector<PieceInfo> pieces_;
-  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
-  std::vector<Box2<Scalar>> boxes_;
+  std::vector<Vec2d> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
+  std::vector<Box2> boxes_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.
 };
-
-extern template class Scenery<float>;
-extern template class Scenery<double>;
 
 }  // namespace paperproof

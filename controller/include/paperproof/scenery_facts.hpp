@@ -19,29 +19,25 @@ namespace paperproof {
 }
 
 /// Whether a mover moves a solid: pieces of moving solids lie between the standing ones and the sensors.
-template <class Scalar>
-[[nodiscard]] bool has_moving_solids(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline bool has_moving_solids(const Scenery& scenery) noexcept {
   return scenery.sensor_pieces().first > scenery.static_pieces().end;
 }
 
 /// Some surface is a conveyor.
-template <class Scalar>
-[[nodiscard]] bool has_conveyors(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline bool has_conveyors(const Scenery& scenery) noexcept {
   const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
   return std::any_of(kinds.begin(), kinds.end(),
                      [](const ColliderInfo& c) { return !c.sensor && c.surface_speed != 0; });
 }
 
 /// Some collider is not there for every character.
-template <class Scalar>
-[[nodiscard]] bool has_filters(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline bool has_filters(const Scenery& scenery) noexcept {
   const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
   return std::any_of(kinds.begin(), kinds.end(), [](const ColliderInfo& c) { return c.filter != Filter{}; });
 }
 
 /// Number of colliders that movers move, sensors included.
-template <class Scalar>
-[[nodiscard]] std::size_t count_moving_colliders(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline std::size_t count_moving_colliders(const Scenery& scenery) noexcept {
   std::size_t count = 0;
   for (ColliderIndex i = 0; i < scenery.collider_count(); ++i)
     if (scenery.collider(i).mover != no_mover) ++count;
@@ -49,16 +45,14 @@ template <class Scalar>
 }
 
 /// Some collider is round, sensors included.
-template <class Scalar>
-[[nodiscard]] bool has_circles(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline bool has_circles(const Scenery& scenery) noexcept {
   const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
   return std::any_of(kinds.begin(), kinds.end(),
                      [](const ColliderInfo& c) { return c.shape == ColliderDef::Shape::circle; });
 }
 
 /// Some segment blocks from one side only.
-template <class Scalar>
-[[nodiscard]] bool has_one_way_chains(const Scenery<Scalar>& scenery) noexcept {
+[[nodiscard]] inline bool has_one_way_chains(const Scenery& scenery) noexcept {
   const std::span<const PieceInfo> pieces = scenery.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; });
 }

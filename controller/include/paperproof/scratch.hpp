@@ -31,26 +31,24 @@ class PieceBuffer {
 };
 
 /// Pieces near a character: the answer of a broad phase, which holds for the next steps as well.
-template <class Scalar>
 struct Candidates {
   PieceBuffer pieces;  ///< Has room for the largest possible answer.
   std::size_t count = 0;
-  Box2<Scalar> box;  ///< Positions of the character for which the pieces are complete, if `valid`.
+  Box2 box;  ///< Positions of the character for which the pieces are complete, if `valid`.
   bool valid = false;
   /// Positions known to be quiet: while the character moves among them, nothing happens between it and any piece.
-  Box2<Scalar> quiet{Vec2<Scalar>::Constant(1), Vec2<Scalar>::Constant(-1)};
+  Box2 quiet{Vec2d::Constant(1), Vec2d::Constant(-1)};
   bool filtered = false;    ///< Pieces that are not there are missing,
   ColliderFilter filter{};  ///< by this filter.
 };
 
 /// Memory of a step, one per thread. It belongs to the controller that made it and carries nothing
 /// from one step to the next that could change a result.
-template <class Scalar = double>
 struct Scratch {
-  Candidates<Scalar> solids;       ///< Belongs to the move, as the next member does.
+  Candidates solids;               ///< Belongs to the move, as the next member does.
   std::unique_ptr<OwnMemory> own;  ///< Of `octagon_sweep`, and of few other techniques.
-  Candidates<Scalar> sensors;      ///< Belongs to the controller, as all that follows.
-  Candidates<Scalar> one_way;
+  Candidates sensors;              ///< Belongs to the controller, as all that follows.
+  Candidates one_way;
   /// The maker of this memory: a controller refuses memory that another controller made. The mark expires with its
   /// controller, so it never matches a later controller at the same address.
   std::weak_ptr<const void> maker;

@@ -21,8 +21,7 @@ struct ColliderFilter : Filter {
   const void* user = nullptr;       ///< Handed to `is_there`.
   ColliderIndex end = no_collider;  ///< A `Crowd` sets it: its own colliders begin here.
 
-  template <class Scalar>
-  [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
+  [[nodiscard]] bool operator()(const Scenery& scenery, ColliderIndex collider) const noexcept {
     return (*this)(collider, scenery.collider(collider).filter);
   }
   /// @param other that of the collider.
@@ -33,12 +32,11 @@ struct ColliderFilter : Filter {
 };
 
 /// The surroundings of a step. All characters of a step share them.
-template <class Scalar = double>
 struct StepContext {
-  Vec2<Scalar> gravity{Vec2<Scalar>::Zero()};  ///< [m/s²]
-  Scalar dt = 0;                               ///< Duration of the step, above zero [s].
+  Vec2d gravity{Vec2d::Zero()};  ///< [m/s²]
+  double dt = 0;                 ///< Duration of the step, above zero [s].
   /// One for each mover of the scenery, within +-2e6 m.
-  std::span<const MoverMotion<Scalar>> movers{};
+  std::span<const MoverMotion> movers{};
   /// The filter of the characters. If it is null, a default filter is used. A step is as if the colliders that the
   /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
   const ColliderFilter* filter = nullptr;
@@ -47,8 +45,8 @@ struct StepContext {
   /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
   /// world: turn it as well. The flags of a state are those that its last step saw. The shape does not turn, and
   /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
-  /// from 1 by more than the rounding of `Scalar`.
-  Vec2<Scalar> up{0, 1};
+  /// from 1 by more than the rounding of `double`.
+  Vec2d up{0, 1};
 };
 
 }  // namespace paperproof

@@ -5,11 +5,7 @@ namespace paperproof {
 
 /// In metres, unless stated otherwise. Each comment gives the effect of both extremes. The four lengths and their order
 /// were found against an exact oracle: with one threshold alone a walker snags on abutting tiles, with two it does not.
-template <class Scalar>
-struct Tolerances;
-
-template <>
-struct Tolerances<double> {
+struct Tolerances {
   /// A motion hits where it would come nearer than this. Zero: rounding (about 4e-9 at 1e6 m) lets the character
   /// overlap a solid. Large: narrow openings count as closed. (An opening counts as closed if its clearance is less
   /// than twice this.)
@@ -35,17 +31,15 @@ struct Tolerances<double> {
   double climb = 1e-8;
 };
 
-/// `float` keeps 24 bits: at 100 m a position is known to 4e-6 m. Nothing is guaranteed; the harness counts violations.
-template <>
-struct Tolerances<float> {
-  float hit = 1e-4F;
-  float stop = 5e-4F;
-  float touch = 7e-4F;
-  float look = 1e-2F;
-  float certain = 1e-5F;
-  float restore = 2e-4F;
-  float range = 2e6F;
-  float climb = 1e-5F;
-};
+/// Of `float`, which keeps 24 bits: at 100 m a position is known to 4e-6 m. Nothing is guaranteed; the harness counts
+/// violations.
+inline constexpr Tolerances tolerances_in_float{.hit = 1e-4,
+                                                .stop = 5e-4,
+                                                .touch = 7e-4,
+                                                .look = 1e-2,
+                                                .certain = 1e-5,
+                                                .restore = 2e-4,
+                                                .range = 2e6,
+                                                .climb = 1e-5};
 
 }  // namespace paperproof

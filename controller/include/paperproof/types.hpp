@@ -13,10 +13,8 @@
 
 namespace paperproof {
 
-template <class Scalar>
-using Vec2 = Eigen::Matrix<Scalar, 2, 1, Eigen::DontAlign>;
-using Vec2d = Vec2<double>;
-using Vec2f = Vec2<float>;
+using Vec2d = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+using Vec2f = Eigen::Matrix<float, 2, 1, Eigen::DontAlign>;
 
 /// Position of a collider in `SceneryDef::colliders`, or its id in a `Level` or of a `NearCollider`. A collider is what
 /// a user placed: one polygon, chain or circle.
@@ -32,13 +30,12 @@ inline constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 
 /// The motion of a mover during one step: linear, from one offset to another. Offsets are relative to the place where
 /// the mover's colliders were defined [m].
-template <class Scalar = double>
 struct MoverMotion {
-  Vec2<Scalar> from{Vec2<Scalar>::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
-  Vec2<Scalar> to{Vec2<Scalar>::Zero()};    ///< When it ends.
+  Vec2d from{Vec2d::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
+  Vec2d to{Vec2d::Zero()};    ///< When it ends.
 
   /// The offset at a fraction of the step. It is not rounded at the end, because the next step begins there.
-  [[nodiscard]] Vec2<Scalar> at(Scalar fraction) const noexcept {
+  [[nodiscard]] Vec2d at(double fraction) const noexcept {
     if (!(fraction < 1)) return to;
     return from + (to - from) * fraction;
   }
@@ -50,19 +47,17 @@ enum class Side : std::uint8_t { top, bottom, left, right };
 /// The side of an upright character that a contact normal (unit, from the obstacle towards the character) belongs to;
 /// of another character `UpFrame::side_of` tells it. The larger component decides; at exactly 45 degrees the vertical
 /// one does.
-template <class Scalar>
-[[nodiscard]] constexpr Side side_of_normal(Scalar normal_x, Scalar normal_y) noexcept {
-  const Scalar width = normal_x < 0 ? -normal_x : normal_x;
+[[nodiscard]] constexpr Side side_of_normal(double normal_x, double normal_y) noexcept {
+  const double width = normal_x < 0 ? -normal_x : normal_x;
   if (normal_y >= width) return Side::bottom;
   if (-normal_y >= width) return Side::top;
   return normal_x > 0 ? Side::left : Side::right;
 }
 
 /// Closed axis-aligned box [m].
-template <class Scalar>
 struct Box2 {
-  Vec2<Scalar> lower{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> upper{Vec2<Scalar>::Zero()};
+  Vec2d lower{Vec2d::Zero()};
+  Vec2d upper{Vec2d::Zero()};
 
   [[nodiscard]] bool overlaps(const Box2& other) const noexcept {
     return lower.x() <= other.upper.x() && other.lower.x() <= upper.x() && lower.y() <= other.upper.y() &&
@@ -75,14 +70,14 @@ struct Box2 {
   [[nodiscard]] Box2 merged(const Box2& other) const noexcept {
     return {lower.cwiseMin(other.lower), upper.cwiseMax(other.upper)};
   }
-  [[nodiscard]] Vec2<Scalar> middle() const noexcept { return (lower + upper) / 2; }
-  [[nodiscard]] Box2 inflated(Scalar by) const noexcept {
-    return {lower - Vec2<Scalar>::Constant(by), upper + Vec2<Scalar>::Constant(by)};
+  [[nodiscard]] Vec2d middle() const noexcept { return (lower + upper) / 2; }
+  [[nodiscard]] Box2 inflated(double by) const noexcept {
+    return {lower - Vec2d::Constant(by), upper + Vec2d::Constant(by)};
   }
   /// @param points at least one.
-  [[nodiscard]] static Box2 around(std::span<const Vec2<Scalar>> points) noexcept {
+  [[nodiscard]] static Box2 around(std::span<const Vec2d> points) noexcept {
     Box2 box{points[0], points[0]};
-    for (const Vec2<Scalar>& point : points) box = box.merged({point, point});
+    for (const Vec2d& point : points) box = box.merged({point, point});
     return box;
   }
 };

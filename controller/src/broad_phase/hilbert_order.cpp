@@ -11,10 +11,7 @@ namespace {
 constexpr unsigned bits = 16;
 
 /// Halved before adding, so that huge boxes do not overflow.
-template <class Scalar>
-Vec2<Scalar> centre(const Box2<Scalar>& box) noexcept {
-  return Scalar(0.5) * box.lower + Scalar(0.5) * box.upper;
-}
+Vec2d centre(const Box2& box) noexcept { return 0.5 * box.lower + 0.5 * box.upper; }
 
 /// Place of a cell along the curve, found quarter by quarter. The square is turned for each quarter, so that the curve
 /// is continuous (D. Hilbert 1891).
@@ -60,25 +57,24 @@ void sort_by_place(std::span<Key> keys, std::vector<Key>& room) {
   }
 }
 
-template <class Scalar>
-void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys, std::vector<Key>& room) {
-  Vec2<Scalar> lower = centre(boxes[index_of(keys.front())]);
-  Vec2<Scalar> upper = lower;
+void sort_along_curve(std::span<const Box2> boxes, std::span<Key> keys, std::vector<Key>& room) {
+  Vec2d lower = centre(boxes[index_of(keys.front())]);
+  Vec2d upper = lower;
   for (const Key key : keys) {
-    const Vec2<Scalar> at = centre(boxes[index_of(key)]);
+    const Vec2d at = centre(boxes[index_of(key)]);
     lower = lower.cwiseMin(at);
     upper = upper.cwiseMax(at);
   }
   if (lower == upper) return;
-  constexpr auto cells = static_cast<Scalar>((1U << bits) - 1);
-  const Vec2<Scalar> half = Scalar(0.5) * upper - Scalar(0.5) * lower;
-  const auto cell = [&](const Vec2<Scalar>& at, Eigen::Index axis) {
+  constexpr auto cells = static_cast<double>((1U << bits) - 1);
+  const Vec2d half = 0.5 * upper - 0.5 * lower;
+  const auto cell = [&](const Vec2d& at, Eigen::Index axis) {
     if (!(half[axis] > 0)) return 0U;
-    return static_cast<std::uint32_t>((Scalar(0.5) * at[axis] - Scalar(0.5) * lower[axis]) / half[axis] * cells);
+    return static_cast<std::uint32_t>((0.5 * at[axis] - 0.5 * lower[axis]) / half[axis] * cells);
   };
   for (Key& key : keys) {
     const PieceIndex index = index_of(key);
-    const Vec2<Scalar> at = centre(boxes[index]);
+    const Vec2d at = centre(boxes[index]);
     key = Key{place_on_curve(cell(at, 0), cell(at, 1))} << 32U | index;
   }
   sort_by_place(keys, room);
@@ -91,18 +87,14 @@ void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys, 
 
 }  // namespace
 
-template <class Scalar>
-std::vector<PieceIndex> hilbert_order(std::span<const Box2<Scalar>> boxes) {
+std::vector<PieceIndex> hilbert_order(std::span<const Box2> boxes) {
   std::vector<Key> keys(boxes.size());
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = i;
   std::vector<Key> room;
-  if (!keys.empty()) sort_along_curve<Scalar>(boxes, keys, room);
+  if (!keys.empty()) sort_along_curve(boxes, keys, room);
   std::vector<PieceIndex> order(keys.size());
   std::transform(keys.begin(), keys.end(), order.begin(), index_of);
   return order;
 }
-
-template std::vector<PieceIndex> hilbert_order(std::span<const Box2<float>>);
-template std::vector<PieceIndex> hilbert_order(std::span<const Box2<double>>);
 
 }  // namespace paperproof::broad_phase

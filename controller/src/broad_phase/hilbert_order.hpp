@@ -11,7 +11,6 @@ namespace paperproof::broad_phase {
 /// The indices of all boxes, along a Hilbert curve through their centres: consecutive ones lie close together. Boxes in
 /// the same cell of a curve of 2^16 cells a side are ordered among themselves by a curve of their own, so one box far
 /// away does no harm.
-template <class Scalar>
-[[nodiscard]] std::vector<PieceIndex> hilbert_order(std::span<const Box2<Scalar>> boxes);
+[[nodiscard]] std::vector<PieceIndex> hilbert_order(std::span<const Box2> boxes);
 
 }  // namespace paperproof::broad_phase

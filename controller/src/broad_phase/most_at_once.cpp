@@ -29,19 +29,18 @@ std::size_t mixed(std::int64_t x, std::int64_t y, std::size_t size_class) noexce
 /// Take all boxes of one class that meet a query box. Their lower corners lie in a rectangle that is larger than the
 /// query box by the longest side of the class, so they lie in at most four cells of the size of this rectangle. Cells
 /// that share a counter make the bound larger.
-template <class Scalar>
-std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>& size) {
+std::size_t most_at_once(std::span<const Box2> boxes, const Vec2d& size) {
   std::vector<std::uint32_t> counters(std::bit_ceil(boxes.size() + 1));
   std::array<std::size_t, classes> fullest{};
-  const int least = std::ilogb(static_cast<double>(size.maxCoeff()));
-  for (const Box2<Scalar>& box : boxes) {
-    const auto side = static_cast<double>((box.upper - box.lower).maxCoeff());
+  const int least = std::ilogb(size.maxCoeff());
+  for (const Box2& box : boxes) {
+    const auto side = (box.upper - box.lower).maxCoeff();
     const int exponent = side > 0 ? std::max(std::ilogb(side) + 1, least) : least;
     const auto size_class = std::min(static_cast<std::size_t>(exponent - least), classes - 1);
     const double longest = std::ldexp(1.0, exponent);
     const auto cell = [&](Eigen::Index axis) {
-      const double width = (static_cast<double>(size[axis]) + longest) * spare;
-      const double place = std::floor(static_cast<double>(box.lower[axis]) / width);
+      const double width = (size[axis] + longest) * spare;
+      const double place = std::floor(box.lower[axis] / width);
       return static_cast<std::int64_t>(std::clamp(place, -outermost, outermost));
     };
     const bool fits = size_class + 1 < classes;
@@ -51,8 +50,5 @@ std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>
   }
   return std::min(boxes.size(), 4 * std::accumulate(fullest.begin(), fullest.end(), std::size_t{0}));
 }
-
-template std::size_t most_at_once(std::span<const Box2<float>>, const Vec2<float>&);
-template std::size_t most_at_once(std::span<const Box2<double>>, const Vec2<double>&);
 
 }  // namespace paperproof::broad_phase

@@ -10,7 +10,6 @@ namespace paperproof::broad_phase {
 /// Upper bound for the number of `boxes` that a box of the given size meets, at any place. The bound is a few times the
 /// true number; memory is sized by it. Linear in the number of boxes.
 /// @param size [m]
-template <class Scalar>
-[[nodiscard]] std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>& size);
+[[nodiscard]] std::size_t most_at_once(std::span<const Box2> boxes, const Vec2d& size);
 
 }  // namespace paperproof::broad_phase

@@ -24,8 +24,7 @@ constexpr std::size_t few = 16;
 }
 [[gnu::always_inline]] inline float rounded_up(double value) noexcept { return -rounded_down(-value); }
 
-template <class Scalar>
-[[gnu::always_inline]] inline Box2<float> rounded_outwards(const Box2<Scalar>& box) noexcept {
+[[gnu::always_inline]] inline RoundedBox rounded_outwards(const Box2& box) noexcept {
   return {{rounded_down(box.lower.x()), rounded_down(box.lower.y())},
           {rounded_up(box.upper.x()), rounded_up(box.upper.y())}};
 }
@@ -47,12 +46,10 @@ void sort_few(std::span<PieceIndex> pieces) noexcept {
 
 }  // namespace
 
-template <class Scalar>
-Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes, PieceSearch search)
-    : boxes_(boxes), finds_all_(search == PieceSearch::none) {
+Tree::Tree(std::span<const Box2> boxes, PieceSearch search) : boxes_(boxes), finds_all_(search == PieceSearch::none) {
   if (search != PieceSearch::tree || boxes.size() <= few) return;
   order_ = hilbert_order(boxes);
-  std::vector<Box2<float>> below;
+  std::vector<RoundedBox> below;
   below.reserve(boxes.size());
   for (const PieceIndex piece : order_) below.push_back(rounded_outwards(boxes[piece]));
   nodes_.reserve(boxes.size() / (fan - 1) + most_levels);
@@ -61,22 +58,21 @@ Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes, PieceSearch search)
 }
 
 /// @param boxes of the level below; replaced by the boxes of the added nodes.
-template <class Scalar>
-void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
+void Tree::add_level(std::vector<RoundedBox>& boxes) {
   levels_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   std::size_t made = 0;
   for (std::size_t first = 0; first < boxes.size(); first += fan) {
     Each nothing;
     nothing.fill(std::numeric_limits<float>::quiet_NaN() - Four{});
     Node node{nothing, nothing, nothing, nothing};
-    Box2<float> around = boxes[first];
+    RoundedBox around = boxes[first];
     for (std::size_t k = 0; k < std::min(fan, boxes.size() - first); ++k) {
-      const Box2<float>& box = boxes[first + k];
+      const RoundedBox& box = boxes[first + k];
       node.lower_x[k / 4][k % 4] = box.lower.x();
       node.lower_y[k / 4][k % 4] = box.lower.y();
       node.upper_x[k / 4][k % 4] = box.upper.x();
       node.upper_y[k / 4][k % 4] = box.upper.y();
-      around = around.merged(box);
+      around = {around.lower.cwiseMin(box.lower), around.upper.cwiseMax(box.upper)};
     }
     nodes_.push_back(node);
     boxes[made++] = around;
@@ -85,8 +81,7 @@ void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
 }
 
 /// One bit for each child.
-template <class Scalar>
-[[gnu::always_inline]] inline unsigned Tree<Scalar>::met_by(const Node& node, const Box2<float>& box) noexcept {
+[[gnu::always_inline]] inline unsigned Tree::met_by(const Node& node, const RoundedBox& box) noexcept {
   using Flags [[gnu::vector_size(4 * sizeof(int))]] = int;
   Flags overlapped{};
   Flags bit_of_each{1, 2, 4, 8};
@@ -99,8 +94,7 @@ template <class Scalar>
   return static_cast<unsigned>(overlapped[0] | overlapped[1] | overlapped[2] | overlapped[3]);
 }
 
-template <class Scalar>
-std::size_t Tree<Scalar>::query_each(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+std::size_t Tree::query_each(const Box2& query, std::span<PieceIndex> found) const noexcept {
   std::size_t count = 0;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     if (!finds_all_ && !boxes_[i].overlaps(query)) continue;
@@ -110,8 +104,7 @@ std::size_t Tree<Scalar>::query_each(const Box2<Scalar>& query, std::span<PieceI
   return count;
 }
 
-template <class Scalar>
-std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+std::size_t Tree::query(const Box2& query, std::span<PieceIndex> found) const noexcept {
   if (levels_.empty()) return query_each(query, found);
   struct Place {
     std::size_t level;
@@ -120,7 +113,7 @@ std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex>
   // Each level leaves at most all its nodes but one for later.
   FixedVector<Place, (fan - 1) * most_levels + 1> open;
   open.push_back({levels_.size() - 1, 0});
-  const Box2<float> wanted = rounded_outwards(query);
+  const RoundedBox wanted = rounded_outwards(query);
   std::size_t count = 0;
   while (!open.empty()) {
     const Place place = open.back();
@@ -139,8 +132,5 @@ std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex>
   if (count <= found.size()) sort_few(found.first(count));
   return count;
 }
-
-template class Tree<float>;
-template class Tree<double>;
 
 }  // namespace paperproof::broad_phase

@@ -10,6 +10,12 @@
 
 namespace paperproof::broad_phase {
 
+/// A box in `float` that holds one in `double`.
+struct RoundedBox {
+  Vec2f lower;
+  Vec2f upper;
+};
+
 /// A tree of boxes with sixteen children to a node, packed (I. Kamel and C. Faloutsos 1993, "On packing R-trees"):
 /// boxes in the order of a Hilbert curve through their centres, each sixteen of them in a node, each sixteen nodes in
 /// one above. With fewer to a node a query waits more often for the memory of the next level; with more it looks at
@@ -19,18 +25,17 @@ namespace paperproof::broad_phase {
 /// that a query finds this way is tested again with its given coordinates.
 ///
 /// Immutable after construction; may be shared between threads; a query never allocates.
-template <class Scalar>
 class Tree {
  public:
   /// @param boxes finite; they must outlive the tree and stay as they are.
   /// @param search `one_by_one`: nothing is built, as for boxes so few that a tree costs more than it saves. `none`: a
   ///   query gives all boxes, wherever they are.
-  explicit Tree(std::span<const Box2<Scalar>> boxes, PieceSearch search = PieceSearch::tree);
+  explicit Tree(std::span<const Box2> boxes, PieceSearch search = PieceSearch::tree);
 
   /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
   /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
   ///   again with more room.
-  [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept;
+  [[nodiscard]] std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept;
 
  private:
   static constexpr std::size_t fan = 16;
@@ -46,18 +51,15 @@ class Tree {
     Each upper_y;
   };
 
-  [[nodiscard]] std::size_t query_each(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept;
-  [[nodiscard]] static unsigned met_by(const Node& node, const Box2<float>& box) noexcept;
-  void add_level(std::vector<Box2<float>>& boxes);
+  [[nodiscard]] std::size_t query_each(const Box2& query, std::span<PieceIndex> found) const noexcept;
+  [[nodiscard]] static unsigned met_by(const Node& node, const RoundedBox& box) noexcept;
+  void add_level(std::vector<RoundedBox>& boxes);
 
-  std::span<const Box2<Scalar>> boxes_;
+  std::span<const Box2> boxes_;
   bool finds_all_;
   std::vector<PieceIndex> order_;  ///< Along the curve.
   std::vector<Node> nodes_;        ///< Level by level: nodes of boxes, nodes of these nodes, …, the root.
   FixedVector<std::uint32_t, most_levels> levels_;  ///< The first node of each.
 };
-
-extern template class Tree<float>;
-extern template class Tree<double>;
 
 }  // namespace paperproof::broad_phase

@@ -9,21 +9,19 @@
 
 namespace paperproof::crowd {
 
-template <class Scalar>
 struct PairImpact {
   CharacterIndex first = 0;
   CharacterIndex second = 0;  ///< The higher index.
-  Impact<Scalar> impact;
+  Impact impact;
 };
 
 /// Of each character, the earliest impact with one of a higher index.
 ///
 /// `impact_of(i, j)` gives the impact of two characters, i < j, on the paths that they follow now.
-template <class Scalar>
 class ImpactQueue {
  public:
   /// @param rows one for each character; must outlive the queue.
-  explicit ImpactQueue(std::span<PairImpact<Scalar>> rows) noexcept : rows_(rows) {}
+  explicit ImpactQueue(std::span<PairImpact> rows) noexcept : rows_(rows) {}
 
   template <class ImpactOf>
   void find_all(const ImpactOf& impact_of) noexcept {
@@ -43,9 +41,9 @@ class ImpactQueue {
   }
 
   /// Of equal times the one with the lowest first index, then the lowest second index. Null where there is none.
-  [[nodiscard]] const PairImpact<Scalar>* earliest() const noexcept {
-    const PairImpact<Scalar>* earliest = nullptr;
-    for (const PairImpact<Scalar>& row : rows_)
+  [[nodiscard]] const PairImpact* earliest() const noexcept {
+    const PairImpact* earliest = nullptr;
+    for (const PairImpact& row : rows_)
       if (row.impact.happens && (earliest == nullptr || row.impact.stop < earliest->impact.stop)) earliest = &row;
     return earliest;
   }
@@ -58,13 +56,13 @@ class ImpactQueue {
   }
   template <class ImpactOf>
   void consider(CharacterIndex i, CharacterIndex j, const ImpactOf& impact_of) noexcept {
-    const Impact<Scalar> found = impact_of(i, j);
-    PairImpact<Scalar>& row = rows_[i];
+    const Impact found = impact_of(i, j);
+    PairImpact& row = rows_[i];
     if (found.happens && (!row.impact.happens || std::tie(found.stop, j) < std::tie(row.impact.stop, row.second)))
       row = {i, j, found};
   }
 
-  std::span<PairImpact<Scalar>> rows_;
+  std::span<PairImpact> rows_;
 };
 
 }  // namespace paperproof::crowd

@@ -20,29 +20,28 @@ inline constexpr std::size_t max_obstacles = 12;
 using Obstacles = FixedVector<CharacterIndex, max_obstacles>;
 
 /// What does not change from step to step.
-template <class Scalar>
 struct SweepRules {
-  SweepRules(const Scenery<Scalar>& scene, const CharacterDef& character, int iterations)
+  SweepRules(const Scenery& scene, const CharacterDef& character, int iterations)
       : scenery(with_slots(scene, character.shape)),
         first_slot(static_cast<ColliderIndex>(scene.collider_count())),
         space(character.shape),
-        walkable_cosine(character.walkable_cosine<Scalar>()),
+        walkable_cosine(character.walkable_cosine()),
         max_replans(iterations) {}
 
   [[nodiscard]] bool is_character(ColliderIndex collider) const noexcept {
     return collider >= first_slot && collider != no_collider;
   }
 
-  Scenery<Scalar> scenery;   ///< That of the scene, and the slots.
+  Scenery scenery;           ///< That of the scene, and the slots.
   ColliderIndex first_slot;  ///< The collider of the first slot.
-  PairSpace<Scalar> space;
-  Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
+  PairSpace space;
+  double walkable_cosine;  ///< Least upward component of a normal that is stood on.
   int max_replans;  ///< After so many new paths in one step a character stops steering. After twice as many it holds
                     ///< its position.
-  const octagon_sweep::SweepInParts<Scalar>* sweep = nullptr;  ///< Made for `scenery`.
+  const octagon_sweep::SweepInParts* sweep = nullptr;  ///< Made for `scenery`.
 
  private:
-  [[nodiscard]] static SceneryDef with_slots(const Scenery<Scalar>& scene, const CharacterShape& shape) {
+  [[nodiscard]] static SceneryDef with_slots(const Scenery& scene, const CharacterShape& shape) {
     SceneryDef def = scene.as_run();
     ColliderDef slot{.points = {shape.hull().begin(), shape.hull().end()}, .carries = false};
     for (std::size_t k = 0; k < max_obstacles; ++k) {
@@ -54,29 +53,27 @@ struct SweepRules {
 };
 
 /// A moment of a step of one character: what one part of its path hands to the next.
-template <class Scalar>
 struct Moment {
-  Scalar time = 0;               ///< Fraction of the step.
-  CharacterState<Scalar> state;  ///< Its velocity is not kept up to date.
-  Vec2<Scalar> own_velocity;     ///< Relative to what carries it [m/s].
-  Scalar steered = 0;            ///< The part of `own_velocity` across up that this step's steering added [m/s].
-  Scalar crushed_at = 1;         ///< The end of the first part that crushed the character.
+  double time = 0;        ///< Fraction of the step.
+  CharacterState state;   ///< Its velocity is not kept up to date.
+  Vec2d own_velocity;     ///< Relative to what carries it [m/s].
+  double steered = 0;     ///< The part of `own_velocity` across up that this step's steering added [m/s].
+  double crushed_at = 1;  ///< The end of the first part that crushed the character.
 };
 
 /// One character during a step. What it has done up to now stands in its report, what it is about to do here.
-template <class Scalar>
 struct Member {
-  Moment<Scalar> start;
-  Moment<Scalar> now;
-  Moment<Scalar> end;       ///< Of the plan.
-  MoveResult<Scalar> plan;  ///< From now to the end of the step; its fractions are those of the step.
-  Box2<Scalar> box;         ///< Around the shape along the plan, and a little more.
-  Obstacles obstacles;      ///< The characters that it avoids. The k-th of them takes the k-th slot of the scenery.
+  Moment start;
+  Moment now;
+  Moment end;           ///< Of the plan.
+  MoveResult plan;      ///< From now to the end of the step; its fractions are those of the step.
+  Box2 box;             ///< Around the shape along the plan, and a little more.
+  Obstacles obstacles;  ///< The characters that it avoids. The k-th of them takes the k-th slot of the scenery.
   int replans = 0;
   bool holds_position = false;     ///< For the rest of the step. It has no obstacles, and is one.
   bool follows_ground = false;     ///< It was on the ground and does not jump: its path follows the ground down.
   bool ground_taken = false;       ///< Another character is where it would follow the ground down to: it does not.
-  Scalar leaves_ground_above = 0;  ///< See `StepRequest`.
+  double leaves_ground_above = 0;  ///< See `StepRequest`.
   bool drops = false;              ///< One-way chains do not hold it in this step.
   bool dropped = false;            ///< Its step was cut short.
   bool starts_stuck = false;       ///< It began inside scenery, and there was no way out.
@@ -84,34 +81,32 @@ struct Member {
 };
 
 /// Memory for a step of a crowd.
-template <class Scalar>
 struct CrowdMemory final : OwnMemory {
-  std::vector<CharacterState<Scalar>> states;                ///< Those handed to the step, as they will be.
-  std::vector<octagon_sweep::StepRequest<Scalar>> requests;  ///< What each character wants.
-  Scratch<Scalar> scratch;                                   ///< Of the technique.
+  std::vector<CharacterState> states;                ///< Those handed to the step, as they will be.
+  std::vector<octagon_sweep::StepRequest> requests;  ///< What each character wants.
+  Scratch scratch;                                   ///< Of the technique.
   // The rest is for `octagon_sweep`.
-  std::vector<Member<Scalar>> members;
-  std::vector<PairImpact<Scalar>> impacts;
-  std::vector<MoverMotion<Scalar>> motions;  ///< Of all movers and slots, during a part of a path.
-  MoveResult<Scalar> part;                   ///< What the technique says about that part.
-  MoveResult<Scalar> path;                   ///< The path that was planned last.
+  std::vector<Member> members;
+  std::vector<PairImpact> impacts;
+  std::vector<MoverMotion> motions;  ///< Of all movers and slots, during a part of a path.
+  MoveResult part;                   ///< What the technique says about that part.
+  MoveResult path;                   ///< The path that was planned last.
 };
 
 /// One step of a crowd: what all its parts read and write.
-template <class Scalar>
 struct CrowdStep {
-  const SweepRules<Scalar>& rules;
-  CrowdMemory<Scalar>& memory;
-  CrowdReport<Scalar>& report;
-  std::span<Member<Scalar>> members;
-  Vec2<Scalar> gravity;  ///< [m/s²]
-  Scalar dt;             ///< [s]
-  std::span<const MoverMotion<Scalar>> movers;
+  const SweepRules& rules;
+  CrowdMemory& memory;
+  CrowdReport& report;
+  std::span<Member> members;
+  Vec2d gravity;  ///< [m/s²]
+  double dt;      ///< [s]
+  std::span<const MoverMotion> movers;
   const ColliderFilter* filter;  ///< See `StepRequest`.
-  UpFrame<Scalar> up;
+  UpFrame up;
 
   /// What a character has done up to now.
-  [[nodiscard]] MoveResult<Scalar>& made(CharacterIndex i) const noexcept { return report.members[i].step.move; }
+  [[nodiscard]] MoveResult& made(CharacterIndex i) const noexcept { return report.members[i].step.move; }
 };
 
 }  // namespace paperproof::crowd

@@ -8,17 +8,16 @@ namespace paperproof::crowd {
 namespace {
 
 /// The order of a step: paths as if each were alone, impacts, a last search for room, a check of all paths.
-template <class Scalar>
 class SweepTogether {
  public:
-  explicit SweepTogether(CrowdStep<Scalar>& step) noexcept : step_(step), planner_(step), paths_(step) {}
+  explicit SweepTogether(CrowdStep& step) noexcept : step_(step), planner_(step), paths_(step) {}
 
-  [[nodiscard]] bool move_all(std::span<const CharacterState<Scalar>> before) noexcept {
+  [[nodiscard]] bool move_all(std::span<const CharacterState> before) noexcept {
     step_.report.impacts = 0;
     for (CharacterIndex i = 0; i < step_.members.size(); ++i)
       if (!plan_alone(i)) return false;
     note_overlaps();
-    Avoidance<Scalar>(step_, paths_).handle_impacts();
+    Avoidance(step_, paths_).handle_impacts();
     find_room_for_all();
     for (CharacterIndex i = 0; i < step_.members.size(); ++i)
       if (has_lost_ground(i)) step_.members[i].plan.grounded = step_.members[i].end.state.grounded = false;
@@ -32,13 +31,12 @@ class SweepTogether {
   }
 
  private:
-  using V = Vec2<Scalar>;
-  using WholePath = FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners>;
+  using WholePath = FixedVector<PathPoint, 2 * MoveResult::max_corners>;
 
   /// The path that a character would take if it were alone. False where it would leave the range.
   [[nodiscard]] bool plan_alone(CharacterIndex i) noexcept {
-    const octagon_sweep::StepRequest<Scalar>& request = step_.memory.requests[i];
-    Member<Scalar>& member = step_.members[i];
+    const octagon_sweep::StepRequest& request = step_.memory.requests[i];
+    Member& member = step_.members[i];
     member.now.time = 0;
     member.now.state = step_.memory.states[i];
     set_crushers(request.crushers, step_.rules, member.now.state);
@@ -51,7 +49,7 @@ class SweepTogether {
     member.follows_ground = request.grounded;
     member.leaves_ground_above = request.leaves_ground_above;
     member.drops = request.drop;
-    Moment<Scalar> end = member.now;
+    Moment end = member.now;
     if (planner_.plan_until(i, 1, step_.memory.path, end))
       paths_.follow(i, end);
     else if (step_.memory.path.path.overflowed())
@@ -64,14 +62,14 @@ class SweepTogether {
 
   /// Reports the pairs that overlap by more than rounding.
   void note_overlaps() noexcept {
-    const V extent = step_.rules.space.box().upper - step_.rules.space.box().lower;
+    const Vec2d extent = step_.rules.space.box().upper - step_.rules.space.box().lower;
     for (CharacterIndex i = 0; i < step_.members.size(); ++i) {
       for (CharacterIndex j = i + 1; j < step_.members.size(); ++j) {
-        const V& first = step_.members[i].now.state.position;
-        const V& second = step_.members[j].now.state.position;
-        const V between = second - first;
+        const Vec2d& first = step_.members[i].now.state.position;
+        const Vec2d& second = step_.members[j].now.state.position;
+        const Vec2d between = second - first;
         if (std::abs(between.x()) > extent.x() || std::abs(between.y()) > extent.y()) continue;
-        if (step_.rules.space.separation(first, second) >= -Tolerances<Scalar>{}.certain) continue;
+        if (step_.rules.space.separation(first, second) >= -Tolerances{}.certain) continue;
         step_.report.members[i].started_overlapping.push_back(j);
         step_.report.members[j].started_overlapping.push_back(i);
       }
@@ -91,15 +89,15 @@ class SweepTogether {
   /// once its obstacle has gone on. So its path is planned once more, now that the paths of all others are known.
   /// @return whether it has a new path.
   bool find_room(CharacterIndex i) noexcept {
-    Member<Scalar>& member = step_.members[i];
-    const Scalar crush = crush_distance(i);
-    const Scalar reach = std::max(crush, missed_fall(i));
+    Member& member = step_.members[i];
+    const double crush = crush_distance(i);
+    const double reach = std::max(crush, missed_fall(i));
     if (reach == 0) return false;
     const Obstacles obstacles = member.obstacles;
     member.obstacles.clear();
     for (CharacterIndex j = 0; j < step_.members.size(); ++j)
       if (j != i && step_.members[j].box.overlaps(member.box.inflated(reach))) member.obstacles.push_back(j);
-    Moment<Scalar> end;
+    Moment end;
     const auto is_lower = [&] { return step_.up.up_of(end.state.position - member.end.state.position) < 0; };
     const bool found =
         (plan_free(i, end) && (crush > 0 || is_lower())) || (crush > 0 && plan_past_all(i, member.start, end));
@@ -118,15 +116,15 @@ class SweepTogether {
   /// The path that a character has made, and then the one that it plans.
   [[nodiscard]] WholePath whole_path(CharacterIndex i) const noexcept {
     WholePath whole;
-    for (const PathPoint<Scalar>& corner : step_.made(i).path) whole.push_back(corner);
-    for (const PathPoint<Scalar>& corner : step_.members[i].plan.path) whole.push_back(corner);
+    for (const PathPoint& corner : step_.made(i).path) whole.push_back(corner);
+    for (const PathPoint& corner : step_.members[i].plan.path) whole.push_back(corner);
     return whole;
   }
 
   /// The same from a corner of the path on, where the character waits until something pushes it: a straight motion from
   /// there may lead past all others.
-  bool find_room_from_corners(CharacterIndex i, Moment<Scalar>& end) noexcept {
-    Member<Scalar>& member = step_.members[i];
+  bool find_room_from_corners(CharacterIndex i, Moment& end) noexcept {
+    Member& member = step_.members[i];
     const WholePath whole = whole_path(i);
     // A character that begins inside a mover must have left it, on the side from which it came.
     const bool starts_inside = !member.start.state.crushers.empty();
@@ -134,9 +132,9 @@ class SweepTogether {
     for (std::size_t k = whole.size(); k-- > (starts_inside ? 1U : 0U);) {
       const bool stays = k > 0 && whole[k - 1].position == whole[k].position;
       if (stays || !(whole[k].fraction < 1) || whole[k].fraction > member.end.crushed_at) continue;
-      Moment<Scalar> at = member.start;
+      Moment at = member.start;
       at.time = whole[k].fraction;
-      at.own_velocity = V::Zero();
+      at.own_velocity = Vec2d::Zero();
       at.steered = 0;
       at.state.position = whole[k].position;
       at.state.grounded = at.state.crushed = false;
@@ -151,13 +149,13 @@ class SweepTogether {
   }
 
   /// How far the movers go that crush a character [m]. Zero where there is none.
-  [[nodiscard]] Scalar crush_distance(CharacterIndex i) const noexcept {
-    const Member<Scalar>& member = step_.members[i];
-    Scalar distance = 0;
-    const auto look_at = [&](const MoveResult<Scalar>& move) {
+  [[nodiscard]] double crush_distance(CharacterIndex i) const noexcept {
+    const Member& member = step_.members[i];
+    double distance = 0;
+    const auto look_at = [&](const MoveResult& move) {
       for (const ColliderIndex collider : move.crushed) {
         if (step_.rules.is_character(collider)) continue;
-        const MoverMotion<Scalar>& motion = step_.movers[step_.rules.scenery.collider(collider).mover];
+        const MoverMotion& motion = step_.movers[step_.rules.scenery.collider(collider).mover];
         distance = std::max(distance, (motion.to - motion.from).cwiseAbs().maxCoeff());
       }
     };
@@ -167,39 +165,39 @@ class SweepTogether {
   }
 
   /// How far a character wanted to fall [m]. Zero where it fell at least half of that, or stands.
-  [[nodiscard]] Scalar missed_fall(CharacterIndex i) const noexcept {
-    const Member<Scalar>& member = step_.members[i];
-    const CharacterState<Scalar>& start = member.start.state;
-    const CharacterState<Scalar>& end = member.end.state;
+  [[nodiscard]] double missed_fall(CharacterIndex i) const noexcept {
+    const Member& member = step_.members[i];
+    const CharacterState& start = member.start.state;
+    const CharacterState& end = member.end.state;
     const bool stands = end.grounded && !has_lost_ground(i);
-    if (stands || end.crushed || start.crushed || start.ride.ground != Ride<Scalar>::none) return 0;
-    const Scalar wanted = -step_.up.up_of(member.start.own_velocity) * step_.dt;
-    return wanted > 0 && step_.up.up_of(start.position - end.position) < wanted / 2 ? wanted : Scalar(0);
+    if (stands || end.crushed || start.crushed || start.ride.ground != Ride::none) return 0;
+    const double wanted = -step_.up.up_of(member.start.own_velocity) * step_.dt;
+    return wanted > 0 && step_.up.up_of(start.position - end.position) < wanted / 2 ? wanted : 0.0;
   }
 
   /// Whether a character stands on another that is not under it at the end of the step: the other may have gone on
   /// after the character planned its path.
   [[nodiscard]] bool has_lost_ground(CharacterIndex i) const noexcept {
-    const MoveResult<Scalar>& plan = step_.members[i].plan;
+    const MoveResult& plan = step_.members[i].plan;
     return plan.grounded && step_.rules.is_character(plan.ground.collider) && !ends_on_another(step_.members[i]);
   }
 
   /// Whether it touches a character that is under it, and not beside it, at the end of the step.
-  [[nodiscard]] bool ends_on_another(const Member<Scalar>& member) const noexcept {
-    const V& position = member.end.state.position;
-    const V size = step_.rules.space.box().upper - step_.rules.space.box().lower;
-    const Scalar width = std::abs(size.x() * step_.up.up().y()) + std::abs(size.y() * step_.up.up().x());
-    return std::any_of(step_.members.begin(), step_.members.end(), [&](const Member<Scalar>& other) {
-      const V& below = other.end.state.position;
-      const V to = step_.up.seen(below - position);
+  [[nodiscard]] bool ends_on_another(const Member& member) const noexcept {
+    const Vec2d& position = member.end.state.position;
+    const Vec2d size = step_.rules.space.box().upper - step_.rules.space.box().lower;
+    const double width = std::abs(size.x() * step_.up.up().y()) + std::abs(size.y() * step_.up.up().x());
+    return std::any_of(step_.members.begin(), step_.members.end(), [&](const Member& other) {
+      const Vec2d& below = other.end.state.position;
+      const Vec2d to = step_.up.seen(below - position);
       return to.y() < 0 && std::abs(to.x()) < width &&
-             step_.rules.space.separation(position, below) <= Tolerances<Scalar>{}.touch;
+             step_.rules.space.separation(position, below) <= Tolerances{}.touch;
     });
   }
 
   /// Plans a path of the whole step into `CrowdMemory::path`.
   /// @return whether nothing crushes the character on it, and it has no impact with another.
-  [[nodiscard]] bool plan_free(CharacterIndex i, Moment<Scalar>& end) noexcept {
+  [[nodiscard]] bool plan_free(CharacterIndex i, Moment& end) noexcept {
     end = step_.members[i].start;
     return planner_.plan_until(i, 1, step_.memory.path, end) && step_.memory.path.crushed.empty() &&
            !impact_on_path(i, 0);
@@ -207,9 +205,9 @@ class SweepTogether {
 
   /// The same from a moment on, in one part. Nobody is an obstacle at first. A leg of another's path that the planned
   /// path meets becomes one, made longer to the whole time, and another path is planned.
-  [[nodiscard]] bool plan_past_all(CharacterIndex i, const Moment<Scalar>& at, Moment<Scalar>& end) noexcept {
+  [[nodiscard]] bool plan_past_all(CharacterIndex i, const Moment& at, Moment& end) noexcept {
     Obstacles& obstacles = step_.members[i].obstacles;
-    FixedVector<Scalar, max_obstacles> legs;
+    FixedVector<double, max_obstacles> legs;
     obstacles.clear();
     for (;;) {  // `max_obstacles` times at most, and once more
       end = at;
@@ -225,18 +223,18 @@ class SweepTogether {
 
   struct Hit {
     CharacterIndex other;
-    Scalar time;
+    double time;
   };
   /// An impact of a character on the path in `CrowdMemory::path` with one of the others.
   /// @param from when that path begins.
-  [[nodiscard]] std::optional<Hit> impact_on_path(CharacterIndex i, Scalar from) const noexcept {
-    const Path<Scalar> own = step_.memory.path.path;
+  [[nodiscard]] std::optional<Hit> impact_on_path(CharacterIndex i, double from) const noexcept {
+    const Path own = step_.memory.path.path;
     for (CharacterIndex j = 0; j < step_.members.size(); ++j) {
       if (j == i) continue;
       const WholePath whole = whole_path(j);
-      const Path<Scalar> other = whole;
-      const Impact<Scalar> impact = first_impact<Scalar>(step_.rules.space, i < j ? own : other, i < j ? other : own,
-                                                         from, Tolerances<Scalar>{}.hit, step_.up);
+      const Path other = whole;
+      const Impact impact =
+          first_impact(step_.rules.space, i < j ? own : other, i < j ? other : own, from, Tolerances{}.hit, step_.up);
       if (impact.happens) return Hit{j, impact.stop};
     }
     return std::nullopt;
@@ -245,7 +243,7 @@ class SweepTogether {
   /// A path is made in parts, and rounding may shift each part. So all pairs are checked once more. Both of a pair that
   /// comes too near go back to where they began, which is free; this repeats until no pair has an impact: each round
   /// sends back one more character at least.
-  void check_paths(std::span<const CharacterState<Scalar>> before) noexcept {
+  void check_paths(std::span<const CharacterState> before) noexcept {
     const auto& members = step_.report.members;
     for (CharacterIndex i = 0; i < step_.members.size(); ++i)
       if (step_.made(i).path.overflowed()) return_to_start(i, before[i]);
@@ -256,8 +254,8 @@ class SweepTogether {
         for (CharacterIndex j = i + 1; j < step_.members.size(); ++j) {
           if ((members[i].stayed && members[j].stayed) || !step_.members[i].box.overlaps(step_.members[j].box))
             continue;
-          if (!first_impact<Scalar>(step_.rules.space, step_.made(i).path, step_.made(j).path, 0,
-                                    Tolerances<Scalar>{}.certain, step_.up)
+          if (!first_impact(step_.rules.space, step_.made(i).path, step_.made(j).path, 0, Tolerances{}.certain,
+                            step_.up)
                    .happens)
             continue;
           return_to_start(i, before[i]);
@@ -269,8 +267,8 @@ class SweepTogether {
   }
 
   /// Undoes the step of a character: it holds the position where it began.
-  void return_to_start(CharacterIndex i, const CharacterState<Scalar>& before) noexcept {
-    Member<Scalar>& member = step_.members[i];
+  void return_to_start(CharacterIndex i, const CharacterState& before) noexcept {
+    Member& member = step_.members[i];
     step_.report.members[i].stayed = true;
     step_.made(i).clear();
     member.now.time = 0;
@@ -283,8 +281,8 @@ class SweepTogether {
 
   /// Sets the status of the whole move, and the state that the controller completes.
   void end(CharacterIndex i) noexcept {
-    const Member<Scalar>& member = step_.members[i];
-    MoveResult<Scalar>& move = step_.made(i);
+    const Member& member = step_.members[i];
+    MoveResult& move = step_.made(i);
     if (!move.crushed.empty())
       move.status = MoveStatus::crushed;
     else if (!member.end.state.crushers.empty())
@@ -297,19 +295,15 @@ class SweepTogether {
     step_.memory.states[i] = member.end.state;
   }
 
-  CrowdStep<Scalar>& step_;
-  PathPlanner<Scalar> planner_;
-  Paths<Scalar> paths_;
+  CrowdStep& step_;
+  PathPlanner planner_;
+  Paths paths_;
 };
 
 }  // namespace
 
-template <class Scalar>
-bool sweep_together(CrowdStep<Scalar> step, std::span<const CharacterState<Scalar>> before) noexcept {
-  return SweepTogether<Scalar>(step).move_all(before);
+bool sweep_together(CrowdStep step, std::span<const CharacterState> before) noexcept {
+  return SweepTogether(step).move_all(before);
 }
-
-template bool sweep_together(CrowdStep<float>, std::span<const CharacterState<float>>) noexcept;
-template bool sweep_together(CrowdStep<double>, std::span<const CharacterState<double>>) noexcept;
 
 }  // namespace paperproof::crowd

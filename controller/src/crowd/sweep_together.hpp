@@ -11,7 +11,6 @@ namespace paperproof::crowd {
 ///   the controller makes of it.
 /// @param before the states when the step began.
 /// @return false where the step of one would leave the range: then no move is valid.
-template <class Scalar>
-[[nodiscard]] bool sweep_together(CrowdStep<Scalar> step, std::span<const CharacterState<Scalar>> before) noexcept;
+[[nodiscard]] bool sweep_together(CrowdStep step, std::span<const CharacterState> before) noexcept;
 
 }  // namespace paperproof::crowd

@@ -13,56 +13,52 @@ namespace paperproof::crowd {
 
 /// Corners in order of time. Fractions are those of the step; two equal ones in a row are a leg that takes no time (out
 /// of a solid, down to the ground).
-template <class Scalar>
-using Path = std::span<const PathPoint<Scalar>>;
+using Path = std::span<const PathPoint>;
 
-template <class Scalar>
 struct Impact {
-  bool happens = false;                           ///< The rest is valid only where it is true.
-  Scalar stop = 0;                                ///< When both are stopped, as a fraction of the step.
-  Scalar time = 0;                                ///< Time of impact, likewise, at most 1.
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};      ///< Unit, from the second towards the first.
-  Vec2<Scalar> first_rate{Vec2<Scalar>::Zero()};  ///< Velocity of the first then, in metres per step.
-  Vec2<Scalar> second_rate{Vec2<Scalar>::Zero()};
+  bool happens = false;             ///< The rest is valid only where it is true.
+  double stop = 0;                  ///< When both are stopped, as a fraction of the step.
+  double time = 0;                  ///< Time of impact, likewise, at most 1.
+  Vec2d normal{Vec2d::Zero()};      ///< Unit, from the second towards the first.
+  Vec2d first_rate{Vec2d::Zero()};  ///< Velocity of the first then, in metres per step.
+  Vec2d second_rate{Vec2d::Zero()};
   /// One of them moves on a leg that takes no time: its rate is the length of that leg, and the other's is zero.
   bool instant = false;
 };
 
 /// The position at a time on the leg that begins at corner `k`, or before it [m].
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> position_on_leg(Path<Scalar> path, std::size_t k, Scalar time) noexcept {
-  const PathPoint<Scalar>& from = path[k];
+[[nodiscard]] inline Vec2d position_on_leg(Path path, std::size_t k, double time) noexcept {
+  const PathPoint& from = path[k];
   if (k + 1 == path.size() || time <= from.fraction) return from.position;
-  const PathPoint<Scalar>& to = path[k + 1];
+  const PathPoint& to = path[k + 1];
   if (time >= to.fraction) return to.position;
   return from.position + (to.position - from.position) * ((time - from.fraction) / (to.fraction - from.fraction));
 }
 
 /// A position that only goes forward along a path.
-template <class Scalar>
 class PathCursor {
  public:
   /// At `time`, before the legs that take no time then.
-  PathCursor(Path<Scalar> path, Scalar time) noexcept : path_(path) {
+  PathCursor(Path path, double time) noexcept : path_(path) {
     while (leg_end() < time) ++corner_;
     position_ = position_on_leg(path_, corner_, time);
     rounded_ = is_between_corners(time);
   }
   [[nodiscard]] bool at_end() const noexcept { return corner_ + 1 >= path_.size(); }
   /// Fraction of the step; infinity at the end.
-  [[nodiscard]] Scalar leg_end() const noexcept {
-    return at_end() ? std::numeric_limits<Scalar>::infinity() : path_[corner_ + 1].fraction;
+  [[nodiscard]] double leg_end() const noexcept {
+    return at_end() ? std::numeric_limits<double>::infinity() : path_[corner_ + 1].fraction;
   }
   [[nodiscard]] bool leg_takes_no_time() const noexcept { return !at_end() && path_[corner_].fraction == leg_end(); }
 
-  [[nodiscard]] Leg<Scalar> stay() const noexcept { return {.from = position_, .to = position_}; }
+  [[nodiscard]] Leg stay() const noexcept { return {.from = position_, .to = position_}; }
   /// @param time at most `leg_end()`.
-  [[nodiscard]] Leg<Scalar> advance_to(Scalar time) noexcept {
+  [[nodiscard]] Leg advance_to(double time) noexcept {
     const bool ends_leg = leg_end() <= time;
     const bool ends_rounded = is_between_corners(time);
-    const Leg<Scalar> leg{.from = position_,
-                          .to = ends_leg ? path_[corner_ + 1].position : position_on_leg(path_, corner_, time),
-                          .rounded = rounded_ || ends_rounded};
+    const Leg leg{.from = position_,
+                  .to = ends_leg ? path_[corner_ + 1].position : position_on_leg(path_, corner_, time),
+                  .rounded = rounded_ || ends_rounded};
     position_ = leg.to;
     rounded_ = ends_rounded;
     if (ends_leg) ++corner_;
@@ -70,26 +66,25 @@ class PathCursor {
   }
 
  private:
-  [[nodiscard]] bool is_between_corners(Scalar time) const noexcept {
+  [[nodiscard]] bool is_between_corners(double time) const noexcept {
     return !at_end() && time > path_[corner_].fraction && time < leg_end() &&
            path_[corner_].position != path_[corner_ + 1].position;
   }
 
-  Path<Scalar> path_;
+  Path path_;
   std::size_t corner_ = 0;
-  Vec2<Scalar> position_{Vec2<Scalar>::Zero()};
+  Vec2d position_{Vec2d::Zero()};
   bool rounded_ = false;
 };
 
 /// @param begin,end of both legs, as fractions of the step.
-template <class Scalar>
-[[nodiscard]] Impact<Scalar> impact_of(const PairSweep<Scalar>& sweep, const Leg<Scalar>& first,
-                                       const Leg<Scalar>& second, Scalar begin, Scalar end) noexcept {
+[[nodiscard]] inline Impact impact_of(const PairSweep& sweep, const Leg& first, const Leg& second, double begin,
+                                      double end) noexcept {
   const bool instant = !(end > begin);
-  const Scalar duration = instant ? Scalar(1) : end - begin;
+  const double duration = instant ? 1.0 : end - begin;
   return {.happens = true,
           .stop = begin + (end - begin) * sweep.stop,
-          .time = std::min(begin + (end - begin) * sweep.impact, Scalar(1)),
+          .time = std::min(begin + (end - begin) * sweep.impact, 1.0),
           .normal = sweep.normal,
           .first_rate = (first.to - first.from) / duration,
           .second_rate = (second.to - second.from) / duration,
@@ -98,17 +93,15 @@ template <class Scalar>
 
 /// The first impact from a time on: see `PairSpace::sweep`. Between corners the relative motion is straight. Legs that
 /// take no time are made one after the other, those of the first path first. Each round ends a leg.
-template <class Scalar>
-[[nodiscard]] Impact<Scalar> first_impact(const PairSpace<Scalar>& space, Path<Scalar> first_path,
-                                          Path<Scalar> second_path, Scalar from, Scalar hit_distance,
-                                          const UpFrame<Scalar>& up) noexcept {
-  PathCursor<Scalar> first(first_path, from);
-  PathCursor<Scalar> second(second_path, from);
-  Scalar now = from;
+[[nodiscard]] inline Impact first_impact(const PairSpace& space, Path first_path, Path second_path, double from,
+                                         double hit_distance, const UpFrame& up) noexcept {
+  PathCursor first(first_path, from);
+  PathCursor second(second_path, from);
+  double now = from;
   while (!first.at_end() || !second.at_end()) {
-    Leg<Scalar> first_leg = first.stay();
-    Leg<Scalar> second_leg = second.stay();
-    Scalar next = now;
+    Leg first_leg = first.stay();
+    Leg second_leg = second.stay();
+    double next = now;
     if (first.leg_takes_no_time()) {
       first_leg = first.advance_to(first.leg_end());
     } else if (second.leg_takes_no_time()) {
@@ -118,7 +111,7 @@ template <class Scalar>
       first_leg = first.advance_to(next);
       second_leg = second.advance_to(next);
     }
-    const PairSweep<Scalar> sweep = space.sweep(first_leg, second_leg, hit_distance, up);
+    const PairSweep sweep = space.sweep(first_leg, second_leg, hit_distance, up);
     if (sweep.hits) return impact_of(sweep, first_leg, second_leg, now, next);
     now = next;
   }

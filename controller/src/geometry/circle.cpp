@@ -14,24 +14,22 @@ constexpr int most_tangents = 128;
 
 }  // namespace
 
-template <class Scalar>
-NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>> outline, const Vec2<Scalar>& position,
-                               const Circle<Scalar>& circle) noexcept {
-  const Vec2<Scalar> centre = circle.centre - position;
-  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  NearCircle<Scalar> inside{-infinity, Vec2<Scalar>::Zero()};  // by the edge that the centre is furthest outside of
-  Scalar nearest = infinity;
-  Vec2<Scalar> to_nearest = Vec2<Scalar>::Zero();  // from the nearest corner to the centre
+NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position, const Circle& circle) noexcept {
+  const Vec2d centre = circle.centre - position;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  NearCircle inside{-infinity, Vec2d::Zero()};  // by the edge that the centre is furthest outside of
+  double nearest = infinity;
+  Vec2d to_nearest = Vec2d::Zero();  // from the nearest corner to the centre
   for (std::size_t k = 0; k < outline.size(); ++k) {
-    const Vec2<Scalar> edge = outline[k + 1 < outline.size() ? k + 1 : 0] - outline[k];
-    const Vec2<Scalar> arm = centre - outline[k];
-    const Scalar length = length_of(edge);
-    const Vec2<Scalar> out{edge.y() / length, -edge.x() / length};
-    const Scalar height = dot(out, arm);
-    const Scalar place = dot(edge, arm);
+    const Vec2d edge = outline[k + 1 < outline.size() ? k + 1 : 0] - outline[k];
+    const Vec2d arm = centre - outline[k];
+    const double length = length_of(edge);
+    const Vec2d out{edge.y() / length, -edge.x() / length};
+    const double height = dot(out, arm);
+    const double place = dot(edge, arm);
     if (height >= 0 && place >= 0 && place <= length * length) return {height - circle.radius, -out};
     if (height > inside.separation) inside = {height, -out};
-    const Scalar distance = length_of(arm);
+    const double distance = length_of(arm);
     if (!(distance < nearest)) continue;
     nearest = distance;
     to_nearest = arm;
@@ -40,50 +38,36 @@ NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>> outline, const Vec2
   return {nearest - circle.radius, -to_nearest / nearest};
 }
 
-template <class Scalar>
-std::optional<Approach<Scalar>> approach(std::span<const Vec2<Scalar>> outline, const Vec2<Scalar>& from,
-                                         const Vec2<Scalar>& displacement, const Circle<Scalar>& circle,
-                                         Scalar level) noexcept {
-  Approach<Scalar> result{0, near_circle(outline, from, circle)};
+std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& from, const Vec2d& displacement,
+                                 const Circle& circle, double level) noexcept {
+  Approach result{0, near_circle(outline, from, circle)};
   for (int tangents = 0; tangents < most_tangents; ++tangents) {
-    const Scalar above = result.there.separation - level;
-    const Scalar rate = dot(result.there.normal, displacement);
+    const double above = result.there.separation - level;
+    const double rate = dot(result.there.normal, displacement);
     if (rate >= 0 || above + rate * (1 - result.time) >= 0) return std::nullopt;
-    const Scalar later = result.time + above / -rate;
+    const double later = result.time + above / -rate;
     if (!(later > result.time)) break;
     result.time = later;
-    result.there = near_circle(outline, Vec2<Scalar>(from + displacement * later), circle);
+    result.there = near_circle(outline, Vec2d(from + displacement * later), circle);
   }
   return result;
 }
 
-template <class Scalar>
-OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, const Circle<Scalar>& standing,
-                                 const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
-  using Time = OverlapTime<Scalar>;
+OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from,
+                         const Vec2d& to) noexcept {
+  using Time = OverlapTime;
   Time time;
   if (!(near_circle(mover, from, standing).separation < 0)) {
-    const auto enters = approach(mover, from, Vec2<Scalar>(to - from), standing, Scalar(0));
+    const auto enters = approach(mover, from, Vec2d(to - from), standing, 0.0);
     if (!enters) return {.begin = Time::after, .end = Time::before};
     time.begin = enters->time;
   }
   if (!(near_circle(mover, to, standing).separation < 0)) {
-    const auto leaves = approach(mover, to, Vec2<Scalar>(from - to), standing, Scalar(0));
+    const auto leaves = approach(mover, to, Vec2d(from - to), standing, 0.0);
     if (!leaves) return {.begin = Time::after, .end = Time::before};
     time.end = 1 - leaves->time;
   }
   return time;
 }
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                                 \
-  template NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,                          \
-                                          const Circle<Scalar>&) noexcept;                                             \
-  template std::optional<Approach<Scalar>> approach(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,                \
-                                                    const Vec2<Scalar>&, const Circle<Scalar>&, Scalar) noexcept;      \
-  template OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>>, const Circle<Scalar>&, const Vec2<Scalar>&, \
-                                            const Vec2<Scalar>&) noexcept;
-PAPERPROOF_INSTANTIATE(float)
-PAPERPROOF_INSTANTIATE(double)
-#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof::geometry

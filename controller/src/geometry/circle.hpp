@@ -16,35 +16,29 @@
 namespace paperproof::geometry {
 
 /// Where an outline is nearest to a circle.
-template <class Scalar>
 struct NearCircle {
-  Scalar separation;    ///< Below zero: inside [m].
-  Vec2<Scalar> normal;  ///< From the circle to the outline.
+  double separation;  ///< Below zero: inside [m].
+  Vec2d normal;       ///< From the circle to the outline.
 };
 
 /// @param outline 3 points or more, strictly convex, counter-clockwise, relative to `position` [m].
-template <class Scalar>
-[[nodiscard]] NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>> outline, const Vec2<Scalar>& position,
-                                             const Circle<Scalar>& circle) noexcept;
+[[nodiscard]] NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position,
+                                     const Circle& circle) noexcept;
 
 /// When a motion comes near.
-template <class Scalar>
 struct Approach {
-  Scalar time;  ///< Fraction of the motion.
-  NearCircle<Scalar> there;
+  double time;  ///< Fraction of the motion.
+  NearCircle there;
 };
 
 /// When an outline on a straight motion is at a distance `level` from a circle for the first time, or at once where it
 /// is nearer than that already and comes nearer; to a few ulp of the positions, and never later. Nothing where it stays
 /// further away, or only goes away.
-template <class Scalar>
-[[nodiscard]] std::optional<Approach<Scalar>> approach(std::span<const Vec2<Scalar>> outline, const Vec2<Scalar>& from,
-                                                       const Vec2<Scalar>& displacement, const Circle<Scalar>& circle,
-                                                       Scalar level) noexcept;
+[[nodiscard]] std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& from,
+                                               const Vec2d& displacement, const Circle& circle, double level) noexcept;
 
 /// See the `overlap_time` of two outlines.
-template <class Scalar>
-[[nodiscard]] OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, const Circle<Scalar>& standing,
-                                               const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept;
+[[nodiscard]] OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from,
+                                       const Vec2d& to) noexcept;
 
 }  // namespace paperproof::geometry

@@ -9,35 +9,30 @@ namespace paperproof::geometry {
 namespace {
 
 /// The edge that ends at vertex `i`.
-template <class Scalar>
-Vec2<Scalar> edge_to(std::span<const Vec2<Scalar>> outline, std::size_t i) noexcept {
+Vec2d edge_to(std::span<const Vec2d> outline, std::size_t i) noexcept {
   return outline[i] - outline[i == 0 ? outline.size() - 1 : i - 1];
 }
 
-template <class Scalar>
-SeparatingAxis<Scalar> axis_of_standing(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
-                                        std::size_t i) noexcept {
-  const Vec2<Scalar> along = edge_to(standing, i);
-  Scalar least = std::numeric_limits<Scalar>::infinity();
-  for (const Vec2<Scalar>& point : mover) least = std::min(least, -cross(along, point));
-  return {along, standing[i], Vec2<Scalar>::Zero(), least};
+SeparatingAxis axis_of_standing(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
+  const Vec2d along = edge_to(standing, i);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2d& point : mover) least = std::min(least, -cross(along, point));
+  return {along, standing[i], Vec2d::Zero(), least};
 }
 
 /// The vertex that the mover meets with its edge lies farthest to the edge's inner side.
-template <class Scalar>
-SeparatingAxis<Scalar> axis_of_mover(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
-                                     std::size_t i) noexcept {
-  const Vec2<Scalar> along = edge_to(mover, i);
-  Vec2<Scalar> met = standing[0];
-  for (const Vec2<Scalar>& point : standing)
-    if (cross(along, Vec2<Scalar>(point - met)) > 0) met = point;
+SeparatingAxis axis_of_mover(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
+  const Vec2d along = edge_to(mover, i);
+  Vec2d met = standing[0];
+  for (const Vec2d& point : standing)
+    if (cross(along, Vec2d(point - met)) > 0) met = point;
   return {-along, met, mover[i], 0};
 }
 
 /// Calls `visit` with one axis after the other until it returns false.
-template <class Scalar, class Visit>
-void for_each_axis(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
-                   const Visit& visit) noexcept(noexcept(visit(SeparatingAxis<Scalar>{}))) {
+template <class Visit>
+void for_each_axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing,
+                   const Visit& visit) noexcept(noexcept(visit(SeparatingAxis{}))) {
   for (std::size_t i = 0; i < standing.size(); ++i)
     if (!visit(axis_of_standing(mover, standing, i))) return;
   for (std::size_t i = 0; i < mover.size(); ++i)
@@ -45,13 +40,12 @@ void for_each_axis(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Sca
 }
 
 /// Narrows `time`, in which all separations so far are negative, by one more separation that changes linearly.
-template <class Scalar>
-void narrow(OverlapTime<Scalar>& time, Scalar at_start, Scalar at_end) noexcept {
+void narrow(OverlapTime& time, double at_start, double at_end) noexcept {
   const bool apart_at_start = !(at_start < 0);
   const bool apart_at_end = !(at_end < 0);
   if (!apart_at_start && !apart_at_end) return;
   if (apart_at_start && apart_at_end) {
-    time = {.begin = OverlapTime<Scalar>::after, .end = OverlapTime<Scalar>::before};
+    time = {.begin = OverlapTime::after, .end = OverlapTime::before};
   } else if (apart_at_start) {
     time.begin = std::max(time.begin, at_start / (at_start - at_end));
   } else {
@@ -61,67 +55,48 @@ void narrow(OverlapTime<Scalar>& time, Scalar at_start, Scalar at_end) noexcept 
 
 }  // namespace
 
-template <class Scalar>
-std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>> mover,
-                                                    std::span<const Vec2<Scalar>> standing) {
-  std::vector<SeparatingAxis<Scalar>> axes;
+std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing) {
+  std::vector<SeparatingAxis> axes;
   axes.reserve(mover.size() + standing.size());
-  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) {
+  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) {
     axes.push_back(axis);
     return true;
   });
   return axes;
 }
 
-template <class Scalar>
-OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>> axes, const Vec2<Scalar>& from,
-                                 const Vec2<Scalar>& to) noexcept {
-  OverlapTime<Scalar> time;
-  for (const SeparatingAxis<Scalar>& axis : axes) {
+OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to) noexcept {
+  OverlapTime time;
+  for (const SeparatingAxis& axis : axes) {
     narrow(time, axis.separation(from), axis.separation(to));
     if (!time.any()) break;
   }
   return time;
 }
 
-template <class Scalar>
-OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
-                                 const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
-  OverlapTime<Scalar> time;
-  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) noexcept {
+OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
+                         const Vec2d& to) noexcept {
+  OverlapTime time;
+  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) noexcept {
     narrow(time, axis.separation(from), axis.separation(to));
     return time.any();
   });
   return time;
 }
 
-template <class Scalar>
-Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
-                          Scalar depth) noexcept {
-  const Box2<Scalar> a = Box2<Scalar>::around(mover);
-  const Box2<Scalar> b = Box2<Scalar>::around(standing);
-  const Vec2<Scalar> middle = (b.lower + b.upper - a.lower - a.upper) / 2;
-  const Vec2<Scalar> half = (b.upper - b.lower + a.upper - a.lower) / 2;
-  Scalar share = 1;  // of the box around all positions that overlap
-  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) noexcept {
-    const Vec2<Scalar> along = axis.along.cwiseAbs();
+Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth) noexcept {
+  const Box2 a = Box2::around(mover);
+  const Box2 b = Box2::around(standing);
+  const Vec2d middle = (b.lower + b.upper - a.lower - a.upper) / 2;
+  const Vec2d half = (b.upper - b.lower + a.upper - a.lower) / 2;
+  double share = 1;  // of the box around all positions that overlap
+  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) noexcept {
+    const Vec2d along = axis.along.cwiseAbs();
     share = std::min(share,
                      (-axis.separation(middle) - depth * along.sum()) / (along.x() * half.y() + along.y() * half.x()));
     return true;
   });
   return {middle - share * half, middle + share * half};
 }
-
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
-  template std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>>,             \
-                                                               std::span<const Vec2<Scalar>>);            \
-  template OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>>, const Vec2<Scalar>&, \
-                                            const Vec2<Scalar>&) noexcept;                                \
-  template OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>>, std::span<const Vec2<Scalar>>, \
-                                            const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;           \
-  template Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>>, std::span<const Vec2<Scalar>>, Scalar) noexcept;
-PAPERPROOF_INSTANTIATE(float)
-PAPERPROOF_INSTANTIATE(double)
-#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof::geometry

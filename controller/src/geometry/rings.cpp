@@ -13,7 +13,7 @@ std::string name_of(std::size_t ring) { return ring == 0 ? "the outline" : "hole
 struct Side {
   Vec2d from;
   Vec2d to;
-  Box2<double> box;
+  Box2 box;
   std::size_t ring;
   std::size_t index;
 };
@@ -88,8 +88,8 @@ bool is_inside(const Vec2d& point, Ring ring) {
 
 /// The rings do not meet, so one vertex decides for its whole ring.
 void check_nesting(std::span<const Ring> rings) {
-  std::vector<Box2<double>> boxes;
-  for (const Ring ring : rings) boxes.push_back(Box2<double>::around(ring));
+  std::vector<Box2> boxes;
+  for (const Ring ring : rings) boxes.push_back(Box2::around(ring));
   for (std::size_t hole = 1; hole < rings.size(); ++hole) {
     if (!is_inside(rings[hole][0], rings[0])) throw InvalidRings(name_of(hole) + " is not inside the outline");
     for (std::size_t other = 1; other < rings.size(); ++other) {

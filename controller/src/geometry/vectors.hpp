@@ -8,24 +8,23 @@
 
 namespace paperproof::geometry {
 
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto dot(const auto& a, const auto& b) noexcept {
   return a.x() * b.x() + a.y() * b.y();
 }
 
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar cross(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto cross(const auto& a, const auto& b) noexcept {
   return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Length without overflow or underflow in the squares; only correctly rounded operations, so that its bits are the
 /// same everywhere (std::hypot is not).
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar length_of(const Vec2<Scalar>& v) noexcept {
-  const Scalar scale = std::max(std::abs(v.x()), std::abs(v.y()));
-  if (scale == 0) return 0;
-  const Scalar x = v.x() / scale;
-  const Scalar y = v.y() / scale;
+template <class Vector>
+[[nodiscard, gnu::always_inline]] inline auto length_of(const Vector& v) noexcept {
+  using Number = typename Vector::Scalar;
+  const Number scale = std::max(std::abs(v.x()), std::abs(v.y()));
+  if (scale == 0) return Number(0);
+  const Number x = v.x() / scale;
+  const Number y = v.y() / scale;
   return scale * std::sqrt(x * x + y * y);
 }
 

@@ -44,7 +44,7 @@ void check(const ColliderDef& def) {
   if (is_plain(def)) return;
   SceneryDef alone{{def}};
   if (def.mover != no_mover) alone.colliders[0].mover = 0;
-  const Scenery<double> checked(alone);
+  const Scenery checked(alone);
 }
 
 bool by_id(const NearCollider& a, const NearCollider& b) noexcept { return a.id < b.id; }
@@ -88,7 +88,7 @@ const Level::Slot* Level::slot_of(ColliderIndex id) const noexcept {
   return slot.is_used && slot.generation == id >> slot_bits ? &slot : nullptr;
 }
 
-int Level::grid_of(const Box2<double>& box) noexcept {
+int Level::grid_of(const Box2& box) noexcept {
   const double size = (box.upper - box.lower).maxCoeff();
   int exponent = 0;
   std::frexp(size, &exponent);  // size < 2^exponent
@@ -96,7 +96,7 @@ int Level::grid_of(const Box2<double>& box) noexcept {
 }
 
 template <class Visit>
-void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit) {
+void Level::for_each_cell(const Box2& box, int grid, const Visit& visit) {
   const std::int32_t right = cell_at(box.upper.x(), grid);
   const std::int32_t top = cell_at(box.upper.y(), grid);
   for (std::int32_t x = cell_at(box.lower.x(), grid); x <= right; ++x)
@@ -105,7 +105,7 @@ void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit)
 
 void Level::place(ColliderIndex id, Slot& slot, const ColliderDef& def) {
   slot.def = def;
-  slot.box = Box2<double>::around(def.points).inflated(def.radius);
+  slot.box = Box2::around(def.points).inflated(def.radius);
   slot.version = last_edit_.renew().number;
   if (def.mover != no_mover) {
     if (def.mover >= movers_.size()) movers_.resize(def.mover + 1);
@@ -176,7 +176,7 @@ const ColliderDef* Level::find(ColliderIndex id) const noexcept {
   return slot == nullptr ? nullptr : &slot->def;
 }
 
-void Level::find_standing(const Box2<double>& box, std::vector<NearCollider>& found) const {
+void Level::find_standing(const Box2& box, std::vector<NearCollider>& found) const {
   const auto add = [&](ColliderIndex id) {
     const Slot& slot = slots_[id & slot_mask];
     if (slot.box.overlaps(box)) found.push_back({id, slot.version, &slot.def});
@@ -196,8 +196,7 @@ void Level::find_standing(const Box2<double>& box, std::vector<NearCollider>& fo
   }
 }
 
-void Level::find_moving(const Box2<double>& box, std::span<const PoseMotion> movers,
-                        std::vector<NearCollider>& found) const {
+void Level::find_moving(const Box2& box, std::span<const PoseMotion> movers, std::vector<NearCollider>& found) const {
   for (MoverIndex mover = 0; mover < movers_.size(); ++mover)
     for (const ColliderIndex id : movers_[mover]) {
       const Slot& slot = slots_[id & slot_mask];
@@ -214,7 +213,7 @@ bool LevelController::accepts(const LevelContext& context) const noexcept {
 
 LocalController::Find LevelController::finder(const LevelContext& context) {
   // So small that a std::function holds it without memory of its own.
-  return [this, &context](const Box2<double>& box, std::vector<NearCollider>& found) {
+  return [this, &context](const Box2& box, std::vector<NearCollider>& found) {
     if (last_edit_ != level_->last_edit() || !(read_.lower == box.lower && read_.upper == box.upper)) {
       standing_.clear();
       level_->find_standing(box, standing_);
@@ -227,16 +226,16 @@ LocalController::Find LevelController::finder(const LevelContext& context) {
   };
 }
 
-StepStatus LevelController::step(CharacterState<double>& state, const Input& input, const LevelContext& context,
-                                 StepReport<double>& report) {
+StepStatus LevelController::step(CharacterState& state, const Input& input, const LevelContext& context,
+                                 StepReport& report) {
   if (!accepts(context)) return report.status = StepStatus::invalid_input;
   return local_.step(state, input,
                      {.gravity = context.gravity, .dt = context.dt, .filter = context.filter, .up = context.up},
                      finder(context), report);
 }
 
-StepStatus LevelController::move(CharacterState<double>& state, const Vec2d& displacement, const LevelContext& context,
-                                 StepReport<double>& report) {
+StepStatus LevelController::move(CharacterState& state, const Vec2d& displacement, const LevelContext& context,
+                                 StepReport& report) {
   if (!accepts(context)) return report.status = StepStatus::invalid_input;
   return local_.move(state, displacement,
                      {.gravity = context.gravity, .dt = context.dt, .filter = context.filter, .up = context.up},

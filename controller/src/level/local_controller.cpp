@@ -9,7 +9,7 @@ using namespace level;
 namespace {
 
 /// Of what can be looked for. Written so that NaN is not.
-bool is_in_range(const Box2<double>& box) noexcept {
+bool is_in_range(const Box2& box) noexcept {
   constexpr double range = 1e8;
   return box.lower.x() > -range && box.lower.y() > -range && box.upper.x() < range && box.upper.y() < range;
 }
@@ -17,32 +17,31 @@ bool is_in_range(const Box2<double>& box) noexcept {
 }  // namespace
 
 /// Everything that the step can reach, but a way out of solids.
-Box2<double> LocalController::Impl::box_needed(const CharacterState<double>& state,
-                                               const StepContext<double>& context) const {
+Box2 LocalController::Impl::box_needed(const CharacterState& state, const StepContext& context) const {
   const double dt = context.dt;
   const double acceleration =
       character().acceleration + character().air_acceleration.value_or(0) + context.gravity.norm();
   const double reach = (character().jump_speed + acceleration * dt) * dt + character().snap + character().step_height +
                        character().wall_reach + 2 * most_turned;
   const Vec2d goes = state.position + (state.velocity + state.ride.velocity) * dt;
-  const Box2<double> way{state.position.cwiseMin(goes), state.position.cwiseMax(goes)};
-  const Box2<double>& extent = character().shape.box();
-  return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(reach);
+  const Box2 way{state.position.cwiseMin(goes), state.position.cwiseMax(goes)};
+  const Box2& extent = character().shape.box();
+  return Box2{way.lower + extent.lower, way.upper + extent.upper}.inflated(reach);
 }
 
 /// The box that everything which decides a move is in. A way out of solids may lead farther than was looked.
-Box2<double> LocalController::Impl::box_along(const MoveResult<double>& move) const {
-  const Box2<double>& extent = character().shape.box();
-  Box2<double> way{move.path[0].position, move.path[0].position};
-  for (const PathPoint<double>& corner : move.path) way = way.merged({corner.position, corner.position});
-  return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(most_turned);
+Box2 LocalController::Impl::box_along(const MoveResult& move) const {
+  const Box2& extent = character().shape.box();
+  Box2 way{move.path[0].position, move.path[0].position};
+  for (const PathPoint& corner : move.path) way = way.merged({corner.position, corner.position});
+  return Box2{way.lower + extent.lower, way.upper + extent.upper}.inflated(most_turned);
 }
 
 template <class Go>
-StepStatus LocalController::Impl::advance(CharacterState<double>& state, const StepContext<double>& context,
-                                          const Find& find, StepReport<double>& report, const Go& go) {
-  const CharacterState<double> before = state;
-  Box2<double> needed = box_needed(state, context);
+StepStatus LocalController::Impl::advance(CharacterState& state, const StepContext& context, const Find& find,
+                                          StepReport& report, const Go& go) {
+  const CharacterState before = state;
+  Box2 needed = box_needed(state, context);
   if (!(context.dt > 0 && is_in_range(needed))) return report.status = StepStatus::invalid_input;
   for (;;) {  // 27 times at most: `needed` doubles, from 4 * most_turned or more, until it has the whole range
     turned_.clear();
@@ -54,7 +53,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
       state = before;
       return status;
     }
-    const Box2<double> way = box_along(report.move);
+    const Box2 way = box_along(report.move);
     if (needed.contains(way)) return status;
     needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));
   }
@@ -62,8 +61,8 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
 
 /// Where nothing near turns.
 template <class Go>
-StepStatus LocalController::Impl::step_straight(CharacterState<double>& state, const StepContext<double>& context,
-                                                StepReport<double>& report, const Go& go) {
+StepStatus LocalController::Impl::step_straight(CharacterState& state, const StepContext& context, StepReport& report,
+                                                const Go& go) {
   if (!scenery.build(1)) return refuse(state, report);
   motions.clear();
   for (const NearMover& mover : scenery.movers())
@@ -81,7 +80,7 @@ StepStatus LocalController::Impl::step_straight(CharacterState<double>& state, c
 }
 
 /// A collider cannot be turned as it should.
-StepStatus LocalController::Impl::refuse(const CharacterState<double>& state, StepReport<double>& report) {
+StepStatus LocalController::Impl::refuse(const CharacterState& state, StepReport& report) {
   report.move.refusal =
       "a collider near the character crosses itself when it is turned: two of its corners are so near "
       "to each other that rounding swaps them";
@@ -89,8 +88,7 @@ StepStatus LocalController::Impl::refuse(const CharacterState<double>& state, St
 }
 
 /// Reports a step that is refused.
-StepStatus LocalController::Impl::stay(MoveStatus why, const CharacterState<double>& state,
-                                       StepReport<double>& report) {
+StepStatus LocalController::Impl::stay(MoveStatus why, const CharacterState& state, StepReport& report) {
   const auto words = report.move.refusal;
   turned_.clear();
   clear(report);
@@ -105,9 +103,9 @@ StepStatus LocalController::Impl::stay(MoveStatus why, const CharacterState<doub
 }
 
 template <class Go>
-StepStatus LocalController::Impl::step_among_turning(CharacterState<double>& state, const StepContext<double>& context,
-                                                     StepReport<double>& report, const Go& go) {
-  const CharacterState<double> before = state;
+StepStatus LocalController::Impl::step_among_turning(CharacterState& state, const StepContext& context,
+                                                     StepReport& report, const Go& go) {
+  const CharacterState before = state;
   const int usual = parts_for(state, context);
   std::optional<int> crushing;  // so many parts can be proved, but crush the character
   const auto try_parts = [&](int parts) -> std::optional<StepStatus> {
@@ -131,24 +129,24 @@ StepStatus LocalController::Impl::step_among_turning(CharacterState<double>& sta
 
 /// @return nothing if the step cannot be proved; it is not complete then.
 template <class Go>
-std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, CharacterState<double>& state,
-                                                               const StepContext<double>& context,
-                                                               StepReport<double>& report, const Go& go) {
+std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, CharacterState& state,
+                                                               const StepContext& context, StepReport& report,
+                                                               const Go& go) {
   clear(report);
-  const CharacterState<double> before = state;
-  StepContext<double> shorter = context;
+  const CharacterState before = state;
+  StepContext shorter = context;
   shorter.dt = context.dt / parts;
   for (int i = 0; i < parts; ++i) {
     if (!scenery.build(double(i + 1) / parts)) return refuse(before, report);
     if (i == 0) note_begin();
     StepPart part = turn(double(i) / parts, double(i + 1) / parts, state.position, context.filter);
     scenery.to_local(state);
-    if (state.ride.ground != Ride<double>::none) {
+    if (state.ride.ground != Ride::none) {
       const MoverIndex mover = scenery.at(state.ride.ground).mover;
       if (mover != no_mover && scenery.movers()[mover].turn() != 0)
         state.ride.place = state.position - part.motions[mover].from;
     }
-    for (Crusher<double>& crusher : state.crushers) {
+    for (Crusher& crusher : state.crushers) {
       const NearCollider& collider = scenery.at(crusher.collider);
       if (collider.mover != no_mover)
         carry(crusher, middle(), pose_at(collider.motion, part.begin), turned_pose(collider, part));
@@ -181,38 +179,37 @@ LocalController::~LocalController() = default;
 LocalController::LocalController(LocalController&&) noexcept = default;
 LocalController& LocalController::operator=(LocalController&&) noexcept = default;
 
-StepStatus LocalController::step(CharacterState<double>& state, const Input& input, const StepContext<double>& context,
-                                 const Find& find, StepReport<double>& report) {
-  return impl_->advance(state, context, find, report,
-                        [&](const Controller<double>& controller, CharacterState<double>& of, const auto& here,
-                            double /*share*/, Scratch<double>& scratch,
-                            StepReport<double>& result) { return controller.step(of, input, here, scratch, result); });
+StepStatus LocalController::step(CharacterState& state, const Input& input, const StepContext& context,
+                                 const Find& find, StepReport& report) {
+  return impl_->advance(
+      state, context, find, report,
+      [&](const Controller& controller, CharacterState& of, const auto& here, double /*share*/, Scratch& scratch,
+          StepReport& result) { return controller.step(of, input, here, scratch, result); });
 }
 
-StepStatus LocalController::move(CharacterState<double>& state, const Vec2d& displacement,
-                                 const StepContext<double>& context, const Find& find, StepReport<double>& report) {
-  return impl_->advance(state, context, find, report,
-                        [&](const Controller<double>& controller, CharacterState<double>& of, const auto& here,
-                            double share, Scratch<double>& scratch, StepReport<double>& result) {
-                          return controller.move(of, displacement * share, here, scratch, result);
-                        });
+StepStatus LocalController::move(CharacterState& state, const Vec2d& displacement, const StepContext& context,
+                                 const Find& find, StepReport& report) {
+  return impl_->advance(
+      state, context, find, report,
+      [&](const Controller& controller, CharacterState& of, const auto& here, double share, Scratch& scratch,
+          StepReport& result) { return controller.move(of, displacement * share, here, scratch, result); });
 }
 
-StepStatus LocalController::wait(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
-                                 StepReport<double>& report) {
+StepStatus LocalController::wait(CharacterState& state, const StepContext& context, const Find& find,
+                                 StepReport& report) {
   Impl& impl = *impl_;
-  const Box2<double>& extent = impl.character().shape.box();
-  const Box2<double> here{state.position + extent.lower, state.position + extent.upper};
+  const Box2& extent = impl.character().shape.box();
+  const Box2 here{state.position + extent.lower, state.position + extent.upper};
   if (!(context.dt > 0 && is_in_range(here))) return report.status = StepStatus::invalid_input;
   impl.turned_.clear();
   impl.scenery.read(here, context, find);
   return impl.scenery.build(1) ? impl.wait(state, context, report) : impl.refuse(state, report);
 }
 
-std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, const StepContext<double>& context,
+std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, const StepContext& context,
                                                      const Find& find, bool at_end, std::span<ColliderIndex> found) {
   Impl& impl = *impl_;
-  const Box2<double>& extent = impl.character().shape.box();
+  const Box2& extent = impl.character().shape.box();
   if (!is_in_range({position, position})) return std::nullopt;
   impl.turned_.clear();
   impl.scenery.read({position + extent.lower, position + extent.upper}, context, find);
@@ -229,8 +226,8 @@ std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, cons
 }
 
 std::span<const TurnedCollider> LocalController::turned() const noexcept { return impl_->turned_; }
-const Box2<double>& LocalController::reach() const noexcept { return impl_->scenery.reach(); }
-void LocalController::set_reach(const Box2<double>& box) noexcept { impl_->scenery.set_reach(box); }
+const Box2& LocalController::reach() const noexcept { return impl_->scenery.reach(); }
+void LocalController::set_reach(const Box2& box) noexcept { impl_->scenery.set_reach(box); }
 std::span<const ColliderIndex> LocalController::unusable() const noexcept { return impl_->scenery.unusable(); }
 const CharacterDef& LocalController::character() const noexcept { return impl_->character(); }
 

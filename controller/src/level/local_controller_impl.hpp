@@ -27,9 +27,9 @@ inline constexpr double turning_share = 0x1p-20;
 struct StepPart {
   double begin;
   double end;
-  std::span<const MoverMotion<double>> motions;
+  std::span<const MoverMotion> motions;
   /// Of the character while everything turns, in shares of this time.
-  std::vector<PathPoint<double>> way{};
+  std::vector<PathPoint> way{};
 
   [[nodiscard]] double turned() const noexcept { return begin + (end - begin) * turning_share; }
 };
@@ -56,19 +56,19 @@ inline Vec2d between(const Vec2d& from, const Vec2d& to, double share) { return 
 
 /// The place from which the character came goes along with what crushed it.
 /// @param middle of the character's shape, relative to its position.
-inline void carry(Crusher<double>& crusher, const Vec2d& middle, const Pose& from, const Pose& to) {
+inline void carry(Crusher& crusher, const Vec2d& middle, const Pose& from, const Pose& to) {
   const Vec2d came_from = crusher.last_free + crusher.displacement + middle;
   const Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
   crusher.displacement = there - middle - crusher.last_free;
 }
 
-inline SensorEvent<double> sensor_event(ColliderIndex sensor, bool enters, double fraction) {
-  using Change = SensorEvent<double>::Change;
+inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fraction) {
+  using Change = SensorEvent::Change;
   return {sensor, enters ? Change::enter : Change::exit, fraction};
 }
 
 /// Before the first part.
-inline void clear(StepReport<double>& report) {
+inline void clear(StepReport& report) {
   report.status = StepStatus::moved;
   report.requested.setZero();
   report.steered = 0;
@@ -86,57 +86,51 @@ struct LocalController::Impl {
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
   [[nodiscard]] Vec2d middle() const noexcept { return character().shape.box().middle(); }
 
-  [[nodiscard]] Box2<double> box_needed(const CharacterState<double>& state, const StepContext<double>& context) const;
-  [[nodiscard]] Box2<double> box_along(const MoveResult<double>& move) const;
-  StepStatus refuse(const CharacterState<double>& state, StepReport<double>& report);
-  StepStatus stay(MoveStatus why, const CharacterState<double>& state, StepReport<double>& report);
+  [[nodiscard]] Box2 box_needed(const CharacterState& state, const StepContext& context) const;
+  [[nodiscard]] Box2 box_along(const MoveResult& move) const;
+  StepStatus refuse(const CharacterState& state, StepReport& report);
+  StepStatus stay(MoveStatus why, const CharacterState& state, StepReport& report);
 
   template <class Go>
-  StepStatus advance(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
-                     StepReport<double>& report, const Go& go);
+  StepStatus advance(CharacterState& state, const StepContext& context, const Find& find, StepReport& report,
+                     const Go& go);
   template <class Go>
-  StepStatus step_straight(CharacterState<double>& state, const StepContext<double>& context,
-                           StepReport<double>& report, const Go& go);
+  StepStatus step_straight(CharacterState& state, const StepContext& context, StepReport& report, const Go& go);
   template <class Go>
-  StepStatus step_among_turning(CharacterState<double>& state, const StepContext<double>& context,
-                                StepReport<double>& report, const Go& go);
+  StepStatus step_among_turning(CharacterState& state, const StepContext& context, StepReport& report, const Go& go);
   template <class Go>
-  [[nodiscard]] std::optional<StepStatus> step_in_parts(int parts, CharacterState<double>& state,
-                                                        const StepContext<double>& context, StepReport<double>& report,
-                                                        const Go& go);
+  [[nodiscard]] std::optional<StepStatus> step_in_parts(int parts, CharacterState& state, const StepContext& context,
+                                                        StepReport& report, const Go& go);
 
   // Among what turns.
-  [[nodiscard]] int parts_for(const CharacterState<double>& state, const StepContext<double>& context) const;
+  [[nodiscard]] int parts_for(const CharacterState& state, const StepContext& context) const;
   [[nodiscard]] level::StepPart turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter);
   [[nodiscard]] level::NearestOutline nearest_of(MoverIndex mover, double fraction, const Vec2d& position,
                                                  const ColliderFilter* filter) const;
   [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position,
                                const ColliderFilter* filter) const;
-  [[nodiscard]] bool find_way(level::StepPart& part, const MoveResult<double>& move,
-                              const StepContext<double>& context);
-  void limit_speed(const level::StepPart& part, double wanted, double dt, MoveResult<double>& move,
-                   CharacterState<double>& state) const;
-  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const StepContext<double>& context,
-                                    const level::StepPart& part);
-  [[nodiscard]] bool is_proved(const level::StepPart& part, const MoveResult<double>& move,
-                               const StepContext<double>& context, bool of_all);
-  [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext<double>& context) const;
+  [[nodiscard]] bool find_way(level::StepPart& part, const MoveResult& move, const StepContext& context);
+  void limit_speed(const level::StepPart& part, double wanted, double dt, MoveResult& move,
+                   CharacterState& state) const;
+  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const StepContext& context, const level::StepPart& part);
+  [[nodiscard]] bool is_proved(const level::StepPart& part, const MoveResult& move, const StepContext& context,
+                               bool of_all);
+  [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext& context) const;
   [[nodiscard]] Pose turned_pose(const NearCollider& collider, const level::StepPart& part) const;
-  void note_pushes(const level::StepPart& part, const StepContext<double>& context);
+  void note_pushes(const level::StepPart& part, const StepContext& context);
   void note_turned_sensors(const level::StepPart& part, const Vec2d& position, const ColliderFilter* filter,
-                           StepReport<double>& report);
+                           StepReport& report);
   void note_begin();
   void note_vertices(const level::StepPart& part);
-  void append(const StepReport<double>& added, const level::StepPart& part, StepReport<double>& report) const;
-  StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
-                                 StepReport<double>& report);
-  StepStatus wait(CharacterState<double>& state, const StepContext<double>& context, StepReport<double>& report);
+  void append(const StepReport& added, const level::StepPart& part, StepReport& report) const;
+  StepStatus go_straight_or_stay(CharacterState& state, const StepContext& context, StepReport& report);
+  StepStatus wait(CharacterState& state, const StepContext& context, StepReport& report);
   template <class PlaceAt>
   void note_stays(const NearCollider& sensor, double begin, std::span<const double> ends, const PlaceAt& place_at,
-                  StepReport<double>& report);
-  void go_straight(double begin, double departure, const Vec2d& to, const CharacterState<double>& state,
-                   const StepContext<double>& context, StepReport<double>& report);
-  [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState<double> state, const StepContext<double>& context);
+                  StepReport& report);
+  void go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state,
+                   const StepContext& context, StepReport& report);
+  [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState state, const StepContext& context);
   [[nodiscard]] bool overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position);
   [[nodiscard]] bool reaches(const NearCollider& collider, const level::HullWay& way, double begin, double end);
   [[nodiscard]] const std::vector<level::ConvexPiece>& pieces(const NearCollider& collider);
@@ -148,12 +142,12 @@ struct LocalController::Impl {
   };
 
   level::NearScenery scenery;
-  std::vector<MoverMotion<double>> motions;
+  std::vector<MoverMotion> motions;
   std::vector<TurnedCollider> turned_;
-  std::unique_ptr<StepReport<double>> of_part = std::make_unique<StepReport<double>>();
-  ReportMemory<PathPoint<double>> more_corners{level::most_parts * MoveResult<double>::max_corners};
-  ReportMemory<Contact<double>> more_contacts{level::most_parts * MoveResult<double>::max_contacts};
-  ReportMemory<ColliderIndex> more_crushed{level::most_parts * MoveResult<double>::max_crushed};
+  std::unique_ptr<StepReport> of_part = std::make_unique<StepReport>();
+  ReportMemory<PathPoint> more_corners{level::most_parts * MoveResult::max_corners};
+  ReportMemory<Contact> more_contacts{level::most_parts * MoveResult::max_contacts};
+  ReportMemory<ColliderIndex> more_crushed{level::most_parts * MoveResult::max_crushed};
   std::vector<KnownPieces> known_pieces;
 };
 

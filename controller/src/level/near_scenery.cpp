@@ -51,7 +51,7 @@ bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
   return (filter == nullptr ? ColliderFilter{} : *filter)(collider.id, collider.def->filter);
 }
 
-void NearScenery::read(const Box2<double>& needed, const StepContext<double>& context, const Find& find) {
+void NearScenery::read(const Box2& needed, const StepContext& context, const Find& find) {
   const Vec2d spare = (box_.upper - box_.lower) - (needed.upper - needed.lower);
   if (!box_.contains(needed) || spare.maxCoeff() > 4 * read_ahead) box_ = needed.inflated(read_ahead);
   near_.swap(near_before_);
@@ -102,7 +102,7 @@ void NearScenery::number_movers(double dt) {
 }
 
 /// What turns beside the needed box does not count, so that the number of parts depends on the state alone.
-void NearScenery::note_what_turns(const Box2<double>& needed, const ColliderFilter* filter) {
+void NearScenery::note_what_turns(const Box2& needed, const ColliderFilter* filter) {
   any_turns_ = any_sensor_turns_ = false;
   for (const NearCollider& collider : near_) {
     if (collider.mover == no_mover || collider.motion.from.angle == collider.motion.to.angle) continue;
@@ -121,7 +121,7 @@ void NearScenery::place_in_order() {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
   const auto key = [&](std::size_t i) {
     const NearCollider& collider = near_[i];
-    const Box2<double> extent = box_at(collider.def->points, {});
+    const Box2 extent = box_at(collider.def->points, {});
     return std::tuple(collider.mover + 1, extent.lower.x(), extent.lower.y(), extent.upper.x(), extent.upper.y(),
                       collider.def->points.size());
   };
@@ -195,7 +195,7 @@ bool NearScenery::build(double fraction) {
     } catch (const InvalidScenery& refused) {
       const NearCollider& collider = at(refused.collider());
       try {
-        const Scenery<double> as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
+        const Scenery as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
         return false;
       } catch (const InvalidScenery&) {
         leave_out(refused.collider());
@@ -212,8 +212,7 @@ ColliderIndex NearScenery::local_of(ColliderIndex id) const noexcept {
   return found == ids_.end() ? no_collider : static_cast<ColliderIndex>(found - ids_.begin());
 }
 
-StepContext<double> NearScenery::context(StepContext<double> context,
-                                         std::span<const MoverMotion<double>> motions) noexcept {
+StepContext NearScenery::context(StepContext context, std::span<const MoverMotion> motions) noexcept {
   context.movers = motions.first(scenery_->scenery.mover_count());
   if (context.filter == nullptr) return context;
   filter_of_ids_ = {*context.filter, ids_};
@@ -228,33 +227,33 @@ StepContext<double> NearScenery::context(StepContext<double> context,
   return context;
 }
 
-void NearScenery::to_local(CharacterState<double>& state) const {
-  if (state.ride.ground != Ride<double>::none) {
+void NearScenery::to_local(CharacterState& state) const {
+  if (state.ride.ground != Ride::none) {
     state.ride.ground = local_of(state.ride.ground);
     if (state.ride.ground == no_collider) state.ride = {};
   }
-  const Crushers<double> known = state.crushers;
+  const Crushers known = state.crushers;
   state.crushers.clear();
-  for (Crusher<double> crusher : known) {
+  for (Crusher crusher : known) {
     crusher.collider = local_of(crusher.collider);
     if (crusher.collider != no_collider) state.crushers.push_back(crusher);
   }
   state.crushed = state.crushed && !state.crushers.empty();
 }
 
-void NearScenery::to_ids(CharacterState<double>& state) const {
-  if (state.ride.ground != Ride<double>::none) state.ride.ground = ids_[state.ride.ground];
+void NearScenery::to_ids(CharacterState& state) const {
+  if (state.ride.ground != Ride::none) state.ride.ground = ids_[state.ride.ground];
   if (state.ground.state != GroundState::air) state.ground.collider = ids_[state.ground.collider];
-  for (Crusher<double>& crusher : state.crushers) crusher.collider = ids_[crusher.collider];
+  for (Crusher& crusher : state.crushers) crusher.collider = ids_[crusher.collider];
 }
 
-void NearScenery::to_ids(StepReport<double>& report) const {
-  MoveResult<double>& move = report.move;
-  for (Contact<double>& contact : move.contacts) contact.collider = ids_[contact.collider];
-  for (Crusher<double>& crusher : move.crushers) crusher.collider = ids_[crusher.collider];
+void NearScenery::to_ids(StepReport& report) const {
+  MoveResult& move = report.move;
+  for (Contact& contact : move.contacts) contact.collider = ids_[contact.collider];
+  for (Crusher& crusher : move.crushers) crusher.collider = ids_[crusher.collider];
   if (move.ground.state != GroundState::air) move.ground.collider = ids_[move.ground.collider];
-  if (move.ride.ground != Ride<double>::none) move.ride.ground = ids_[move.ride.ground];
-  for (SensorEvent<double>& event : report.sensors) event.sensor = ids_[event.sensor];
+  if (move.ride.ground != Ride::none) move.ride.ground = ids_[move.ride.ground];
+  for (SensorEvent& event : report.sensors) event.sensor = ids_[event.sensor];
   to_ids({move.crushed.begin(), move.crushed.size()});
   to_ids({report.dropped_through.begin(), report.dropped_through.size()});
 }

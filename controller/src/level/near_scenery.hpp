@@ -35,7 +35,7 @@ class NearScenery {
 
   /// @param needed box. A wider one is read, so that it holds for some steps.
   /// @param context its filter knows ids: what it leaves out does not turn.
-  void read(const Box2<double>& needed, const StepContext<double>& context, const Find& find);
+  void read(const Box2& needed, const StepContext& context, const Find& find);
   /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already. What is
   /// unusable has no mover afterwards, so the movers may have other numbers.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
@@ -43,8 +43,8 @@ class NearScenery {
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   /// See `LocalController::reach`.
-  [[nodiscard]] const Box2<double>& reach() const noexcept { return box_; }
-  void set_reach(const Box2<double>& box) noexcept { box_ = box; }
+  [[nodiscard]] const Box2& reach() const noexcept { return box_; }
+  void set_reach(const Box2& box) noexcept { box_ = box; }
   /// What was found in it, by id. Their movers are indices of `movers()`.
   [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
   [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
@@ -55,8 +55,8 @@ class NearScenery {
   }
 
   // Of the scenery.
-  [[nodiscard]] const Controller<double>& controller() const noexcept { return scenery_->controller; }
-  [[nodiscard]] Scratch<double>& scratch() noexcept { return scenery_->scratch; }
+  [[nodiscard]] const Controller& controller() const noexcept { return scenery_->controller; }
+  [[nodiscard]] Scratch& scratch() noexcept { return scenery_->scratch; }
   [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
   [[nodiscard]] const NearCollider& at(ColliderIndex collider) const noexcept { return near_[order_[collider]]; }
   [[nodiscard]] bool is_in_scenery(ColliderIndex id) const noexcept { return local_of(id) != no_collider; }
@@ -64,13 +64,12 @@ class NearScenery {
   [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept { return unusable_; }
   /// A context for steps and questions in the scenery, valid until the next one is made.
   /// @param motions one for each of `movers()`. @param context its filter knows ids.
-  [[nodiscard]] StepContext<double> context(StepContext<double> context,
-                                            std::span<const MoverMotion<double>> motions) noexcept;
+  [[nodiscard]] StepContext context(StepContext context, std::span<const MoverMotion> motions) noexcept;
 
   /// A collider that is gone carries and crushes no more.
-  void to_local(CharacterState<double>& state) const;
-  void to_ids(CharacterState<double>& state) const;
-  void to_ids(StepReport<double>& report) const;
+  void to_local(CharacterState& state) const;
+  void to_ids(CharacterState& state) const;
+  void to_ids(StepReport& report) const;
   void to_ids(std::span<ColliderIndex> colliders) const;
 
  private:
@@ -78,9 +77,9 @@ class NearScenery {
     Built(const SceneryDef& def, const CharacterDef& character)
         : scenery(def), controller(scenery, character, {.search = PieceSearch::one_by_one}) {}
 
-    Scenery<double> scenery;
-    Controller<double> controller;
-    Scratch<double> scratch = controller.make_scratch();
+    Scenery scenery;
+    Controller controller;
+    Scratch scratch = controller.make_scratch();
   };
   /// A filter of colliders by their ids.
   struct FilterOfIds {
@@ -89,7 +88,7 @@ class NearScenery {
   };
 
   void number_movers(double dt);
-  void note_what_turns(const Box2<double>& needed, const ColliderFilter* filter);
+  void note_what_turns(const Box2& needed, const ColliderFilter* filter);
   void place_in_order();
   [[nodiscard]] SceneryDef scenery_def() const;
   void leave_out_known();
@@ -97,7 +96,7 @@ class NearScenery {
   [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
 
   CharacterDef character_;
-  Box2<double> box_{Vec2d::Constant(1), Vec2d::Constant(-1)};
+  Box2 box_{Vec2d::Constant(1), Vec2d::Constant(-1)};
   std::vector<NearCollider> near_;
   std::vector<NearCollider> near_before_;
   std::vector<NearMover> movers_;

@@ -35,9 +35,9 @@ namespace paperproof::level {
 }
 
 /// Encloses points in their pose.
-[[nodiscard]] inline Box2<double> box_at(std::span<const Vec2d> points, const Pose& pose) noexcept {
+[[nodiscard]] inline Box2 box_at(std::span<const Vec2d> points, const Pose& pose) noexcept {
   const Vec2d first = rotated(points[0], pose.angle);
-  Box2<double> box{first, first};
+  Box2 box{first, first};
   for (const Vec2d& point : points) {
     const Vec2d here = rotated(point, pose.angle);
     box = box.merged({here, here});
@@ -47,8 +47,8 @@ namespace paperproof::level {
 
 /// Encloses the way of points during a step, whatever point they turn about that is not farther from the mover's
 /// origin than they are. (About a corner of the character, which may be farther, none of them comes nearer to it.)
-[[nodiscard]] inline Box2<double> swept_box(std::span<const Vec2d> points, const PoseMotion& motion) noexcept {
-  const Box2<double> box = box_at(points, motion.from).merged(box_at(points, motion.to));
+[[nodiscard]] inline Box2 swept_box(std::span<const Vec2d> points, const PoseMotion& motion) noexcept {
+  const Box2 box = box_at(points, motion.from).merged(box_at(points, motion.to));
   const double turn = std::min(std::abs(motion.to.angle - motion.from.angle), 2.0);
   if (turn == 0) return box;
   double reach = 0;

@@ -10,7 +10,7 @@ using namespace level;
 /// @param ends the instants. @param place_at of the character, at one of them.
 template <class PlaceAt>
 void LocalController::Impl::note_stays(const NearCollider& sensor, double begin, std::span<const double> ends,
-                                       const PlaceAt& place_at, StepReport<double>& report) {
+                                       const PlaceAt& place_at, StepReport& report) {
   const auto is_inside = [&](double when) { return overlaps(sensor, pose_at(sensor.motion, when), place_at(when)); };
   bool inside = is_inside(begin);
   for (const double end : ends) {
@@ -24,10 +24,9 @@ void LocalController::Impl::note_stays(const NearCollider& sensor, double begin,
 /// evenly. What may reach the character crushes it.
 /// @param begin as a fraction of the step; what is before it stands in the report.
 /// @param departure when the character leaves for the place.
-void LocalController::Impl::go_straight(double begin, double departure, const Vec2d& to,
-                                        const CharacterState<double>& state, const StepContext<double>& context,
-                                        StepReport<double>& report) {
-  MoveResult<double>& move = report.move;
+void LocalController::Impl::go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state,
+                                        const StepContext& context, StepReport& report) {
+  MoveResult& move = report.move;
   move.position = to;
   move.velocity.setZero();
   move.grounded = false;
@@ -66,8 +65,8 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
     }
     if (!is_reached) continue;
     const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
-                                    [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
-    Crusher<double> crusher{collider.id, state.position};
+                                    [&](const Crusher& crusher) { return crusher.collider == collider.id; });
+    Crusher crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
     carry(crusher, middle(), from, collider.motion.to);
     const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
@@ -77,15 +76,14 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
 }
 
 /// Where a character that stays in place would leave what overlaps it at the end of the step.
-std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double> state,
-                                                           const StepContext<double>& context) {
+std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState state, const StepContext& context) {
   if (!scenery.build(1)) return std::nullopt;
   motions.clear();
   for (const NearMover& mover : scenery.movers())
     motions.push_back({mover.motion.to.position, mover.motion.to.position});
   scenery.to_local(state);
   state.ride = {};
-  for (Crusher<double>& crusher : state.crushers) {
+  for (Crusher& crusher : state.crushers) {
     const NearCollider& collider = scenery.at(crusher.collider);
     carry(crusher, middle(), collider.motion.from, collider.motion.to);
   }
@@ -97,10 +95,10 @@ std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double
 
 /// A step for a character that no division of the step brings to a free position. It goes straight to one, if it can,
 /// in the course of the step or at its end; else it stays in place.
-StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
-                                                      StepReport<double>& report) {
+StepStatus LocalController::Impl::go_straight_or_stay(CharacterState& state, const StepContext& context,
+                                                      StepReport& report) {
   const std::optional<Vec2d> out = way_out_at_end(state, context);
-  MoveResult<double>& move = report.move;
+  MoveResult& move = report.move;
   const auto goes_out = [&](double departure) {
     clear(report);
     go_straight(0, departure, *out, state, context, report);
@@ -112,9 +110,8 @@ StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& st
 }
 
 /// A step in which the character stays in place, and what reaches it crushes it.
-StepStatus LocalController::Impl::wait(CharacterState<double>& state, const StepContext<double>& context,
-                                       StepReport<double>& report) {
-  MoveResult<double>& move = report.move;
+StepStatus LocalController::Impl::wait(CharacterState& state, const StepContext& context, StepReport& report) {
+  MoveResult& move = report.move;
   clear(report);
   go_straight(0, 0, state.position, state, context, report);
   const auto holds = [&](const NearCollider& collider) {

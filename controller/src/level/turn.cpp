@@ -76,13 +76,12 @@ bool stay_apart_between(const Scene& scene, double begin, double end, int halvin
 }
 
 bool circle_stays_apart(const HullWay& character, const PieceWay& piece, double least) {
-  const Circle<double> circle{piece.from[0] - character.from, piece.radius};
+  const Circle circle{piece.from[0] - character.from, piece.radius};
   const Vec2d way = (character.to - character.from) - (piece.to[0] - piece.from[0]);
   const auto is_apart_at = [&](const Vec2d& at) {
     return geometry::near_circle(character.hull, at, circle).separation > least;
   };
-  return is_apart_at({0, 0}) && is_apart_at(way) &&
-         !geometry::approach<double>(character.hull, {0, 0}, way, circle, least);
+  return is_apart_at({0, 0}) && is_apart_at(way) && !geometry::approach(character.hull, {0, 0}, way, circle, least);
 }
 
 /// The point of a segment that is nearest to another point, as a share of the segment.
@@ -96,11 +95,10 @@ double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
 
 bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Vec2d origin = character.from;
-  const Box2<double> shape = Box2<double>::around(character.hull);
-  const Box2<double> hull{character.from.cwiseMin(character.to) + shape.lower,
-                          character.from.cwiseMax(character.to) + shape.upper};
-  const Box2<double> whole =
-      Box2<double>::around(piece.from).merged(Box2<double>::around(piece.to)).inflated(piece.radius);
+  const Box2 shape = Box2::around(character.hull);
+  const Box2 hull{character.from.cwiseMin(character.to) + shape.lower,
+                  character.from.cwiseMax(character.to) + shape.upper};
+  const Box2 whole = Box2::around(piece.from).merged(Box2::around(piece.to)).inflated(piece.radius);
   if (!hull.inflated(std::abs(least)).overlaps(whole)) return true;
   if (piece.radius > 0) return circle_stays_apart(character, piece, least);
   Scene scene{{}, character.hull, {{0, 0}, character.to - origin}, least};

@@ -18,19 +18,18 @@ int rank(MoveStatus status) noexcept {
 }  // namespace
 
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
-void LocalController::Impl::note_pushes(const StepPart& part, const StepContext<double>& context) {
-  MoveResult<double>& move = of_part->move;
+void LocalController::Impl::note_pushes(const StepPart& part, const StepContext& context) {
+  MoveResult& move = of_part->move;
   if (move.path.size() < 2 || move.path[1].fraction > 0) return;
   std::size_t last = 1;
   while (last + 1 < move.path.size() && move.path[last + 1].fraction == 0) ++last;
-  std::array<Contact<double>, MoveResult<double>::max_contacts> touched;
-  const std::size_t count =
-      scenery.controller().contacts_at(move.path[last].position, Tolerances<double>{}.touch,
-                                       scenery.context(context, part.motions), scenery.scratch(), touched);
+  std::array<Contact, MoveResult::max_contacts> touched;
+  const std::size_t count = scenery.controller().contacts_at(
+      move.path[last].position, Tolerances{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
   std::ptrdiff_t pushes = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const NearCollider& collider = scenery.at(touched[i].collider);
-    const auto is_known = [&](const Contact<double>& contact) { return contact.collider == touched[i].collider; };
+    const auto is_known = [&](const Contact& contact) { return contact.collider == touched[i].collider; };
     if (!scenery.turns(collider)) continue;
     if (std::any_of(move.contacts.begin(), move.contacts.end(), is_known)) continue;
     // They come first: nothing else is met before any time has passed.
@@ -43,7 +42,7 @@ void LocalController::Impl::note_pushes(const StepPart& part, const StepContext<
 /// sees how they go on.
 /// @param position where the part begins. @param report of the part, by ids.
 void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2d& position,
-                                                const ColliderFilter* filter, StepReport<double>& report) {
+                                                const ColliderFilter* filter, StepReport& report) {
   if (!scenery.any_sensor_turns()) return;
   const auto later = report.sensors;
   report.sensors.clear();
@@ -54,7 +53,7 @@ void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2
     const bool after = overlaps(collider, turned_pose(collider, part), position);
     if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
   }
-  for (const SensorEvent<double>& event : later) report.sensors.push_back(event);
+  for (const SensorEvent& event : later) report.sensors.push_back(event);
   report.sensors.note_overflow(later.overflowed());
 }
 
@@ -78,23 +77,22 @@ void LocalController::Impl::note_vertices(const StepPart& part) {
 }
 
 /// Adds a part to the report of the step. @param added names colliders by ids.
-void LocalController::Impl::append(const StepReport<double>& added, const StepPart& part,
-                                   StepReport<double>& report) const {
-  const MoveResult<double>& from = added.move;
-  MoveResult<double>& to = report.move;
+void LocalController::Impl::append(const StepReport& added, const StepPart& part, StepReport& report) const {
+  const MoveResult& from = added.move;
+  MoveResult& to = report.move;
   const auto when = [&](double fraction) {
     return fraction < 1 ? part.turned() + (part.end - part.turned()) * fraction : part.end;
   };
-  for (const PathPoint<double>& corner : part.way) {
+  for (const PathPoint& corner : part.way) {
     const double fraction = part.begin + (part.turned() - part.begin) * corner.fraction;
     if (corner.fraction > 0 || to.path.empty())
       to.path.push_back({corner.position, corner.fraction < 1 ? fraction : part.turned()}, more_corners);
   }
-  for (const PathPoint<double>& corner : from.path)
+  for (const PathPoint& corner : from.path)
     if (corner.fraction > 0) to.path.push_back({corner.position, when(corner.fraction)}, more_corners);
-  for (Contact<double> contact : from.contacts) {
+  for (Contact contact : from.contacts) {
     contact.fraction = when(contact.fraction);
-    const auto is_it = [&](const Contact<double>& other) {
+    const auto is_it = [&](const Contact& other) {
       return other.collider == contact.collider && other.normal == contact.normal;
     };
     if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact, more_contacts);
@@ -102,7 +100,7 @@ void LocalController::Impl::append(const StepReport<double>& added, const StepPa
   for (const ColliderIndex collider : from.crushed)
     if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end())
       to.crushed.push_back(collider, more_crushed);
-  for (SensorEvent<double> event : added.sensors) {
+  for (SensorEvent event : added.sensors) {
     event.fraction = when(event.fraction);
     report.sensors.push_back(event);
   }

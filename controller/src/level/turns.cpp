@@ -19,10 +19,10 @@ constexpr double proved = 1e-9;
 std::vector<ConvexPiece> pieces_of(ColliderDef def) {
   def.mover = no_mover;
   const double radius = def.radius;
-  const Scenery<double> scenery(SceneryDef{{std::move(def)}});
+  const Scenery scenery(SceneryDef{{std::move(def)}});
   std::vector<ConvexPiece> pieces;
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
-    const PieceVertices<double> vertices = scenery.vertices_of(piece);
+    const PieceVertices vertices = scenery.vertices_of(piece);
     pieces.push_back({{vertices.begin(), vertices.end()}, radius});
   }
   return pieces;
@@ -37,16 +37,16 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
   };
   const Vec2d before = nearest_along(normal_before);
   const Vec2d after = nearest_along(normal_after);
-  return (before - after).dot(normal_after) < Tolerances<double>{}.hit ? before : after;
+  return (before - after).dot(normal_after) < Tolerances{}.hit ? before : after;
 }
 
 }  // namespace
 
 /// Into how many shorter steps a step must be divided.
-int LocalController::Impl::parts_for(const CharacterState<double>& state, const StepContext<double>& context) const {
-  const Box2<double>& extent = character().shape.box();
+int LocalController::Impl::parts_for(const CharacterState& state, const StepContext& context) const {
+  const Box2& extent = character().shape.box();
   const double size = (extent.upper - extent.lower).norm();
-  const Box2<double> needed = box_needed(state, context);
+  const Box2 needed = box_needed(state, context);
   const double reach = (needed.upper - needed.lower).norm();
   double most = 0;
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
@@ -108,7 +108,7 @@ Pose LocalController::Impl::turned_pose(const NearCollider& collider, const Step
 }
 
 /// Whether a collider can be in the way, and has a proof. @param context of the step, whose filter knows ids.
-bool LocalController::Impl::blocks(const NearCollider& collider, const StepContext<double>& context) const {
+bool LocalController::Impl::blocks(const NearCollider& collider, const StepContext& context) const {
   return !collider.def->sensor && !collider.def->one_way && scenery.is_in_scenery(collider.id) &&
          is_there(collider, context.filter);
 }
@@ -135,10 +135,9 @@ bool LocalController::Impl::overlaps(const NearCollider& collider, const Pose& p
 
 /// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
 /// @param move in the part; its corners at fraction 0 are that way. Colliders by index.
-bool LocalController::Impl::find_way(StepPart& part, const MoveResult<double>& move,
-                                     const StepContext<double>& context) {
+bool LocalController::Impl::find_way(StepPart& part, const MoveResult& move, const StepContext& context) {
   std::vector<Vec2d> corners;
-  for (const PathPoint<double>& corner : move.path)
+  for (const PathPoint& corner : move.path)
     if (corner.fraction == 0) corners.push_back(corner.position);
   // Mostly it goes first, and has gone before what pushes it arrives. Evenly it would be late by the square of a turn.
   for (const double arrival : {0.5, 1.0}) {
@@ -156,18 +155,17 @@ bool LocalController::Impl::find_way(StepPart& part, const MoveResult<double>& m
   const Vec2d out = out_of_corner(end, context, part);
   const double far = (end - corners.front()).norm();
   for (const double share : {0.01, 0.1, 1.0}) {
-    part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances<double>{}.stop), 0.5}, {end, 1}};
+    part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances{}.stop), 0.5}, {end, 1}};
     if (is_proved(part, move, context, true)) return true;
   }
   return false;
 }
 
 /// Unit, away from everything that is touched once everything has turned; or zero.
-Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepContext<double>& context,
-                                           const StepPart& part) {
-  std::array<Contact<double>, MoveResult<double>::max_contacts> touched;
+Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepContext& context, const StepPart& part) {
+  std::array<Contact, MoveResult::max_contacts> touched;
   const std::size_t count = scenery.controller().contacts_at(
-      position, Tolerances<double>{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
+      position, Tolerances{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
   Vec2d out = Vec2d::Zero();
   for (std::size_t i = 0; i < count; ++i) out += touched[i].normal;
   return out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
@@ -176,8 +174,8 @@ Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepCont
 /// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
 /// or crushes it, it may leave.
 /// @param of_all and of what stands meanwhile; else the sweep has proved that.
-bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult<double>& move,
-                                      const StepContext<double>& context, bool of_all) {
+bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult& move, const StepContext& context,
+                                      bool of_all) {
   for (ColliderIndex i = 0; i < scenery.size(); ++i) {
     const NearCollider& collider = scenery.at(i);
     if (!(of_all || scenery.turns(collider)) || !blocks(collider, context)) continue;
@@ -188,8 +186,8 @@ bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult<dou
     for (const ConvexPiece& piece : pieces(collider)) {
       const PieceWay whole = {placed(piece.vertices, from), placed(piece.vertices, to), piece.radius};
       for (std::size_t leg = 0; leg + 1 < part.way.size(); ++leg) {
-        const PathPoint<double>& begin = part.way[leg];
-        const PathPoint<double>& end = part.way[leg + 1];
+        const PathPoint& begin = part.way[leg];
+        const PathPoint& end = part.way[leg + 1];
         PieceWay piece_way = whole;
         for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
           piece_way.from[v] = between(whole.from[v], whole.to[v], begin.fraction);
@@ -205,11 +203,11 @@ bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult<dou
 /// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
 /// leave at any speed.
 /// @param move in the part, colliders by index. @param wanted speed [m/s].
-void LocalController::Impl::limit_speed(const StepPart& part, double wanted, double dt, MoveResult<double>& move,
-                                        CharacterState<double>& state) const {
+void LocalController::Impl::limit_speed(const StepPart& part, double wanted, double dt, MoveResult& move,
+                                        CharacterState& state) const {
   double most = wanted;
   bool is_pushed = false;
-  for (const Contact<double>& contact : move.contacts) {
+  for (const Contact& contact : move.contacts) {
     const NearCollider& collider = scenery.at(contact.collider);
     if (collider.mover == no_mover) continue;
     const Pose from = pose_at(collider.motion, part.begin);

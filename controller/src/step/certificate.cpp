@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 namespace {
 
 /// Of the octagon's point `o` at `p`.
@@ -32,20 +32,18 @@ int side_of_vertex(const Vec2d& o0, const Vec2d& o1, const ExactPosition& p, con
 }
 
 /// All points of the octagon at `p` on the right-hand side of a -> b, or on the line.
-template <class Scalar, class Position>
-bool octagon_right_of(const ConfigurationSpace<Scalar>& space, const Vec2d& a, const Vec2d& b,
-                      const Position& p) noexcept {
-  for (const Vec2<Scalar>& o : space.hull())
-    if (side_of_point(a, b, p, o.template cast<double>()) > 0) return false;
+template <class Position>
+bool octagon_right_of(const ConfigurationSpace& space, const Vec2d& a, const Vec2d& b, const Position& p) noexcept {
+  for (const Vec2d& o : space.hull())
+    if (side_of_point(a, b, p, o) > 0) return false;
   return true;
 }
 
 /// All vertices of the piece on the right-hand side of the octagon's edge o0 -> o1 at `p`, or on its line.
-template <class Scalar, class Position>
-bool piece_right_of(const PieceVertices<Scalar>& vertices, const Vec2d& o0, const Vec2d& o1,
-                    const Position& p) noexcept {
-  for (const Vec2<Scalar>& v : vertices)
-    if (side_of_vertex(o0, o1, p, v.template cast<double>()) > 0) return false;
+template <class Position>
+bool piece_right_of(const PieceVertices& vertices, const Vec2d& o0, const Vec2d& o1, const Position& p) noexcept {
+  for (const Vec2d& v : vertices)
+    if (side_of_vertex(o0, o1, p, v) > 0) return false;
   return true;
 }
 
@@ -69,18 +67,16 @@ Vec2d rounded(const Position& p) noexcept {
 /// The octagon beside a circle.
 class BesideCircle {
  public:
-  template <class Scalar>
-  BesideCircle(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
-      : circle_{space.scenery().circle(piece).centre.template cast<double>(),
-                static_cast<double>(space.scenery().circle(piece).radius)} {
-    for (const Vec2<Scalar>& point : space.hull()) octagon_.push_back(point.template cast<double>());
+  BesideCircle(const ConfigurationSpace& space, PieceIndex piece) noexcept
+      : circle_{space.scenery().circle(piece).centre, space.scenery().circle(piece).radius} {
+    for (const Vec2d& point : space.hull()) octagon_.push_back(point);
   }
 
   /// Whether their open interiors are apart: an edge is, or the corner that is nearest.
   template <class Position>
   [[nodiscard]] bool is_clear(const Position& p) const noexcept {
     const double separation = near(p).separation;
-    if (std::abs(separation) >= Tolerances<double>{}.certain) return separation > 0;
+    if (std::abs(separation) >= tolerances.certain) return separation > 0;
     for (std::size_t k = 0; k < octagon_.size(); ++k)
       if (is_edge_apart(k, p) || is_corner_apart(k, p)) return true;
     return false;
@@ -102,8 +98,8 @@ class BesideCircle {
  private:
   [[nodiscard]] const Vec2d& corner(std::size_t k) const noexcept { return octagon_[k % octagon_.size()]; }
   template <class Position>
-  [[nodiscard]] geometry::NearCircle<double> near(const Position& p) const noexcept {
-    return geometry::near_circle<double>({octagon_.begin(), octagon_.end()}, rounded(p), circle_);
+  [[nodiscard]] geometry::NearCircle near(const Position& p) const noexcept {
+    return geometry::near_circle({octagon_.begin(), octagon_.end()}, rounded(p), circle_);
   }
   /// From the circle's centre to a corner of the octagon.
   template <class Position>
@@ -149,26 +145,26 @@ class BesideCircle {
     });
   }
 
-  Circle<double> circle_;
+  Circle circle_;
   FixedVector<Vec2d, CharacterShape::max_points> octagon_;
 };
 
 /// Whether the line of an edge of the piece or of the octagon has the two on different sides, at `from` and at `to`.
 /// Both rings are counter-clockwise: the outside of an edge is on its right.
-template <class Scalar, class Position>
-bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Position& from,
+template <class Position>
+bool some_line_separates(const ConfigurationSpace& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {
   if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(from, to);
-  const PieceVertices<Scalar> vertices = space.scenery().vertices_of(piece);
+  const PieceVertices vertices = space.scenery().vertices_of(piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
-    const Vec2d a = vertices[j].template cast<double>();
-    const Vec2d b = vertices[(j + 1) % vertices.size()].template cast<double>();
+    const Vec2d a = vertices[j];
+    const Vec2d b = vertices[(j + 1) % vertices.size()];
     if (octagon_right_of(space, a, b, from) && octagon_right_of(space, a, b, to)) return true;
   }
-  const std::span<const Vec2<Scalar>> hull = space.hull();
+  const std::span<const Vec2d> hull = space.hull();
   for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2d o0 = hull[k].template cast<double>();
-    const Vec2d o1 = hull[(k + 1) % hull.size()].template cast<double>();
+    const Vec2d o0 = hull[k];
+    const Vec2d o1 = hull[(k + 1) % hull.size()];
     if (piece_right_of(vertices, o0, o1, from) && piece_right_of(vertices, o0, o1, to)) return true;
   }
   return false;
@@ -176,46 +172,27 @@ bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex pie
 
 }  // namespace
 
-template <class Scalar>
-bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                      const Vec2<Scalar>& position) noexcept {
-  const Vec2d p = position.template cast<double>();
+bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, const Vec2& position) noexcept {
+  const Vec2d p = position.cast<double>();
   if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(p);
   return !some_line_separates(space, piece, p, p);
 }
 
-template <class Scalar>
-bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
-                      const Vec2<Scalar>& to) noexcept {
-  return some_line_separates<Scalar, Vec2d>(space, piece, from.template cast<double>(), to.template cast<double>());
+bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, const Vec2& from, const Vec2& to) noexcept {
+  return some_line_separates<Vec2d>(space, piece, from.cast<double>(), to.cast<double>());
 }
 
-template <class Scalar>
-bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                      const ExactPosition& position) noexcept {
+bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, const ExactPosition& position) noexcept {
   if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(position);
   return !some_line_separates(space, piece, position, position);
 }
 
-template <class Scalar>
-bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                      std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, Scalar begin,
-                      const Vec2<Scalar>& to, Scalar end) noexcept {
+bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
+                      const Vec2& from, Real begin, const Vec2& to, Real end) noexcept {
   const MoverIndex mover = space.scenery().pieces()[piece].mover;
   if (mover == no_mover) return clear_of_exactly(space, piece, from, to);
   return some_line_separates(space, piece, ExactPosition(from, movers[mover], begin),
                              ExactPosition(to, movers[mover], end));
 }
 
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                                \
-  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept;        \
-  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const ExactPosition&) noexcept;       \
-  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&,                  \
-                                 const Vec2<Scalar>&) noexcept;                                                       \
-  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, std::span<const MoverMotion<Scalar>>, \
-                                 const Vec2<Scalar>&, Scalar, const Vec2<Scalar>&, Scalar) noexcept;
-PAPERPROOF_INSTANTIATE(float)
-PAPERPROOF_INSTANTIATE(double)
-#undef PAPERPROOF_INSTANTIATE
-
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 namespace {
 
 /// Smallest rounding noise when facets are compared while building [m]. Zero: flush tiles would not cover each other's
@@ -34,8 +34,7 @@ Vec2d unit_normal_right_of(const Vec2d& edge) {
 
 }  // namespace
 
-template <class Scalar>
-struct ConfigurationSpace<Scalar>::CoverSearch {
+struct ConfigurationSpace::CoverSearch {
   /// For each axis, how far in the order of pieces the one was that covered such a facet last: in a level of tiles the
   /// next facet is mostly covered by the one that is as far.
   std::array<PieceIndex, max_axes> guesses{};
@@ -44,13 +43,13 @@ struct ConfigurationSpace<Scalar>::CoverSearch {
   /// What may cover a facet of the present piece, with its sides along the box directions.
   struct Near {
     PieceIndex piece;
-    PerAxis<box_axes, double> sides;
+    Eigen::Array4d sides;
   };
   std::vector<Near> near;
   std::vector<Interval> covered;  ///< Of the present facet.
 
   CoverSearch() {
-    const Vec2<Scalar> nowhere = Vec2<Scalar>::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    const Vec2 nowhere = Vec2::Constant(std::numeric_limits<Real>::quiet_NaN());
     known.fill({nowhere, nowhere, nowhere});
   }
 
@@ -67,21 +66,19 @@ struct ConfigurationSpace<Scalar>::CoverSearch {
   }
 };
 
-template <class Scalar>
-ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                                               const broad_phase::Tree<Scalar>& tree,
-                                               const MoverPhases<Scalar>& mover_phases)
+ConfigurationSpace::ConfigurationSpace(const Scenery& scenery, const CharacterShape& shape,
+                                       const broad_phase::Tree& tree, const MoverPhases& mover_phases)
     : scenery_(scenery), surfaces_(scenery, shape) {
-  for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
-  hull_box_ = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
+  for (const Vec2d& point : shape.hull()) hull_.push_back(Vec2(point));
+  hull_box_ = {Vec2(shape.box().lower), Vec2(shape.box().upper)};
   const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
   filters_differ_ = std::any_of(kinds.begin(), kinds.end(),
                                 [&](const ColliderInfo& kind) { return kind.filter != kinds.front().filter; });
   facet_noise_ = least_noise;
-  for (const Box2<Scalar>& box : scenery.boxes()) {
-    const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  for (const Box2& box : scenery.boxes()) {
+    const Real furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
     facet_noise_ = std::max(facet_noise_, noise_in_ulps * static_cast<double>(furthest) *
-                                              static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
+                                              static_cast<double>(std::numeric_limits<Real>::epsilon()));
   }
 
   build_shared_axes();
@@ -91,16 +88,12 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
   for (PieceIndex piece = 0; piece < count; ++piece) build_obstacle(piece);
   shared_offsets_.shrink_to_fit();
   own_axes_.shrink_to_fit();
-  if (lanes_ == 8)
-    build_covered<8>(tree, mover_phases);
-  else
-    build_covered<max_shared>(tree, mover_phases);
+  build_covered(tree, mover_phases);
 }
 
-template <class Scalar>
-void ConfigurationSpace<Scalar>::build_shared_axes() {
+void ConfigurationSpace::build_shared_axes() {
   const auto add = [this](const Vec2d& normal) {
-    const Vec2<Scalar> n = normal.cast<Scalar>();
+    const Vec2 n = normal.cast<Real>();
     for (std::size_t k = 0; k < shared_count_; ++k)
       if (shared_x_[k] == n.x() && shared_y_[k] == n.y()) return;
     shared_x_[shared_count_] = n.x();
@@ -112,7 +105,7 @@ void ConfigurationSpace<Scalar>::build_shared_axes() {
   add({-1, 0});
   add({0, -1});
   for (std::size_t k = 0; k < hull_.size(); ++k) {
-    const Vec2d edge = (hull_[(k + 1) % hull_.size()] - hull_[k]).template cast<double>();
+    const Vec2d edge = (hull_[(k + 1) % hull_.size()] - hull_[k]).cast<double>();
     add(-unit_normal_right_of(edge));
   }
   lanes_ = shared_count_ <= 8 ? 8 : max_shared;
@@ -120,25 +113,24 @@ void ConfigurationSpace<Scalar>::build_shared_axes() {
     const std::size_t pair = k / 2;
     const std::size_t half = k % 2;
     // An unused lane is "inside" for ever: never the largest separation, never left.
-    shared_low_[pair][half] = -static_cast<double>(std::numeric_limits<Scalar>::max() / 4);
+    shared_low_[pair][half] = -static_cast<double>(std::numeric_limits<Real>::max() / 4);
     if (k >= shared_count_) continue;
     shared_low_[pair][half] = least_along(hull_, {shared_x_[k], shared_y_[k]});
-    rightward_[pair][half] = std::max(shared_x_[k], Scalar(0));
-    leftward_[pair][half] = std::min(shared_x_[k], Scalar(0));
-    upward_[pair][half] = std::max(shared_y_[k], Scalar(0));
-    downward_[pair][half] = std::min(shared_y_[k], Scalar(0));
+    rightward_[pair][half] = std::max(shared_x_[k], Real(0));
+    leftward_[pair][half] = std::min(shared_x_[k], Real(0));
+    upward_[pair][half] = std::max(shared_y_[k], Real(0));
+    downward_[pair][half] = std::min(shared_y_[k], Real(0));
     shared_faces_[k] = face_along({shared_x_[k], shared_y_[k]});
     hull_faces_[k] = face_of(hull_, {-shared_x_[k], -shared_y_[k]});
   }
 }
 
-template <class Scalar>
-OctagonFace<Scalar> ConfigurationSpace<Scalar>::face_along(const Vec2<Scalar>& n) const noexcept {
-  constexpr Scalar flat = Tolerances<Scalar>{}.hit;  // points this close to the lowest belong to the face
-  OctagonFace<Scalar> face{std::numeric_limits<Scalar>::infinity(), 0, 0};
-  for (const Vec2<Scalar>& o : hull_) {
-    const Scalar height = n.x() * o.x() + n.y() * o.y();
-    const Scalar place = n.x() * o.y() - n.y() * o.x();
+OctagonFace ConfigurationSpace::face_along(const Vec2& n) const noexcept {
+  constexpr Real flat = tolerances.hit;  // points this close to the lowest belong to the face
+  OctagonFace face{std::numeric_limits<Real>::infinity(), 0, 0};
+  for (const Vec2d& o : hull_) {
+    const Real height = n.x() * o.x() + n.y() * o.y();
+    const Real place = n.x() * o.y() - n.y() * o.x();
     if (height < face.low - flat) face = {height, place, place};
     if (height > face.low + flat) continue;
     face.low = std::min(face.low, height);
@@ -148,14 +140,12 @@ OctagonFace<Scalar> ConfigurationSpace<Scalar>::face_along(const Vec2<Scalar>& n
   return face;
 }
 
-template <class Scalar>
-Scalar ConfigurationSpace<Scalar>::support_offset(PieceIndex piece, const Vec2d& normal) const noexcept {
+Real ConfigurationSpace::support_offset(PieceIndex piece, const Vec2d& normal) const noexcept {
   const double radius = scenery_.pieces()[piece].is_circle() ? static_cast<double>(scenery_.circle(piece).radius) : 0;
-  return static_cast<Scalar>(radius - least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
+  return static_cast<Real>(radius - least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
 }
 
-template <class Scalar>
-void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
+void ConfigurationSpace::build_obstacle(PieceIndex piece) {
   const std::span<const PieceInfo> pieces = scenery_.pieces();
   const PieceInfo& source = pieces[piece];
   ObstacleInfo info;
@@ -172,30 +162,29 @@ void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
 }
 
 /// And the offsets along shared axes that do not follow from the piece's box.
-template <class Scalar>
-void ConfigurationSpace<Scalar>::build_own_axes(PieceIndex piece, ObstacleInfo& info) {
+void ConfigurationSpace::build_own_axes(PieceIndex piece, ObstacleInfo& info) {
   const PieceInfo& source = scenery_.pieces()[piece];
-  const PieceVertices<Scalar> vertices = scenery_.vertices_of(piece);
+  const PieceVertices vertices = scenery_.vertices_of(piece);
   info.first_offset = static_cast<std::uint32_t>(shared_offsets_.size());
-  for (std::size_t k = box_axes; k < lanes_; ++k)
+  for (std::size_t k = 4; k < lanes_; ++k)
     shared_offsets_.push_back(k < shared_count_ ? support_offset(piece, {shared_x_[k], shared_y_[k]})
-                                                : static_cast<Scalar>(-low(k)));
+                                                : static_cast<Real>(-low(k)));
   const auto axis_of = [&](const Vec2d& normal) -> std::size_t {
-    const Vec2<Scalar> n = normal.template cast<Scalar>();
+    const Vec2 n = normal.cast<Real>();
     for (std::size_t k = 0; k < shared_count_; ++k)
       if (shared_x_[k] == n.x() && shared_y_[k] == n.y()) return k;
-    own_axes_.push_back({n, support_offset(piece, n.template cast<double>()), face_along(n)});
+    own_axes_.push_back({n, support_offset(piece, n.cast<double>()), face_along(n)});
     return lanes_ + info.own_count++;
   };
   if (source.is_circle()) {
     info.surface = ObstacleInfo::round;
-    const Vec2<Scalar> up{0, 1};
+    const Vec2 up{0, 1};
     own_axes_.push_back({up, support_offset(piece, {0, 1}), face_along(up)});
     info.own_count = 1;
     return;
   }
   for (std::size_t j = 0; j < vertices.size(); ++j) {
-    const Vec2d edge = (vertices[(j + 1) % vertices.size()] - vertices[j]).template cast<double>();
+    const Vec2d edge = (vertices[(j + 1) % vertices.size()] - vertices[j]).cast<double>();
     const std::size_t axis = axis_of(unit_normal_right_of(edge));
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) info.one_way_axis = static_cast<std::uint8_t>(axis);
@@ -203,15 +192,12 @@ void ConfigurationSpace<Scalar>::build_own_axes(PieceIndex piece, ObstacleInfo& 
 }
 
 /// Of the points that reach furthest along a normal, the first and the last across it.
-template <class Scalar>
 template <class Points>
-typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_of(const Points& points,
-                                                                                  const Vec2d& normal) const noexcept {
+ConfigurationSpace::Interval ConfigurationSpace::face_of(const Points& points, const Vec2d& normal) const noexcept {
   const Vec2d along{-normal.y(), normal.x()};
   const double least = -least_along(points, -normal) - facet_noise_;
   Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Vec2<Scalar>& q : points) {
-    const Vec2d point = q.template cast<double>();
+  for (const Vec2d& point : points) {
     if (normal.dot(point) < least) continue;
     range.from = std::min(range.from, along.dot(point));
     range.to = std::max(range.to, along.dot(point));
@@ -220,11 +206,10 @@ typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_o
 }
 
 /// The same for a rectangle, of which a normal alone tells the corner; both on a side that it is upright to.
-template <class Scalar>
-typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_of_rectangle(
-    const Box2<Scalar>& box, const Vec2d& normal) const noexcept {
-  const Vec2d lower = box.lower.template cast<double>();
-  const Vec2d upper = box.upper.template cast<double>();
+ConfigurationSpace::Interval ConfigurationSpace::face_of_rectangle(const Box2& box,
+                                                                   const Vec2d& normal) const noexcept {
+  const Vec2d lower = box.lower.cast<double>();
+  const Vec2d upper = box.upper.cast<double>();
   const auto clear = [&](Eigen::Index i) { return std::abs(normal[i]) * (upper[i] - lower[i]) > facet_noise_; };
   const auto ends = [&](Eigen::Index i) -> std::pair<double, double> {
     if (!clear(i)) return {lower[i], upper[i]};
@@ -238,10 +223,8 @@ typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_o
           std::max(x * left, x * right) + std::max(y * low, y * high)};
 }
 
-template <class Scalar>
-typename ConfigurationSpace<Scalar>::Facet ConfigurationSpace<Scalar>::facet(PieceIndex piece,
-                                                                             std::size_t axis) const noexcept {
-  const Vec2d n = normal(piece, axis).template cast<double>();
+ConfigurationSpace::Facet ConfigurationSpace::facet(PieceIndex piece, std::size_t axis) const noexcept {
+  const Vec2d n = normal(piece, axis).cast<double>();
   const Vec2d along{-n.y(), n.x()};
   const Interval of_piece = info_[piece].first_offset == ObstacleInfo::rectangle
                                 ? face_of_rectangle(scenery_.box(piece), n)
@@ -259,8 +242,7 @@ typename ConfigurationSpace<Scalar>::Facet ConfigurationSpace<Scalar>::facet(Pie
 
 /// A one-way segment hides nothing from a solid: it may be passed. From another it hides what it abuts as a part of one
 /// surface, or along one line: who is not above the one is not above the other.
-template <class Scalar>
-bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece) const noexcept {
+bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece) const noexcept {
   if (!have_equal_filters(covering, piece)) return false;
   const std::uint8_t a = info_[covering].one_way_axis;
   const std::uint8_t b = info_[piece].one_way_axis;
@@ -274,15 +256,14 @@ bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece
 
 /// An axis that bevels a corner has no facet but the corner itself. It is covered by what has the corner, too, and
 /// reaches further along the normal: then that is nearer to whoever comes from there.
-template <class Scalar>
-bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
-                                                   std::span<const PieceIndex> neighbours) const noexcept {
-  const Vec2d n = normal(piece, axis).template cast<double>();
+bool ConfigurationSpace::is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
+                                           std::span<const PieceIndex> neighbours) const noexcept {
+  const Vec2d n = normal(piece, axis).cast<double>();
   return std::any_of(neighbours.begin(), neighbours.end(), [&](PieceIndex other) {
     if (other == piece || !may_cover(other, piece)) return false;
     for (std::size_t k = 0; k < axis_count(other); ++k) {
       if (k >= shared_count_ && k < lanes_) continue;
-      const double out = normal(other, k).template cast<double>().dot(corner) - static_cast<double>(offset(other, k));
+      const double out = normal(other, k).cast<double>().dot(corner) - static_cast<double>(offset(other, k));
       if (out > facet_noise_) return false;
     }
     return !is_circle(other) && static_cast<double>(support_offset(other, n)) > n.dot(corner) + facet_noise_;
@@ -290,49 +271,44 @@ bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t
 }
 
 /// Whatever can cover a facet of a piece meets this box.
-template <class Scalar>
-Box2<Scalar> ConfigurationSpace<Scalar>::around(PieceIndex piece) const noexcept {
-  const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
+Box2 ConfigurationSpace::around(PieceIndex piece) const noexcept {
+  const Vec2 reach = hull_box_.upper - hull_box_.lower;
   return {scenery_.box(piece).lower - reach, scenery_.box(piece).upper + reach};
 }
 
 /// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
-template <class Scalar>
-template <std::size_t Lanes>
-void ConfigurationSpace<Scalar>::build_covered(const broad_phase::Tree<Scalar>& tree,
-                                               const MoverPhases<Scalar>& mover_phases) {
-  const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
+void ConfigurationSpace::build_covered(const broad_phase::Tree& tree, const MoverPhases& mover_phases) {
+  const Vec2 reach = hull_box_.upper - hull_box_.lower;
   CoverSearch search;
   std::vector<PieceIndex> found(scenery_.pieces().size());
   // Pieces that follow each other mostly stand side by side: one query answers for the next three as well.
-  constexpr Scalar pieces_ahead = 3;
-  Box2<Scalar> asked{reach, -reach};
+  constexpr Real pieces_ahead = 3;
+  Box2 asked{reach, -reach};
   std::size_t count = 0;
   const auto standing = [&](PieceIndex piece) -> std::span<const PieceIndex> {
-    const Box2<Scalar> wanted = around(piece);
+    const Box2 wanted = around(piece);
     if (!asked.contains(wanted)) {
-      const Vec2<Scalar> stride = scenery_.box(piece).lower - scenery_.box(piece > 0 ? piece - 1 : piece).lower;
-      const Vec2<Scalar> ahead = (stride * pieces_ahead).cwiseMax(-2 * reach).cwiseMin(2 * reach);
+      const Vec2 stride = scenery_.box(piece).lower - scenery_.box(piece > 0 ? piece - 1 : piece).lower;
+      const Vec2 ahead = (stride * pieces_ahead).cwiseMax(-2 * reach).cwiseMin(2 * reach);
       asked = wanted.merged({wanted.lower + ahead, wanted.upper + ahead});
       count = tree.query(asked, found);
     }
     return {found.data(), count};
   };
   for (PieceIndex piece = 0; piece < scenery_.static_pieces().end; ++piece)
-    if (!is_circle(piece)) build_covered<Lanes>(piece, scenery_.static_pieces(), standing, search);
+    if (!is_circle(piece)) build_covered(piece, scenery_.static_pieces(), standing, search);
   for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {
     const auto of_mover = [&](PieceIndex piece) { return mover_phases.query(mover, around(piece), found); };
     const PieceRange pieces = scenery_.pieces_of_mover(mover);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-      if (!is_circle(piece)) build_covered<Lanes>(piece, pieces, of_mover, search);
+      if (!is_circle(piece)) build_covered(piece, pieces, of_mover, search);
   }
 }
 
 /// @param neighbours asked for what is near, only where a guess at what covers a facet fails.
-template <class Scalar>
-template <std::size_t Lanes, class Neighbours>
-void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours,
-                                               CoverSearch& search) {
+template <class Neighbours>
+void ConfigurationSpace::build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours,
+                                       CoverSearch& search) {
   std::span<const PieceIndex> found;  // at least the piece itself, once it was asked for
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
     if (axis < lanes_ && axis >= shared_count_) continue;
@@ -345,7 +321,7 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange toge
       continue;
     }
     const Facet f = facet(piece, axis);
-    if (may_guess && may_cover(guess, piece) && lies_in<Lanes>(f, guess)) {
+    if (may_guess && may_cover(guess, piece) && lies_in(f, guess)) {
       set_covered(piece, axis, 0);
       if (rectangles) search.known[axis] = placement(piece, guess);
       continue;
@@ -355,18 +331,17 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange toge
       find_near(piece, found, search);
     }
     if (f.length > open_enough)
-      set_covered(piece, axis, open_part<Lanes>(piece, f, search));
+      set_covered(piece, axis, open_part(piece, f, search));
     else if (is_covered_corner(piece, axis, f.from, found))
       set_covered(piece, axis, 0);
   }
 }
 
-template <class Scalar>
-void ConfigurationSpace<Scalar>::set_covered(PieceIndex piece, std::size_t axis, double open) noexcept {
+void ConfigurationSpace::set_covered(PieceIndex piece, std::size_t axis, double open) noexcept {
   const bool covered = open <= open_enough;
   const bool hidden = open <= hidden_enough;
   if (axis >= lanes_) {
-    OwnAxis<Scalar>& own = own_axes_[info_[piece].first_own + axis - lanes_];
+    OwnAxis& own = own_axes_[info_[piece].first_own + axis - lanes_];
     own.covered = covered;
     own.hidden = hidden;
     return;
@@ -378,52 +353,44 @@ void ConfigurationSpace<Scalar>::set_covered(PieceIndex piece, std::size_t axis,
 
 /// Whether so little of a facet is outside of one other obstacle that it is hidden. Its own axes are not looked at: a
 /// piece that has some gives no answer.
-template <class Scalar>
-template <std::size_t Lanes>
-bool ConfigurationSpace<Scalar>::lies_in(const Facet& facet, PieceIndex other) const noexcept {
-  using Each = PerAxis<Lanes, double>;
+bool ConfigurationSpace::lies_in(const Facet& facet, PieceIndex other) const noexcept {
   if (facet.length <= open_enough || info_[other].own_count > 0) return false;
   const double left_out = hidden_enough / 4;  // at either end
-  const Each x = PerAxis<Lanes, Scalar>::Map(shared_x_.data()).template cast<double>();
-  const Each y = PerAxis<Lanes, Scalar>::Map(shared_y_.data()).template cast<double>();
-  const Each from =
-      x * (facet.from.x() + facet.along.x() * left_out) + y * (facet.from.y() + facet.along.y() * left_out);
-  const Each to = x * (facet.to.x() - facet.along.x() * left_out) + y * (facet.to.y() - facet.along.y() * left_out);
-  const Each furthest = from.max(to);
-  const Each offsets = shared_offsets<Lanes>(other).template cast<double>();
-  return (furthest - offsets).maxCoeff() + facet_noise_ < 0;
+  const Vec2d from = facet.from + facet.along * left_out;
+  const Vec2d to = facet.to - facet.along * left_out;
+  for (std::size_t group = 0; group < lanes_ / 4; ++group) {
+    const Eigen::Array4d x = shared_x(group).cast<double>();
+    const Eigen::Array4d y = shared_y(group).cast<double>();
+    const Eigen::Array4d furthest = (x * from.x() + y * from.y()).max(x * to.x() + y * to.y());
+    if (!((furthest - offsets(other, group).cast<double>()).maxCoeff() + facet_noise_ < 0)) return false;
+  }
+  return true;
 }
 
-template <class Scalar>
-typename ConfigurationSpace<Scalar>::Placement ConfigurationSpace<Scalar>::placement(PieceIndex piece,
-                                                                                     PieceIndex other) const noexcept {
-  const Box2<Scalar>& box = scenery_.box(piece);
-  const Box2<Scalar>& beside = scenery_.box(other);
+ConfigurationSpace::Placement ConfigurationSpace::placement(PieceIndex piece, PieceIndex other) const noexcept {
+  const Box2& box = scenery_.box(piece);
+  const Box2& beside = scenery_.box(other);
   return {box.upper - box.lower, beside.lower - box.lower, beside.upper - box.lower};
 }
 
-template <class Scalar>
-void ConfigurationSpace<Scalar>::find_near(PieceIndex piece, std::span<const PieceIndex> found,
-                                           CoverSearch& search) const {
-  const Box2<Scalar> near = around(piece);
+void ConfigurationSpace::find_near(PieceIndex piece, std::span<const PieceIndex> found, CoverSearch& search) const {
+  const Box2 near = around(piece);
   search.near.clear();
   for (const PieceIndex other : found)
     if (other != piece && near.overlaps(scenery_.box(other)) && may_cover(other, piece))
-      search.near.push_back({other, box_offsets(other).template cast<double>()});
+      search.near.push_back({other, box_offsets(other).cast<double>()});
 }
 
 /// How much of a facet is in no other obstacle [m].
-template <class Scalar>
-template <std::size_t Lanes>
-double ConfigurationSpace<Scalar>::open_part(PieceIndex piece, const Facet& facet, CoverSearch& search) const {
+double ConfigurationSpace::open_part(PieceIndex piece, const Facet& facet, CoverSearch& search) const {
   search.covered.clear();
-  const PerAxis<box_axes, double> nearest{
+  const Eigen::Array4d nearest{
       std::min(facet.from.y(), facet.to.y()) + facet_noise_, std::min(facet.from.x(), facet.to.x()) + facet_noise_,
       facet_noise_ - std::max(facet.from.x(), facet.to.x()), facet_noise_ - std::max(facet.from.y(), facet.to.y())};
   for (const auto& [other, sides] : search.near) {
     // Most are apart along a box direction.
     if ((nearest - sides).maxCoeff() >= 0 || is_circle(other)) continue;
-    const Interval part = inside<Lanes>(facet, other);
+    const Interval part = inside(facet, other);
     if (!(part.from < part.to)) continue;
     if ((part.from + (1 - part.to)) * facet.length <= hidden_enough) {
       search.guesses[facet.axis] = other - piece;
@@ -435,10 +402,7 @@ double ConfigurationSpace<Scalar>::open_part(PieceIndex piece, const Facet& face
 }
 
 /// Which part of a facet is in another obstacle; empty where none is.
-template <class Scalar>
-template <std::size_t Lanes>
-typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::inside(const Facet& facet,
-                                                                                 PieceIndex other) const noexcept {
+ConfigurationSpace::Interval ConfigurationSpace::inside(const Facet& facet, PieceIndex other) const noexcept {
   Interval inside{0, 1};
   const double span_x = facet.to.x() - facet.from.x();
   const double span_y = facet.to.y() - facet.from.y();
@@ -454,15 +418,14 @@ typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::inside
       inside.to = -1;
     return inside.from < inside.to;
   };
-  const PerAxis<Lanes, Scalar> offsets = shared_offsets<Lanes>(other);
-  for (std::size_t k = 0; k < shared_count_; ++k)
-    if (!cut(shared_x_[k], shared_y_[k], offsets[static_cast<Eigen::Index>(k)])) return inside;
-  for (const OwnAxis<Scalar>& own : own_axes(other))
+  Four four;
+  for (std::size_t k = 0; k < shared_count_; ++k) {
+    if (k % 4 == 0) four = offsets(other, k / 4);
+    if (!cut(shared_x_[k], shared_y_[k], four[static_cast<Eigen::Index>(k % 4)])) return inside;
+  }
+  for (const OwnAxis& own : own_axes(other))
     if (!cut(own.normal.x(), own.normal.y(), own.offset)) return inside;
   return inside;
 }
 
-template class ConfigurationSpace<float>;
-template class ConfigurationSpace<double>;
-
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -4,46 +4,39 @@
 
 #include "step/narrow_phase.hpp"
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// What of a piece faces the octagon along an axis with normal n: its highest points along n.
-template <class Scalar>
 struct PieceFace {
-  Scalar high;  ///< max n·(v - p) [m]
-  Scalar from;  ///< Where they begin along (-n.y, n.x), relative to p [m],
-  Scalar to;    ///< and where they end [m]; equal to `from` for a corner.
+  Real high;  ///< max n·(v - p) [m]
+  Real from;  ///< Where they begin along (-n.y, n.x), relative to p [m],
+  Real to;    ///< and where they end [m]; equal to `from` for a corner.
 };
 
 /// Along a box direction, of a rectangle: three of four contacts.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline PieceFace<Scalar> rectangle_face(const Box2<Scalar>& box,
-                                                                          const Vec2<Scalar>& n,
-                                                                          const Vec2<Scalar>& p) noexcept {
-  const Vec2<Scalar>& corner = n.x() + n.y() > 0 ? box.upper : box.lower;
+[[nodiscard, gnu::always_inline]] inline PieceFace rectangle_face(const Box2& box, const Vec2& n,
+                                                                  const Vec2& p) noexcept {
+  const Vec2& corner = n.x() + n.y() > 0 ? box.upper : box.lower;
   const bool upright = n.x() == 0;
-  const Scalar high = upright ? n.y() * (corner.y() - p.y()) : n.x() * (corner.x() - p.x());
-  const Scalar a = upright ? -n.y() * (box.lower.x() - p.x()) : n.x() * (box.lower.y() - p.y());
-  const Scalar b = upright ? -n.y() * (box.upper.x() - p.x()) : n.x() * (box.upper.y() - p.y());
+  const Real high = upright ? n.y() * (corner.y() - p.y()) : n.x() * (corner.x() - p.x());
+  const Real a = upright ? -n.y() * (box.lower.x() - p.x()) : n.x() * (box.lower.y() - p.y());
+  const Real b = upright ? -n.y() * (box.upper.x() - p.x()) : n.x() * (box.upper.y() - p.y());
   return {high, std::min(a, b), std::max(a, b)};
 }
 
 /// From differences of coordinates: relative accuracy of a few ulp, also where the offset of the axis has lost its last
 /// digits far from the origin. @param n normal of the axis.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline PieceFace<Scalar> piece_face(const ConfigurationSpace<Scalar>& space,
-                                                                      PieceIndex piece, std::size_t axis,
-                                                                      const Vec2<Scalar>& n,
-                                                                      const Vec2<Scalar>& p) noexcept {
-  constexpr Scalar flat = Tolerances<Scalar>{}.hit;  // points this close to the highest belong to the face
-  const Scenery<Scalar>& scenery = space.scenery();
-  if (axis < ConfigurationSpace<Scalar>::box_axes && scenery.pieces()[piece].is_rectangle())
-    return rectangle_face(scenery.box(piece), n, p);
-  PieceFace<Scalar> face{-std::numeric_limits<Scalar>::infinity(), 0, 0};
-  for (const Vec2<Scalar>& v : scenery.vertices_of(piece)) {
-    const Scalar x = v.x() - p.x();
-    const Scalar y = v.y() - p.y();
-    const Scalar height = n.x() * x + n.y() * y;
-    const Scalar place = n.x() * y - n.y() * x;
+[[nodiscard, gnu::always_inline]] inline PieceFace piece_face(const ConfigurationSpace& space, PieceIndex piece,
+                                                              std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
+  constexpr Real flat = tolerances.hit;  // points this close to the highest belong to the face
+  const Scenery& scenery = space.scenery();
+  if (axis < 4 && scenery.pieces()[piece].is_rectangle()) return rectangle_face(scenery.box(piece), n, p);
+  PieceFace face{-std::numeric_limits<Real>::infinity(), 0, 0};
+  for (const Vec2d& v : scenery.vertices_of(piece)) {
+    const Real x = v.x() - p.x();
+    const Real y = v.y() - p.y();
+    const Real height = n.x() * x + n.y() * y;
+    const Real place = n.x() * y - n.y() * x;
     if (height > face.high + flat) face = {height, place, place};
     if (height < face.high - flat) continue;
     face = {std::max(face.high, height), std::min(face.from, place), std::max(face.to, place)};
@@ -52,72 +45,62 @@ template <class Scalar>
 }
 
 /// Separation from a circle along a direction, from differences of coordinates.
-template <class Scalar>
-[[nodiscard]] Scalar separation_along(const ConfigurationSpace<Scalar>& space, PieceIndex circle_piece,
-                                      const Vec2<Scalar>& n, const Vec2<Scalar>& p) noexcept {
-  const Circle<Scalar> circle = space.scenery().circle(circle_piece);
-  const Vec2<Scalar> centre = circle.centre - p;
+[[nodiscard]] inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece, const Vec2& n,
+                                           const Vec2& p) noexcept {
+  const Circle circle = space.scenery().circle(circle_piece);
+  const Vec2 centre = circle.centre - p;
   return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
 }
 
 /// See `time_of_impact`.
-template <class Scalar>
-[[nodiscard, gnu::cold, gnu::noinline]] Scalar time_of_impact_with_arc(const ConfigurationSpace<Scalar>& space,
-                                                                       Vec2<Scalar> from, Scalar approach,
-                                                                       PieceIndex piece, Vec2<Scalar> n,
-                                                                       Scalar level) noexcept {
-  return std::clamp((separation_along(space, piece, n, from) - level) / approach, Scalar(0), Scalar(1));
+[[nodiscard, gnu::cold, gnu::noinline]] inline Real time_of_impact_with_arc(const ConfigurationSpace& space, Vec2 from,
+                                                                            Real approach, PieceIndex piece, Vec2 n,
+                                                                            Real level) noexcept {
+  return std::clamp((separation_along(space, piece, n, from) - level) / approach, Real(0), Real(1));
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar time_of_impact(const ConfigurationSpace<Scalar>& space,
-                                                               const Vec2<Scalar>& from,
-                                                               const Vec2<Scalar>& displacement, PieceIndex piece,
-                                                               const EntryAxes& axes) noexcept {
+[[nodiscard, gnu::always_inline]] inline Real time_of_impact(const ConfigurationSpace& space, const Vec2& from,
+                                                             const Vec2& displacement, PieceIndex piece,
+                                                             const EntryAxes& axes) noexcept {
   if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
-  const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
-  const Vec2<Scalar> n = space.normal(piece, axes.impact);
-  const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
+  const Real level = axes.missed ? tolerances.hit : Real(0);
+  const Vec2 n = space.normal(piece, axes.impact);
+  const Real approach = -(n.x() * displacement.x() + n.y() * displacement.y());
   if (is_direction(axes.impact)) [[unlikely]]
     return time_of_impact_with_arc(space, from, approach, piece, n, level);
-  const Scalar separation =
+  const Real separation =
       space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, n, from).high;
-  return std::clamp((separation - level) / approach, Scalar(0), Scalar(1));
+  return std::clamp((separation - level) / approach, Real(0), Real(1));
 }
 
 /// Where a contact is, and the gap there.
-template <class Scalar>
 struct ContactPlace {
-  Vec2<Scalar> point;  ///< The middle of what octagon and piece have face to face, on the piece [m].
-  Scalar separation;   ///< [m]
+  Vec2 point;       ///< The middle of what octagon and piece have face to face, on the piece [m].
+  Real separation;  ///< [m]
 };
 
 /// The point of a circle's arc that faces the octagon.
-template <class Scalar>
-[[nodiscard, gnu::cold, gnu::noinline]] ContactPlace<Scalar> place_on_arc(const ConfigurationSpace<Scalar>& space,
-                                                                          PieceIndex piece, Vec2<Scalar> n,
-                                                                          Vec2<Scalar> p) noexcept {
-  const Circle<Scalar> circle = space.scenery().circle(piece);
+[[nodiscard, gnu::cold, gnu::noinline]] inline ContactPlace place_on_arc(const ConfigurationSpace& space,
+                                                                         PieceIndex piece, Vec2 n, Vec2 p) noexcept {
+  const Circle circle = space.scenery().circle(piece);
   return {circle.centre + n * circle.radius, separation_along(space, piece, n, p)};
 }
 
 /// @param n normal of the axis.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline ContactPlace<Scalar> contact_place(const ConfigurationSpace<Scalar>& space,
-                                                                            PieceIndex piece, std::size_t axis,
-                                                                            const Vec2<Scalar>& n,
-                                                                            const Vec2<Scalar>& p) noexcept {
+[[nodiscard, gnu::always_inline]] inline ContactPlace contact_place(const ConfigurationSpace& space, PieceIndex piece,
+                                                                    std::size_t axis, const Vec2& n,
+                                                                    const Vec2& p) noexcept {
   if (is_direction(axis)) [[unlikely]]
     return place_on_arc(space, piece, n, p);
-  const PieceFace<Scalar> there = piece_face(space, piece, axis, n, p);
-  const OctagonFace<Scalar>& face = space.octagon_face(piece, axis);
+  const PieceFace there = piece_face(space, piece, axis, n, p);
+  const OctagonFace& face = space.octagon_face(piece, axis);
   // Corner to corner they have nothing face to face, by less than a contact's gap.
-  const Scalar middle =
+  const Real middle =
       std::clamp((std::max(there.from, face.from) + std::min(there.to, face.to)) / 2, there.from, there.to);
   return {{p.x() + n.x() * there.high - n.y() * middle, p.y() + n.y() * there.high + n.x() * middle},
           face.low - there.high};
 }
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -24,16 +24,12 @@
 
 #include <initializer_list>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 namespace {
 
-template <std::size_t Lanes, class Scalar>
 class Search {
  public:
-  using V = Vec2<Scalar>;
-
-  Search(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
-         const FreePositionQuery<Scalar>& query) noexcept
+  Search(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query) noexcept
       : space_(space),
         pieces_(pieces),
         passable_(pieces.first(query.passable)),
@@ -41,11 +37,11 @@ class Search {
         takes_time_(query.begin < query.end),
         nearest_(query.reach) {}
 
-  [[nodiscard]] std::optional<V> find() noexcept {
+  [[nodiscard]] std::optional<Vec2> find() noexcept {
     if (query_.last_free && is_inside_something(*query_.last_free)) return std::nullopt;
     if (takes_time_) {
       if (starts_inside()) return std::nullopt;
-      consider(V::Zero());
+      consider(Vec2::Zero());
     }
     for (const PieceIndex piece : passable_) {
       search_facets(piece);
@@ -61,11 +57,11 @@ class Search {
   }
 
   /// Whether a position is free, and the straight motion to it.
-  [[nodiscard]] bool reaches(const V& q) const noexcept {
-    const auto clear_from = [&](const V& place, Scalar time) {
+  [[nodiscard]] bool reaches(const Vec2& q) const noexcept {
+    const auto clear_from = [&](const Vec2& place, Real time) {
       return [&, time](PieceIndex piece) { return clear(piece, place, time, q); };
     };
-    if (!(q.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range) || !has_gaps(q)) return false;
+    if (!(q.cwiseAbs().maxCoeff() <= tolerances.range) || !has_gaps(q)) return false;
     const std::span<const PieceIndex> others = pieces_.subspan(passable_.size());
     return std::all_of(others.begin(), others.end(), clear_from(query_.from, query_.begin)) &&
            (!query_.last_free ||
@@ -75,117 +71,114 @@ class Search {
 
  private:
   /// Rounding stays below this: a position this little inside a region counts as outside [m].
-  static constexpr Scalar slack = Tolerances<Scalar>{}.certain;
+  static constexpr Real slack = tolerances.certain;
   /// A motion keeps this many times more from the corners that it passes than what would stop it, which is measured
   /// along axes: no two neighbouring ones are more than a right angle apart.
-  static constexpr Scalar margin = Scalar(1.5);
+  static constexpr Real margin = Real(1.5);
   /// A line that an edge of a region leaves by less per metre does not leave it there.
-  static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
+  static constexpr Real parallel = std::numeric_limits<Real>::epsilon() * 64;
   /// Where rounding spoils a place, others beyond it are tried: first this far, then in strides that grow [m].
-  static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
-  static constexpr Scalar stride_growth = 16;
+  static constexpr Real first_stride = 2 * tolerances.hit;
+  static constexpr Real stride_growth = 16;
   static constexpr int most_strides = 5;
   /// So many tangents find where a curve leaves a circle: each about squares the distance that is left.
   static constexpr int most_tangents = 64;
 
   /// A line, or an arc of at most half a turn. Positions are relative to `query.near`.
   struct Curve {
-    V middle;           ///< The foot of a line, from which places are counted [m]; the centre of an arc.
-    V along;            ///< Unit vector towards growing places; of an arc where the place is 0.
-    V out{V::Zero()};   ///< Unit vector from the centre of an arc to its place 0.
-    Scalar radius = 0;  ///< Of an arc [m]. Its places are the tangents of half the angles.
+    Vec2 middle;             ///< The foot of a line, from which places are counted [m]; the centre of an arc.
+    Vec2 along;              ///< Unit vector towards growing places; of an arc where the place is 0.
+    Vec2 out{Vec2::Zero()};  ///< Unit vector from the centre of an arc to its place 0.
+    Real radius = 0;         ///< Of an arc [m]. Its places are the tangents of half the angles.
 
     [[nodiscard]] bool is_arc() const noexcept { return radius > 0; }
-    [[nodiscard]] V at(Scalar place) const noexcept {
+    [[nodiscard]] Vec2 at(Real place) const noexcept {
       if (!is_arc()) return middle + along * place;
-      const Scalar square = place * place;
+      const Real square = place * place;
       return middle + (out * (1 - square) + along * (2 * place)) * (radius / (1 + square));
     }
     /// One unit of place is at most so long [m].
-    [[nodiscard]] Scalar pace() const noexcept { return is_arc() ? 2 * radius : Scalar(1); }
+    [[nodiscard]] Real pace() const noexcept { return is_arc() ? 2 * radius : Real(1); }
   };
   struct Part {
-    Scalar from;
-    Scalar to;
+    Real from;
+    Real to;
   };
   /// A place on a curve, and which way one goes along it.
   struct Spot {
     const Curve& curve;
-    Scalar place;
-    Scalar end;  ///< Where the search ends.
-    Scalar direction;
-    V position;  ///< Relative to `query.near`.
+    Real place;
+    Real end;  ///< Where the search ends.
+    Real direction;
+    Vec2 position;  ///< Relative to `query.near`.
 
     /// A little beyond the end, from the place.
-    [[nodiscard]] Scalar rest() const noexcept { return (end - place) * direction + first_stride / curve.pace(); }
-    [[nodiscard]] V after(Scalar reach) const noexcept { return curve.at(place + direction * reach); }
+    [[nodiscard]] Real rest() const noexcept { return (end - place) * direction + first_stride / curve.pace(); }
+    [[nodiscard]] Vec2 after(Real reach) const noexcept { return curve.at(place + direction * reach); }
     /// How far it goes until it is by `depth` > 0 further along a unit vector; infinity if it never is.
-    [[nodiscard]] Scalar until(const V& normal, Scalar depth) const noexcept {
-      const Scalar turned = normal.x() * curve.along.x() + normal.y() * curve.along.y();
+    [[nodiscard]] Real until(const Vec2& normal, Real depth) const noexcept {
+      const Real turned = normal.x() * curve.along.x() + normal.y() * curve.along.y();
       if (!curve.is_arc()) return turned * direction > parallel ? depth / (turned * direction) : infinity;
       // The height over the centre is reached at the roots of a t^2 - 2 b t + c, and is less where that is positive.
-      const V arm = position - curve.middle;
-      const Scalar height = normal.x() * arm.x() + normal.y() * arm.y() + depth;
+      const Vec2 arm = position - curve.middle;
+      const Real height = normal.x() * arm.x() + normal.y() * arm.y() + depth;
       if (!(height < curve.radius)) return infinity;
-      const Scalar out = curve.radius * (normal.x() * curve.out.x() + normal.y() * curve.out.y());
-      const Scalar b = curve.radius * turned;
-      const Scalar larger = b + std::copysign(std::sqrt((curve.radius - height) * (curve.radius + height)), b);
-      Scalar least = infinity;
-      for (const Scalar root : {larger / (height + out), (height - out) / larger})
-        if (const Scalar reach = (root - place) * direction; reach > 0) least = std::min(least, reach);
+      const Real out = curve.radius * (normal.x() * curve.out.x() + normal.y() * curve.out.y());
+      const Real b = curve.radius * turned;
+      const Real larger = b + std::copysign(std::sqrt((curve.radius - height) * (curve.radius + height)), b);
+      Real least = infinity;
+      for (const Real root : {larger / (height + out), (height - out) / larger})
+        if (const Real reach = (root - place) * direction; reach > 0) least = std::min(least, reach);
       return least;
     }
   };
-  static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
   /// Where a motion starts that must be clear of a piece.
   enum class Place : std::uint8_t { from, last_free, side };
   /// The shadow of a piece.
   struct View {
     bool blocks = false;  ///< There is one.
-    V place;              ///< Where the motion starts, as the piece sees it.
-    Scalar level;         ///< Gap that the motion keeps from the piece [m].
-    Tangents<Scalar> tangents;
+    Vec2 place;           ///< Where the motion starts, as the piece sees it.
+    Real level;           ///< Gap that the motion keeps from the piece [m].
+    Tangents tangents;
   };
 
   // Pieces and shadows.
 
   /// Calls `visit(axis)` for the axes of a piece. Of a circle for those, too, that are nearest at some places.
   template <class Visit>
-  void for_each_axis(PieceIndex piece, std::initializer_list<V> places, const Visit& visit) const noexcept {
+  void for_each_axis(PieceIndex piece, std::initializer_list<Vec2> places, const Visit& visit) const noexcept {
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) visit(axis);
     if (!space_.is_circle(piece)) return;
-    for (const V& place : places) visit(best(piece, place).axis);
+    for (const Vec2& place : places) visit(best(piece, place).axis);
   }
 
   /// Offset of the mover of a piece at a fraction of the step; zero for a piece that stands still.
-  [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept {
+  [[nodiscard]] Vec2 offset(PieceIndex piece, Real time) const noexcept {
     const MoverIndex mover = space_.scenery().pieces()[piece].mover;
-    return mover == no_mover ? V(V::Zero()) : query_.movers[mover].at(time);
+    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(query_.movers[mover].at(time));
   }
   /// A position relative to the mover of a piece.
-  [[nodiscard]] V seen(PieceIndex piece, const V& p, Scalar time) const noexcept { return p - offset(piece, time); }
-  [[nodiscard]] V seen_at_end(PieceIndex piece, const V& p) const noexcept { return seen(piece, p, query_.end); }
+  [[nodiscard]] Vec2 seen(PieceIndex piece, const Vec2& p, Real time) const noexcept { return p - offset(piece, time); }
+  [[nodiscard]] Vec2 seen_at_end(PieceIndex piece, const Vec2& p) const noexcept { return seen(piece, p, query_.end); }
   [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
     return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
   }
-  [[nodiscard]] BestAxis<Scalar> best(PieceIndex piece, const V& at) const noexcept {
-    return best_axis<Lanes>(space_, piece, at);
-  }
+  [[nodiscard]] BestAxis best(PieceIndex piece, const Vec2& at) const noexcept { return best_axis(space_, piece, at); }
   /// Where the character was before it overlapped a piece that may be passed, as the piece sees it.
-  [[nodiscard]] std::optional<V> side_of(PieceIndex piece) const noexcept {
+  [[nodiscard]] std::optional<Vec2> side_of(PieceIndex piece) const noexcept {
     const PieceInfo& info = space_.scenery().pieces()[piece];
-    for (const Crusher<Scalar>& crusher : query_.crushers)
+    for (const Crusher& crusher : query_.crushers)
       if (crusher.collider == info.collider)
-        return V(crusher.last_free + (crusher.displacement - query_.movers[info.mover].to));
+        return Vec2(crusher.last_free + (crusher.displacement - query_.movers[info.mover].to));
     if (!query_.entered_from) return std::nullopt;
-    return seen(piece, *query_.entered_from, Scalar(0));
+    return seen(piece, *query_.entered_from, Real(0));
   }
-  [[nodiscard]] bool is_inside_something(const V& p) const noexcept {
+  [[nodiscard]] bool is_inside_something(const Vec2& p) const noexcept {
     return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
-      const V at = seen(piece, p, query_.begin);
-      return solid(piece) && best(piece, at).separation < Tolerances<Scalar>{}.certain &&
-             overlaps_exactly(space_, piece, at);
+      const Vec2 at = seen(piece, p, query_.begin);
+      return solid(piece) && best(piece, at).separation < tolerances.certain && overlaps_exactly(space_, piece, at);
     });
   }
   [[nodiscard]] bool starts_inside() const noexcept {
@@ -202,24 +195,24 @@ class Search {
     return kept.view;
   }
   [[nodiscard]] View view_from(PieceIndex piece, Place place) const noexcept {
-    const std::optional<V> at = place == Place::from        ? seen(piece, query_.from, query_.begin)
-                                : place == Place::last_free ? seen(piece, *query_.last_free, query_.begin)
-                                                            : side_of(piece);
+    const std::optional<Vec2> at = place == Place::from        ? seen(piece, query_.from, query_.begin)
+                                   : place == Place::last_free ? seen(piece, *query_.last_free, query_.begin)
+                                                               : side_of(piece);
     View view;
     if (!at || !may_block(piece, *at)) return view;
-    const BestAxis<Scalar> facing = best(piece, *at);
+    const BestAxis facing = best(piece, *at);
     if (facing.separation < -slack) return view;
-    const Scalar kept = std::clamp(facing.separation, Scalar(0), Tolerances<Scalar>{}.hit);
-    const Scalar width = takes_time_ ? kept * Scalar(least_gap) : kept * margin + 2 * slack;
+    const Real kept = std::clamp(facing.separation, Real(0), tolerances.hit);
+    const Real width = takes_time_ ? kept * Real(least_gap) : kept * margin + 2 * slack;
     view.blocks = true;
     view.place = *at;
-    view.level = std::min(Tolerances<Scalar>{}.hit, facing.separation);
+    view.level = std::min(tolerances.hit, facing.separation);
     view.tangents = tangents_from(space_, piece, *at, space_.normal(piece, facing.axis), width);
     return view;
   }
   /// @param at as the piece sees it.
-  [[nodiscard]] bool may_block(PieceIndex piece, const V& at) const noexcept {
-    return solid(piece) || (!query_.drops && is_above(space_, piece, at, V(V::Zero())));
+  [[nodiscard]] bool may_block(PieceIndex piece, const Vec2& at) const noexcept {
+    return solid(piece) || (!query_.drops && is_above(space_, piece, at, Vec2(Vec2::Zero())));
   }
 
   // The lines that are searched.
@@ -230,22 +223,22 @@ class Search {
   }
 
   void search_facet(PieceIndex piece, std::size_t axis) noexcept {
-    const V n = space_.normal(piece, axis);
+    const Vec2 n = space_.normal(piece, axis);
     if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) return;
-    const Scalar bound = query_.gap - space_.separation(piece, axis, seen_at_end(piece, query_.near));
+    const Real bound = query_.gap - space_.separation(piece, axis, seen_at_end(piece, query_.near));
     if (!(std::abs(bound) < nearest_)) return;
     const Curve line{n * bound, {-n.y(), n.x()}};
     sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
   }
 
   /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.
-  [[nodiscard]] Part facet_on(const Curve& line, PieceIndex piece, Scalar half) const noexcept {
-    const V foot = seen_at_end(piece, query_.near) + line.middle;
+  [[nodiscard]] Part facet_on(const Curve& line, PieceIndex piece, Real half) const noexcept {
+    const Vec2 foot = seen_at_end(piece, query_.near) + line.middle;
     Part part{-half, half};
     for (std::size_t axis = 0; axis < space_.axis_count(piece) && part.from <= part.to; ++axis) {
-      const V n = space_.normal(piece, axis);
-      const Scalar rate = n.x() * line.along.x() + n.y() * line.along.y();
-      const Scalar depth = query_.gap - space_.separation(piece, axis, foot);
+      const Vec2 n = space_.normal(piece, axis);
+      const Real rate = n.x() * line.along.x() + n.y() * line.along.y();
+      const Real depth = query_.gap - space_.separation(piece, axis, foot);
       if (std::abs(rate) < parallel) {
         if (depth < -slack) part.to = -2 * half;
       } else if (rate > 0) {
@@ -259,25 +252,25 @@ class Search {
 
   /// The arcs on which a corner of the hull touches a circle, with the gap.
   void search_arcs(PieceIndex piece) noexcept {
-    const Circle<Scalar>& circle = space_.scenery().circle(piece);
-    const V centre = circle.centre - seen_at_end(piece, query_.near);
-    const Scalar radius = circle.radius + query_.gap;
-    const std::span<const V> hull = space_.hull();
+    const Circle& circle = space_.scenery().circle(piece);
+    const Vec2 centre = circle.centre - seen_at_end(piece, query_.near);
+    const Real radius = circle.radius + query_.gap;
+    const std::span<const Vec2d> hull = space_.hull();
     for (std::size_t k = 0; k < hull.size(); ++k) {
-      const V corner = hull[k];
-      const V before = unit(V(corner - hull[(k + hull.size() - 1) % hull.size()]));
-      const V after = unit(V(hull[(k + 1) % hull.size()] - corner));
+      const Vec2 corner = hull[k];
+      const Vec2 before = unit(Vec2(corner - hull[(k + hull.size() - 1) % hull.size()]));
+      const Vec2 after = unit(Vec2(hull[(k + 1) % hull.size()] - corner));
       // The normals of both edges, inwards: between them the arc lies.
-      const V from{-before.y(), before.x()};
-      const V to{-after.y(), after.x()};
-      const V out = unit(V(from + to));
+      const Vec2 from{-before.y(), before.x()};
+      const Vec2 to{-after.y(), after.x()};
+      const Vec2 out = unit(Vec2(from + to));
       const Curve arc{centre - corner, {-out.y(), out.x()}, out, radius};
       if (!(std::abs(length_of(arc.middle) - radius) < nearest_)) continue;
-      const Scalar end = half_tangent(arc, to);
+      const Real end = half_tangent(arc, to);
       const Part part{-end, end};
-      const V foot = -arc.middle;
+      const Vec2 foot = -arc.middle;
       if (foot.x() * out.x() + foot.y() * out.y() > 0) {
-        const Scalar begin = std::clamp(half_tangent(arc, unit(foot)), part.from, part.to);
+        const Real begin = std::clamp(half_tangent(arc, unit(foot)), part.from, part.to);
         sweep_along(arc, begin, part);
       } else {
         sweep_along(arc, part.from, part);
@@ -286,9 +279,9 @@ class Search {
     }
   }
 
-  [[nodiscard]] static V unit(const V& v) noexcept { return v / length_of(v); }
+  [[nodiscard]] static Vec2 unit(const Vec2& v) noexcept { return v / length_of(v); }
   /// The place of a direction, less than half a turn from the middle of an arc.
-  [[nodiscard]] static Scalar half_tangent(const Curve& arc, const V& direction) noexcept {
+  [[nodiscard]] static Real half_tangent(const Curve& arc, const Vec2& direction) noexcept {
     return (direction.x() * arc.along.x() + direction.y() * arc.along.y()) /
            (1 + (direction.x() * arc.out.x() + direction.y() * arc.out.y()));
   }
@@ -296,29 +289,29 @@ class Search {
   void search_tangents(PieceIndex piece, Place place) noexcept {
     const View view = this->view(piece, place);
     if (!view.blocks) return;
-    const V back = view.place - seen_at_end(piece, query_.near);
-    for (const V& n : {view.tangents.left, view.tangents.right}) {
+    const Vec2 back = view.place - seen_at_end(piece, query_.near);
+    for (const Vec2& n : {view.tangents.left, view.tangents.right}) {
       if (n.x() == 0 && n.y() == 0) continue;
-      const Scalar bound = n.x() * back.x() + n.y() * back.y();
+      const Real bound = n.x() * back.x() + n.y() * back.y();
       if (!(std::abs(bound) < nearest_)) continue;
-      const Scalar half = std::sqrt(nearest_ * nearest_ - bound * bound);
+      const Real half = std::sqrt(nearest_ * nearest_ - bound * bound);
       sweep_along({n * bound, {-n.y(), n.x()}}, {-half, half});
     }
   }
 
   void sweep_along(const Curve& line, const Part& part) noexcept {
-    if (part.from <= part.to) sweep_along(line, std::clamp(Scalar(0), part.from, part.to), part);
+    if (part.from <= part.to) sweep_along(line, std::clamp(Real(0), part.from, part.to), part);
   }
 
   /// Both ways: the positions must get further away.
-  void sweep_along(const Curve& curve, Scalar begin, const Part& part) noexcept {
-    sweep_along(curve, begin, part.to, Scalar(1));
-    sweep_along(curve, begin, part.from, Scalar(-1));
+  void sweep_along(const Curve& curve, Real begin, const Part& part) noexcept {
+    sweep_along(curve, begin, part.to, Real(1));
+    sweep_along(curve, begin, part.from, Real(-1));
   }
 
   /// Takes the first place on a curve that is free and reached.
-  void sweep_along(const Curve& curve, Scalar place, Scalar end, Scalar direction) noexcept {
-    Scalar stride = first_stride / curve.pace();
+  void sweep_along(const Curve& curve, Real place, Real end, Real direction) noexcept {
+    Real stride = first_stride / curve.pace();
     for (int tried = 0; tried <= most_strides; ++tried) {
       place = next_uncovered(curve, place, end, direction);
       if (place * direction > end * direction || consider(curve.at(place))) return;
@@ -333,16 +326,16 @@ class Search {
   /// entered again by a line. The pieces are looked at forwards and backwards in turns, as they are mostly in order of
   /// place. A piece has three regions at most, so no line takes more rounds; of an arc the place is tried as it is
   /// then.
-  [[nodiscard]] Scalar next_uncovered(const Curve& curve, Scalar place, Scalar end, Scalar direction) noexcept {
+  [[nodiscard]] Real next_uncovered(const Curve& curve, Real place, Real end, Real direction) noexcept {
     const auto spot = [&] { return Spot{curve, place, end, direction, curve.at(place)}; };
     // A piece that covers one line often covers the next.
     place += direction * covered_from(spot(), last_covering_);
     if (place * direction > end * direction) return place;
     for (std::size_t round = 0; round <= 3 * pieces_.size(); ++round) {
-      const Scalar before = place;
+      const Real before = place;
       for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const std::size_t index = round % 2 == 0 ? k : pieces_.size() - 1 - k;
-        const Scalar beyond = covered_from(spot(), index);
+        const Real beyond = covered_from(spot(), index);
         if (!(beyond > 0)) continue;
         last_covering_ = index;
         place += direction * beyond;
@@ -354,11 +347,11 @@ class Search {
   }
 
   /// How far the regions of a piece reach from a spot; 0 if none covers it.
-  [[nodiscard]] Scalar covered_from(const Spot& spot, std::size_t index) noexcept {
+  [[nodiscard]] Real covered_from(const Spot& spot, std::size_t index) noexcept {
     const PieceIndex piece = pieces_[index];
     const bool is_solid = solid(piece);
     if (!is_solid && query_.drops) return 0;
-    Scalar reach = is_solid ? obstacle_from(spot, piece) : Scalar(0);
+    Real reach = is_solid ? obstacle_from(spot, piece) : Real(0);
     if (index >= passable_.size()) reach = std::max(reach, shadow_from(spot, piece, Place::from));
     if (query_.last_free) reach = std::max(reach, shadow_from(spot, piece, Place::last_free));
     if (index < passable_.size()) reach = std::max(reach, shadow_from(spot, piece, Place::side));
@@ -366,35 +359,35 @@ class Search {
   }
 
   /// How far the obstacle reaches, with the gap.
-  [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
-    const V at = seen_at_end(piece, query_.near) + spot.position;
+  [[nodiscard]] Real obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
+    const Vec2 at = seen_at_end(piece, query_.near) + spot.position;
     if (best(piece, at).separation >= query_.gap - slack) return 0;
-    Scalar reach = infinity;
+    Real reach = infinity;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
     return space_.is_circle(piece) ? tangents_until(spot, piece, at, reach, query_.gap).reach : reach;
   }
 
-  static void shorten(Scalar& reach, const Spot& spot, const V& normal, Scalar depth) noexcept {
+  static void shorten(Real& reach, const Spot& spot, const Vec2& normal, Real depth) noexcept {
     reach = std::min(reach, spot.until(normal, depth));
   }
 
   /// Where a curve leaves a circle, and the axis of the tangent there; infinity where it does not, and 0 where it is
   /// beyond that tangent already.
   struct WayOut {
-    Scalar reach;
+    Real reach;
     std::size_t axis;
   };
   /// From where the curve is beyond the circle, the tangent there shortens the way, again and again.
-  [[nodiscard]] WayOut tangents_until(const Spot& spot, PieceIndex piece, const V& at, Scalar reach,
-                                      Scalar level) const noexcept {
+  [[nodiscard]] WayOut tangents_until(const Spot& spot, PieceIndex piece, const Vec2& at, Real reach,
+                                      Real level) const noexcept {
     WayOut out{std::min(reach, spot.rest()), 0};
     for (int tangent = 0; tangent < most_tangents; ++tangent) {
-      const BestAxis<Scalar> there = best(piece, at + (spot.after(out.reach) - spot.position));
+      const BestAxis there = best(piece, at + (spot.after(out.reach) - spot.position));
       out.axis = there.axis;
       if (tangent == 0 && there.separation < level - slack) return {infinity, there.axis};
-      const Scalar depth = level - space_.separation(piece, there.axis, at);
-      const Scalar before = out.reach;
+      const Real depth = level - space_.separation(piece, there.axis, at);
+      const Real before = out.reach;
       if (!(depth > slack)) return {0, there.axis};
       shorten(out.reach, spot, space_.normal(piece, there.axis), depth);
       if (!(out.reach < before)) return out;
@@ -403,30 +396,30 @@ class Search {
   }
 
   /// How far a shadow reaches.
-  [[nodiscard]] Scalar shadow_from(const Spot& spot, PieceIndex piece, Place place) noexcept {
+  [[nodiscard]] Real shadow_from(const Spot& spot, PieceIndex piece, Place place) noexcept {
     const View& view = this->view(piece, place);
     if (!view.blocks) return 0;
-    const V at = seen_at_end(piece, query_.near) + spot.position;
-    const V travelled = at - view.place;
-    const Scalar kept = solid(piece) ? view.level : query_.gap;
-    Scalar reach = infinity;
+    const Vec2 at = seen_at_end(piece, query_.near) + spot.position;
+    const Vec2 travelled = at - view.place;
+    const Real kept = solid(piece) ? view.level : query_.gap;
+    Real reach = infinity;
     bool is_before = false;
     for_each_axis(piece, {view.place, at}, [&](std::size_t axis) {
       if (is_before || space_.separation(piece, axis, view.place) < view.level) return;
-      const Scalar depth = kept - space_.separation(piece, axis, at);
+      const Real depth = kept - space_.separation(piece, axis, at);
       is_before = depth <= slack;
       if (!is_before) shorten(reach, spot, space_.normal(piece, axis), depth);
     });
     if (is_before) return 0;
     if (!solid(piece)) {  // it blocks only motion against its normal
-      const V n = space_.normal(piece, space_.info(piece).one_way_axis);
-      const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
+      const Vec2 n = space_.normal(piece, space_.info(piece).one_way_axis);
+      const Real depth = -(n.x() * travelled.x() + n.y() * travelled.y());
       if (depth <= 0) return 0;
       shorten(reach, spot, n, depth);
     }
-    for (const V& n : {view.tangents.left, view.tangents.right}) {
+    for (const Vec2& n : {view.tangents.left, view.tangents.right}) {
       if (n.x() == 0 && n.y() == 0) continue;
-      const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
+      const Real depth = -(n.x() * travelled.x() + n.y() * travelled.y());
       if (depth <= slack) return 0;
       shorten(reach, spot, n, depth);
     }
@@ -439,9 +432,9 @@ class Search {
   // The checks of a position.
 
   /// @return true where the search along this line ends: a position was taken, or all others on it are further away.
-  bool consider(const V& w) noexcept {
-    const V q = query_.near + w;
-    const Scalar distance = length_of(V(q - query_.near));
+  bool consider(const Vec2& w) noexcept {
+    const Vec2 q = query_.near + w;
+    const Real distance = length_of(Vec2(q - query_.near));
     if (!(distance < nearest_)) return true;
     if (!reaches(q)) return false;
     best_ = q;
@@ -449,44 +442,44 @@ class Search {
     return true;
   }
 
-  [[nodiscard]] bool has_gaps(const V& q) const noexcept {
+  [[nodiscard]] bool has_gaps(const Vec2& q) const noexcept {
     return std::none_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
-      return solid(piece) && best(piece, seen_at_end(piece, q)).separation < Tolerances<Scalar>{}.hit;
+      return solid(piece) && best(piece, seen_at_end(piece, q)).separation < tolerances.hit;
     });
   }
 
   /// Whether a position is on the side of a piece from which the character came: the straight motion from there is
   /// clear of the piece. It may touch the piece at its start, by rounding.
-  [[nodiscard]] bool keeps_side(PieceIndex piece, const V& q) const noexcept {
-    constexpr Scalar certain = Tolerances<Scalar>{}.certain;
-    const std::optional<V> from = side_of(piece);
+  [[nodiscard]] bool keeps_side(PieceIndex piece, const Vec2& q) const noexcept {
+    constexpr Real certain = tolerances.certain;
+    const std::optional<Vec2> from = side_of(piece);
     if (!from) return true;
-    const V to = seen_at_end(piece, q);
+    const Vec2 to = seen_at_end(piece, q);
     bool separates = false;
     for_each_axis(piece, {*from, to}, [&](std::size_t axis) {
       separates = separates ||
                   (space_.separation(piece, axis, *from) > -certain && space_.separation(piece, axis, to) >= certain);
     });
     if (separates) return true;
-    return best(piece, *from).separation >= certain && passes(make_motion<Lanes>(space_, *from, V(to - *from)), piece);
+    return best(piece, *from).separation >= certain && passes(make_motion(space_, *from, Vec2(to - *from)), piece);
   }
 
   /// Whether a straight motion to a position hits no solid, and no one-way segment against its normal.
   /// @param time when it begins.
-  [[nodiscard]] bool clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
+  [[nodiscard]] bool clear(PieceIndex piece, const Vec2& place, Real time, const Vec2& q) const noexcept {
     if (query_.drops && !solid(piece)) return true;
-    const V from = seen(piece, place, time);
-    const V to = seen_at_end(piece, q);
-    Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, V(to - from));
+    const Vec2 from = seen(piece, place, time);
+    const Vec2 to = seen_at_end(piece, q);
+    Motion motion = make_motion(space_, from, Vec2(to - from));
     motion.lost = lost_by(place, offset(piece, time));
     if (!blocks(space_, motion, piece)) return true;
     if (one_axis_separates(space_, piece, from, to)) return true;
     if (clear_of_exactly(space_, piece, query_.movers, place, time, q, query_.end)) return true;
-    return best(piece, from).separation >= Tolerances<Scalar>{}.certain && passes(motion, piece);
+    return best(piece, from).separation >= tolerances.certain && passes(motion, piece);
   }
 
-  [[nodiscard]] bool passes(const Motion<Lanes, Scalar>& motion, PieceIndex piece) const noexcept {
-    const Clearance<Scalar> room = clearance(space_, motion, piece);
+  [[nodiscard]] bool passes(const Motion& motion, PieceIndex piece) const noexcept {
+    const Clearance room = clearance(space_, motion, piece);
     return room.clear() || !sweep_piece(space_, motion, piece, room).hit;
   }
 
@@ -496,40 +489,27 @@ class Search {
     View view{};
   };
 
-  const ConfigurationSpace<Scalar>& space_;
+  const ConfigurationSpace& space_;
   std::span<const PieceIndex> pieces_;
   std::span<const PieceIndex> passable_;
-  const FreePositionQuery<Scalar>& query_;
+  const FreePositionQuery& query_;
   bool takes_time_;
   std::array<Kept, 64> kept_{};
   std::size_t last_covering_ = 0;
-  Scalar nearest_;  ///< Distance of the best position so far [m].
-  std::optional<V> best_;
+  Real nearest_;  ///< Distance of the best position so far [m].
+  std::optional<Vec2> best_;
 };
 
 }  // namespace
 
-template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> nearest_free(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
-                                         const FreePositionQuery<Scalar>& query) noexcept {
-  return Search<Lanes, Scalar>{space, pieces, query}.find();
+std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
+                                 const FreePositionQuery& query) noexcept {
+  return Search{space, pieces, query}.find();
 }
 
-template <std::size_t Lanes, class Scalar>
-bool reaches(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
-             const FreePositionQuery<Scalar>& query, const Vec2<Scalar>& q) noexcept {
-  return Search<Lanes, Scalar>{space, pieces, query}.reaches(q);
+bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query,
+             const Vec2& q) noexcept {
+  return Search{space, pieces, query}.reaches(q);
 }
 
-#define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                     \
-  template std::optional<Vec2<Scalar>> nearest_free<Lanes>(                                                       \
-      const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, const FreePositionQuery<Scalar>&) noexcept; \
-  template bool reaches<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>,                    \
-                               const FreePositionQuery<Scalar>&, const Vec2<Scalar>&) noexcept;
-PAPERPROOF_INSTANTIATE(8, float)
-PAPERPROOF_INSTANTIATE(8, double)
-PAPERPROOF_INSTANTIATE(12, float)
-PAPERPROOF_INSTANTIATE(12, double)
-#undef PAPERPROOF_INSTANTIATE
-
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -8,29 +8,28 @@
 
 #include <optional>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// The least gap around a free position, as a multiple of `hit`: a little more than that of an opening that counts as
 /// closed. One: far from the origin, where rounding is 4e-9 m, none is found. Large: narrow openings are not found.
 inline constexpr double least_gap = 1.25;
 
-template <class Scalar>
 struct FreePositionQuery {
-  Vec2<Scalar> from;         ///< Where the motion starts [m],
-  Scalar begin = 0;          ///< and when, as a fraction of the step.
-  Vec2<Scalar> near;         ///< The position nearest to this one is wanted [m].
-  Scalar end = 0;            ///< When the motion ends. Equal to `begin`: it takes no time, and `near` is `from`.
-  std::size_t passable = 0;  ///< The motion may pass so many pieces, the first ones.
-  std::optional<Vec2<Scalar>> last_free;  ///< A straight motion from here must reach the position as well [m].
+  Vec2 from;                      ///< Where the motion starts [m],
+  Real begin = 0;                 ///< and when, as a fraction of the step.
+  Vec2 near;                      ///< The position nearest to this one is wanted [m].
+  Real end = 0;                   ///< When the motion ends. Equal to `begin`: it takes no time, and `near` is `from`.
+  std::size_t passable = 0;       ///< The motion may pass so many pieces, the first ones.
+  std::optional<Vec2> last_free;  ///< A straight motion from here must reach the position as well [m].
   /// The position must be on the side of each from which the character came. Displacements are up to the end of the
   /// step.
-  std::span<const Crusher<Scalar>> crushers;
+  std::span<const Crusher> crushers;
   /// The same for the other pieces that may be passed: where the character was before it overlapped them [m].
-  std::optional<Vec2<Scalar>> entered_from;
-  std::span<const MoverMotion<Scalar>> movers;
+  std::optional<Vec2> entered_from;
+  std::span<const MoverMotion> movers;
   bool drops = false;  ///< One-way segments do not block.
-  Scalar gap;          ///< Gap to every solid at the end [m].
-  Scalar reach;        ///< The position must be nearer to `near` than this [m].
+  Real gap;            ///< Gap to every solid at the end [m].
+  Real reach;          ///< The position must be nearer to `near` than this [m].
 };
 
 /// The nearest position that is free when the motion ends, and is reached without passing a solid, except those that
@@ -40,14 +39,11 @@ struct FreePositionQuery {
 /// Allocates nothing.
 /// @param pieces every piece that such a motion may hit, those that may be passed first.
 /// @return nothing if there is no such position.
-template <std::size_t Lanes, class Scalar>
-[[nodiscard]] std::optional<Vec2<Scalar>> nearest_free(const ConfigurationSpace<Scalar>& space,
-                                                       std::span<const PieceIndex> pieces,
-                                                       const FreePositionQuery<Scalar>& query) noexcept;
+[[nodiscard]] std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
+                                               const FreePositionQuery& query) noexcept;
 
 /// Whether `q` is such a position, at any distance.
-template <std::size_t Lanes, class Scalar>
-[[nodiscard]] bool reaches(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
-                           const FreePositionQuery<Scalar>& query, const Vec2<Scalar>& q) noexcept;
+[[nodiscard]] bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
+                           const FreePositionQuery& query, const Vec2& q) noexcept;
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -12,32 +12,28 @@ namespace paperproof::octagon_sweep {
 
 /// A tree for each mover, over its pieces at offset zero: a mover keeps its shape, so it is the box that is
 /// shifted. Immutable after construction; may be shared between threads.
-template <class Scalar>
 class MoverPhases {
  public:
-  MoverPhases(PieceSearch search, const Scenery<Scalar>& scenery);
+  MoverPhases(PieceSearch search, const Scenery& scenery);
 
   [[nodiscard]] MoverIndex size() const noexcept { return static_cast<MoverIndex>(movers_.size()); }
 
   /// Around all pieces of a mover at offset zero [m]. One that has none is nowhere: its box meets no other.
-  [[nodiscard]] const Box2<Scalar>& whole(MoverIndex mover) const noexcept { return movers_[mover].whole; }
+  [[nodiscard]] const Box2& whole(MoverIndex mover) const noexcept { return movers_[mover].whole; }
 
   /// The pieces whose boxes at offset zero meet `box`, ascending.
   /// @param found has room for all pieces of the mover.
   /// @return the part of `found` that was written.
-  [[nodiscard]] std::span<const PieceIndex> query(MoverIndex mover, const Box2<Scalar>& box,
+  [[nodiscard]] std::span<const PieceIndex> query(MoverIndex mover, const Box2& box,
                                                   std::span<PieceIndex> found) const noexcept;
 
  private:
   struct Mover {
-    Box2<Scalar> whole;
+    Box2 whole;
     PieceIndex first = 0;
-    broad_phase::Tree<Scalar> tree;
+    broad_phase::Tree tree;
   };
   std::vector<Mover> movers_;
 };
-
-extern template class MoverPhases<float>;
-extern template class MoverPhases<double>;
 
 }  // namespace paperproof::octagon_sweep

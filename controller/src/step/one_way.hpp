@@ -3,17 +3,16 @@
 
 #include "step/narrow_phase.hpp"
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether the octagon at p + rest, as its mover sees it, is above the surface of a one-way segment. Near the line of a
 /// straight one that is decided exactly; elsewhere a product tells.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline bool is_above(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                                                       const Vec2<Scalar>& p, const Vec2<Scalar>& rest) noexcept {
-  constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+[[nodiscard, gnu::always_inline]] inline bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
+                                                       const Vec2& rest) noexcept {
+  constexpr Real certain = tolerances.certain;
   const ObstacleInfo& info = space.info(piece);
   if (!info.bent_surface) {
-    const Scalar apart = space.separation(piece, info.one_way_axis, p);
+    const Real apart = space.separation(piece, info.one_way_axis, p);
     if (apart >= certain) return true;
     if (apart <= -certain) return false;
   }
@@ -23,14 +22,12 @@ template <class Scalar>
 /// Whether a one-way segment can stop a motion: one that begins above its surface. From a gap on, a motion that does
 /// not go against a straight segment is clear of it. Nearer than that the segment is looked at, whatever the direction:
 /// its separation counts.
-template <std::size_t Lanes, class Scalar>
-[[nodiscard, gnu::noinline]] inline bool one_way_blocks(const ConfigurationSpace<Scalar>& space,
-                                                        const Motion<Lanes, Scalar>& motion,
+[[nodiscard, gnu::noinline]] inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
                                                         PieceIndex piece) noexcept {
   const ObstacleInfo& info = space.info(piece);
   if (!info.bent_surface) {
-    const Vec2<Scalar> n = space.normal(piece, info.one_way_axis);
-    if (space.separation(piece, info.one_way_axis, motion.from) >= Tolerances<Scalar>{}.hit)
+    const Vec2 n = space.normal(piece, info.one_way_axis);
+    if (space.separation(piece, info.one_way_axis, motion.from) >= tolerances.hit)
       return n.x() * motion.displacement.x() + n.y() * motion.displacement.y() < 0;
     return is_above(space, piece, motion.from, motion.lost);
   }
@@ -42,10 +39,9 @@ template <std::size_t Lanes, class Scalar>
 }
 
 /// Whether a piece can stop a motion at all. A solid always can.
-template <std::size_t Lanes, class Scalar>
-[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
-                                                     const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace& space, const Motion& motion,
+                                                     PieceIndex piece) noexcept {
   return space.info(piece).one_way_axis == ObstacleInfo::not_one_way || one_way_blocks(space, motion, piece);
 }
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

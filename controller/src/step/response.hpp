@@ -47,83 +47,72 @@
 #include <cmath>
 #include <limits>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Two unit normals of one plane. Zero: rounding would make two of it. Large: a crease would be taken for a plane.
-template <class Scalar>
-inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16;
+inline constexpr Real same_plane = std::numeric_limits<Real>::epsilon() * 16;
 
 /// A motion that points into a plane by less than this share of its length runs along it.
-template <class Scalar>
-inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
+inline constexpr Real along_plane = std::numeric_limits<Real>::epsilon() * 64;
 
 using geometry::dot;
+using geometry::length_of;
 
 /// Whether a motion goes into a plane that it touches, rather than along it.
-template <class Scalar>
-[[nodiscard]] bool enters(const Vec2<Scalar>& displacement, const Vec2<Scalar>& normal) noexcept {
-  const Scalar out = dot(displacement, normal);
-  return out < 0 && out < -along_plane<Scalar> * length_of(displacement);
+[[nodiscard]] inline bool enters(const Vec2& displacement, const Vec2& normal) noexcept {
+  const Real out = dot(displacement, normal);
+  return out < 0 && out < -along_plane * length_of(displacement);
 }
 
 /// A motion [m] or velocity [m/s] that is wanted, and the part of it that is there without this step's steering.
-template <class Scalar>
 struct Desired {
-  Vec2<Scalar> wanted;
-  Vec2<Scalar> unsteered;
+  Vec2 wanted;
+  Vec2 unsteered;
 };
 
 /// A surface, and how the character comes to it.
-template <class Scalar>
 struct Surface {
-  Vec2<Scalar> normal;
+  Vec2 normal;
   bool walkable;
   bool after_walk;  ///< The character follows walkable ground that it touches: a rise is the climb of a walk.
 };
 
 /// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> follow(Scalar x, const Vec2<Scalar>& n) noexcept {
-  return {x, -x * n.x() / n.y() + Scalar(0)};
+[[nodiscard, gnu::always_inline]] inline Vec2 follow(Real x, const Vec2& n) noexcept {
+  return {x, -x * n.x() / n.y() + Real(0)};
 }
 
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> slide(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
-  const Scalar into = dot(w, n);
-  return {w.x() - into * n.x() + Scalar(0), w.y() - into * n.y() + Scalar(0)};
+[[nodiscard, gnu::always_inline]] inline Vec2 slide(const Vec2& w, const Vec2& n) noexcept {
+  const Real into = dot(w, n);
+  return {w.x() - into * n.x() + Real(0), w.y() - into * n.y() + Real(0)};
 }
 
 /// A slide that enters its surface by rounding, along the surface. One that is nothing but rounding is no motion: it
 /// goes about as far into the surface as along it.
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> rounded_slide(const Vec2<Scalar>& slide, const Vec2<Scalar>& n) noexcept {
-  const Scalar along = slide.x() * n.y() - slide.y() * n.x();
-  if (!(std::abs(along) > 1024 * std::abs(dot(slide, n)))) return Vec2<Scalar>::Zero();
-  return {n.y() * along + Scalar(0), -n.x() * along + Scalar(0)};
+[[nodiscard]] inline Vec2 rounded_slide(const Vec2& slide, const Vec2& n) noexcept {
+  const Real along = slide.x() * n.y() - slide.y() * n.x();
+  if (!(std::abs(along) > 1024 * std::abs(dot(slide, n)))) return Vec2::Zero();
+  return {n.y() * along + Real(0), -n.x() * along + Real(0)};
 }
 
 /// The response on steep ground and walls, without steering: rules 1 and 2 above.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> impact(Vec2<Scalar> w, const Surface<Scalar>& at) noexcept {
+[[nodiscard, gnu::always_inline]] inline Vec2 impact(Vec2 w, const Surface& at) noexcept {
   if (w.x() * at.normal.x() < 0) {
     w.x() = 0;
-    if (at.after_walk) w.y() = std::min(w.y(), Scalar(0));
+    if (at.after_walk) w.y() = std::min(w.y(), Real(0));
   }
   return dot(w, at.normal) < 0 ? slide(w, at.normal) : w;
 }
 
 /// Under a ceiling.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> bump(const Vec2<Scalar>& w, const Surface<Scalar>& at) noexcept {
-  const Vec2<Scalar>& n = at.normal;
-  if (w.y() > 0) return at.after_walk ? Vec2<Scalar>(Vec2<Scalar>::Zero()) : slide(w, n);
-  return {-w.y() * n.y() / n.x() + Scalar(0), w.y() + Scalar(0)};
+[[nodiscard, gnu::always_inline]] inline Vec2 bump(const Vec2& w, const Surface& at) noexcept {
+  const Vec2& n = at.normal;
+  if (w.y() > 0) return at.after_walk ? Vec2(Vec2::Zero()) : slide(w, n);
+  return {-w.y() * n.y() / n.x() + Real(0), w.y() + Real(0)};
 }
 
 /// The response without steering.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> respond(const Vec2<Scalar>& w,
-                                                              const Surface<Scalar>& at) noexcept {
+[[nodiscard, gnu::always_inline]] inline Vec2 respond(const Vec2& w, const Surface& at) noexcept {
   if (dot(w, at.normal) >= 0) return w;
   if (at.walkable) return follow(w.x(), at.normal);
   return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
@@ -131,55 +120,43 @@ template <class Scalar>
 
 /// Rule 3: where steering presses in.
 /// @param unsteered the motion without steering, and @param result what became of it at this surface.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> press(const Vec2<Scalar>& unsteered, const Vec2<Scalar>& result,
-                                                            const Surface<Scalar>& at) noexcept {
+[[nodiscard, gnu::always_inline]] inline Vec2 press(const Vec2& unsteered, const Vec2& result,
+                                                    const Surface& at) noexcept {
   if (dot(unsteered, at.normal) < 0) return result;
-  const Scalar y = at.after_walk ? std::min(result.y(), Scalar(0)) : result.y();
-  return {-y * at.normal.y() / at.normal.x() + Scalar(0), y + Scalar(0)};
+  const Real y = at.after_walk ? std::min(result.y(), Real(0)) : result.y();
+  return {-y * at.normal.y() / at.normal.x() + Real(0), y + Real(0)};
 }
 
 /// The response to a surface that is entered, of what is wanted and of what there is without steering.
 /// @param steered the horizontal part that this step's steering added to what was wanted.
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Desired<Scalar> respond(const Desired<Scalar>& desired, Scalar steered,
-                                                                 const Surface<Scalar>& at) noexcept {
+[[nodiscard, gnu::always_inline]] inline Desired respond(const Desired& desired, Real steered,
+                                                         const Surface& at) noexcept {
   if (dot(desired.wanted, at.normal) >= 0) return desired;
-  const Vec2<Scalar> unsteered = respond(desired.unsteered, at);
+  const Vec2 unsteered = respond(desired.unsteered, at);
   if (steered == 0) return {unsteered, unsteered};
   if (at.walkable) return {follow(desired.unsteered.x() + steered, at.normal), unsteered};
-  const bool moves_in = at.normal.y() >= 0 && dot(Vec2<Scalar>(desired.wanted - desired.unsteered), at.normal) < 0;
+  const bool moves_in = at.normal.y() >= 0 && dot(Vec2(desired.wanted - desired.unsteered), at.normal) < 0;
   return {moves_in ? press(desired.unsteered, unsteered, at) : respond(desired.wanted, at), unsteered};
 }
 
 /// A motion of the world that was seen along a surface, or not into it, by a character that is not upright. A motion
 /// that rounding turned into the surface runs along it again.
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> in_world(const UpFrame<Scalar>& up, const Vec2<Scalar>& seen,
-                                    const Vec2<Scalar>& n) noexcept {
-  const Vec2<Scalar> w = up.in_world(seen);
-  if (!up.is_slanted() || std::abs(dot(w, n)) > along_plane<Scalar> * length_of(w)) return w;
-  return Vec2<Scalar>{n.y(), -n.x()} * (w.x() * n.y() - w.y() * n.x());
-}
-template <class Scalar>
-[[nodiscard]] Vec2<Scalar> in_world(const Upright<Scalar>& /*up*/, const Vec2<Scalar>& seen,
-                                    const Vec2<Scalar>& /*n*/) noexcept {
-  return seen;
+[[nodiscard]] inline Vec2 in_world(const UpFrame& up, const Vec2& seen, const Vec2& n) noexcept {
+  const Vec2 w = up.in_world(seen);
+  if (!up.is_slanted() || std::abs(dot(w, n)) > along_plane * length_of(w)) return w;
+  return Vec2{n.y(), -n.x()} * (w.x() * n.y() - w.y() * n.x());
 }
 
 /// The response of a character with any up. Motions and surface are those of the world.
-template <class Scalar>
-[[nodiscard]] Desired<Scalar> respond(const UpFrame<Scalar>& up, const Desired<Scalar>& desired, Scalar steered,
-                                      const Surface<Scalar>& at) noexcept {
-  const Surface<Scalar> seen{up.seen(at.normal), at.walkable, at.after_walk};
-  const Desired<Scalar> result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
+[[nodiscard, gnu::cold, gnu::noinline]] inline Desired respond_turned(const UpFrame& up, const Desired& desired,
+                                                                      Real steered, const Surface& at) noexcept {
+  const Surface seen{up.seen(at.normal), at.walkable, at.after_walk};
+  const Desired result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
   return {in_world(up, result.wanted, at.normal), in_world(up, result.unsteered, at.normal)};
 }
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Desired<Scalar> respond(const Upright<Scalar>& /*up*/,
-                                                                 const Desired<Scalar>& desired, Scalar steered,
-                                                                 const Surface<Scalar>& at) noexcept {
-  return respond(desired, steered, at);
+[[nodiscard, gnu::always_inline]] inline Desired respond(const UpFrame& up, const Desired& desired, Real steered,
+                                                         const Surface& at) noexcept {
+  return up.is_turned() ? respond_turned(up, desired, steered, at) : respond(desired, steered, at);
 }
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

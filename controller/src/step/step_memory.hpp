@@ -12,34 +12,31 @@
 #include <span>
 #include <vector>
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// A piece that stops a motion.
-template <class Scalar>
 struct Stop {
   PieceIndex piece;
-  Scalar stop;      ///< Fraction of the motion.
-  Scalar together;  ///< Stops that are no further apart than this are one impact.
+  Real stop;      ///< Fraction of the motion.
+  Real together;  ///< Stops that are no further apart than this are one impact.
   EntryAxes axes;
 };
 
 /// A surface that the character touches. No motion may enter it.
-template <class Scalar>
 struct TouchedSurface {
   PieceIndex piece;
   MoverIndex mover;
   std::size_t axis;
-  Vec2<Scalar> normal;
-  Scalar offset;  ///< Of the surface along its normal [m].
+  Vec2 normal;
+  Real offset;  ///< Of the surface along its normal [m].
 };
 
 /// Where a straight motion is nearest to a piece.
-template <class Scalar>
 struct Nearest {
   PieceIndex piece;
   std::size_t axis;
-  Scalar separation;  ///< [m]
-  Scalar when;        ///< Fraction of the motion.
+  Real separation;  ///< [m]
+  Real when;        ///< Fraction of the motion.
 };
 
 /// What a collider is for the character during a step; it may have several roles.
@@ -58,19 +55,17 @@ inline constexpr std::uint8_t does_not_block = passes_through | filtered;
 inline constexpr int most_stairs = 4;
 
 /// What the contacts of a step were at a corner of its path.
-template <class Scalar>
 struct Reported {
   std::size_t contacts = 0;  ///< How many.
-  Scalar impact = 0;         ///< The latest time of impact among them: no later motion meets anything before it.
+  Real impact = 0;           ///< The latest time of impact among them: no later motion meets anything before it.
 };
 
 /// One per thread; a step leaves nothing in it that the next one uses.
-template <class Scalar>
 struct StepMemory final : OwnMemory {
   /// @param touched_at_once how many pieces that stand still can be touched in one place, at most.
   /// @param iterations of the sweep.
-  StepMemory(const ConfigurationSpace<Scalar>& space, std::size_t touched_at_once, int iterations)
-      : corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)),
+  StepMemory(const ConfigurationSpace& space, std::size_t touched_at_once, int iterations)
+      : corners(2 * MoveResult::max_corners + 4 * moving_pieces(space)),
         contacts(most_contacts(space, touched_at_once + moving_pieces(space), iterations)),
         crushed(count_moving_colliders(space.scenery())),
         reported_at(corners.capacity()),
@@ -104,30 +99,29 @@ struct StepMemory final : OwnMemory {
     return !marked.empty() && (roles[collider] & any_of) != 0;
   }
 
-  ReportMemory<PathPoint<Scalar>> corners;  ///< Of the path.
-  ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
+  ReportMemory<PathPoint> corners;  ///< Of the path.
+  ReportMemory<Contact> contacts;   ///< Of one step, which reports each facet once at most.
   ReportMemory<ColliderIndex> crushed;
-  std::vector<Reported<Scalar>> reported_at;            ///< At each corner of the path.
-  std::vector<PieceIndex> of_mover;                     ///< Result of a query of one mover's broad phase.
-  std::vector<std::uint8_t> roles;                      ///< Of each collider, where anything moves: bits of `Role`.
-  std::vector<ColliderIndex> marked;                    ///< Colliders with a role, in the order in which they got one.
-  std::vector<TouchedSurface<Scalar>> surfaces;         ///< Those that are touched now, one per piece,
-  std::vector<TouchedSurface<Scalar>> surfaces_before;  ///< and before the last sweep.
-  std::vector<HalfPlane<Scalar>> displacement_planes;   ///< What the touched surfaces allow.
-  std::vector<HalfPlane<Scalar>> velocity_planes;
+  std::vector<Reported> reported_at;            ///< At each corner of the path.
+  std::vector<PieceIndex> of_mover;             ///< Result of a query of one mover's broad phase.
+  std::vector<std::uint8_t> roles;              ///< Of each collider, where anything moves: bits of `Role`.
+  std::vector<ColliderIndex> marked;            ///< Colliders with a role, in the order in which they got one.
+  std::vector<TouchedSurface> surfaces;         ///< Those that are touched now, one per piece,
+  std::vector<TouchedSurface> surfaces_before;  ///< and before the last sweep.
+  std::vector<HalfPlane> displacement_planes;   ///< What the touched surfaces allow.
+  std::vector<HalfPlane> velocity_planes;
   /// Movers that crushed, now or before, with their displacement at the end of the step.
-  std::vector<Crusher<Scalar>> crushers;
+  std::vector<Crusher> crushers;
 
  private:
-  [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace<Scalar>& space) {
+  [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace& space) {
     const std::span<const PieceInfo> all = space.scenery().pieces();
     const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
   }
   /// Each impact reports each touched piece at most once. So do the ground at the end of the step, each
   /// stair, and the snap.
-  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t touched,
-                                          int iterations) const {
+  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace& space, std::size_t touched, int iterations) const {
     const std::size_t impacts = moving_pieces(space) > 0 ? corners.capacity() : static_cast<std::size_t>(iterations);
     const std::size_t moments = impacts + 3 + most_stairs;
     std::size_t axes = 0;
@@ -138,11 +132,10 @@ struct StepMemory final : OwnMemory {
 };
 
 /// The movers of one step.
-template <class Scalar>
 struct MoversInStep {
-  const MoverPhases<Scalar>& phases;
-  std::span<const MoverMotion<Scalar>> motions;
-  Scalar dt;         ///< [s]
+  const MoverPhases& phases;
+  std::span<const MoverMotion> motions;
+  Real dt;           ///< [s]
   MoverIndex count;  ///< How many are looked at: all, or none where none comes near the character.
   bool active;       ///< A mover comes near the step, or there may be a conveyor.
 
@@ -152,24 +145,20 @@ struct MoversInStep {
   }
 
   /// Displacement of a mover in the step [m].
-  [[nodiscard]] Vec2<Scalar> displacement(MoverIndex mover) const noexcept {
-    return motions[mover].to - motions[mover].from;
-  }
+  [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept { return motions[mover].to - motions[mover].from; }
   /// Its offset at a fraction of the step [m].
-  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept { return motions[mover].at(time); }
+  [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const noexcept { return motions[mover].at(time); }
   /// Its displacement after a fraction of the step [m].
-  [[nodiscard]] Vec2<Scalar> remaining(MoverIndex mover, Scalar time) const noexcept {
-    return displacement(mover) * (1 - time);
-  }
+  [[nodiscard]] Vec2 remaining(MoverIndex mover, Real time) const noexcept { return displacement(mover) * (1 - time); }
 
   /// A motion for the rest of the step, relative to a mover [m]. What is nothing but rounding becomes zero: a rider at
   /// rest rests, and a sweep that looks ahead does not take noise for a direction.
-  [[nodiscard]] Vec2<Scalar> relative(const Vec2<Scalar>& motion, MoverIndex mover, Scalar time) const noexcept {
-    constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 8;
-    const Vec2<Scalar> whole = displacement(mover);
+  [[nodiscard]] Vec2 relative(const Vec2& motion, MoverIndex mover, Real time) const noexcept {
+    constexpr Real noise = std::numeric_limits<Real>::epsilon() * 8;
+    const Vec2 whole = displacement(mover);
     // Each offset is rounded: at a constant speed the displacement of a mover differs by an ulp from step to step.
-    const Vec2<Scalar> furthest = motions[mover].from.cwiseAbs().cwiseMax(motions[mover].to.cwiseAbs());
-    Vec2<Scalar> result = motion - remaining(mover, time);
+    const Vec2 furthest = motions[mover].from.cwiseAbs().cwiseMax(motions[mover].to.cwiseAbs());
+    Vec2 result = motion - remaining(mover, time);
     for (Eigen::Index i = 0; i < 2; ++i)
       if (std::abs(result[i]) <= noise * std::max({std::abs(motion[i]), std::abs(whole[i]), furthest[i]}))
         result[i] = 0;
@@ -177,4 +166,4 @@ struct MoversInStep {
   }
 };
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -1,353 +1,388 @@
-/// StepSolver: the sweep to the earliest impact, and the contacts there.
+/// The sweep to the earliest impact, and the contacts there.
 #pragma once
 
+#include "step/certificate.hpp"
 #include "step/contact_geometry.hpp"
-#include "step/step_solver.hpp"
+#include "step/step.hpp"
 
-namespace paperproof::octagon_sweep {
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-template <std::size_t Lanes, class Scalar, class Up>
-Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::offset(PieceIndex piece, Scalar time) const noexcept {
-  const MoverIndex mover = mover_of(piece);
-  return mover == no_mover ? V(V::Zero()) : movers_.offset(mover, time);
+/// Whether a motion does not enter the surface of a piece that is touched. Its axis alone is then proof that the motion
+/// is clear of the piece.
+[[nodiscard]] inline bool slides_along_touched(const Step& step, const Motion& motion, PieceIndex piece) noexcept {
+  constexpr Real noise = std::numeric_limits<Real>::epsilon() * 32;
+  for (const TouchedSurface& surface : step.memory.surfaces) {
+    if (surface.piece != piece) continue;
+    if (step.moving.waits) return true;
+    const Real start = dot(surface.normal, motion.from) - surface.offset;
+    const Real out = surface.normal.x() * motion.displacement.x() + surface.normal.y() * motion.displacement.y();
+    Real size = std::abs(step.motion.displacement.x()) + std::abs(step.motion.displacement.y());
+    if (surface.mover != no_mover) size += step.movers.displacement(surface.mover).cwiseAbs().sum();
+    return start >= tolerances.certain && (out >= -noise * size || start + out >= tolerances.hit);
+  }
+  return false;
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
-Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::local(PieceIndex piece, const V& p) const noexcept {
-  return mover_of(piece) == no_mover ? p : V(p - offset(piece));
+/// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
+/// one that points up most.
+inline void update_surfaces(Step& step) noexcept {
+  constexpr Real touch = tolerances.touch;
+  const auto less_up = [&](const TouchedSurface& a, const TouchedSurface& b) {
+    return step.up.up_of(a.normal) < step.up.up_of(b.normal);
+  };
+  auto& surfaces = step.memory.surfaces;
+  surfaces.swap(step.memory.surfaces_before);
+  surfaces.clear();
+  for (const Stop& stop : step.found.stops) surfaces.push_back(surface_at(step, stop.piece, stop.axes.normal));
+  for (const TouchedSurface& surface : step.memory.surfaces_before) {
+    const bool again = std::any_of(step.found.stops.begin(), step.found.stops.end(),
+                                   [&surface](const Stop& stop) { return stop.piece == surface.piece; });
+    if (again || ignored(step, surface.piece)) continue;
+    const Vec2 at = local(step, surface.piece, step.position);
+    const bool touched = best_axis(step.space, surface.piece, at).separation <= touch &&
+                         std::abs(step.space.separation(surface.piece, surface.axis, at)) <= touch;
+    if (touched || step.moving.waits) surfaces.push_back(surface);
+  }
+  if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
+[[gnu::cold, gnu::noinline]] inline void note_motion_on_ground(Step& step) noexcept {
+  Vec2 relative = step.motion.displacement;
+  if (step.moving.carrier != no_mover)
+    relative = step.movers.relative(step.motion.displacement, step.moving.carrier, step.time);
+  step.moving.anchored = relative.x() == 0 && relative.y() == 0;
+}
+
+/// Position of an anchored rider at a fraction of the step.
+[[nodiscard, gnu::cold, gnu::noinline]] inline Vec2 anchor(const Step& step, Real time) noexcept {
+  if (step.moving.carrier == no_mover) return step.position;
+  return step.movers.offset(step.moving.carrier, time) + step.moving.ride.place;
+}
+
+/// Calls `visit(piece)` for every piece that may be touched from positions in a box, now. `visit` must not query the
+/// pieces of movers.
 template <class Visit>
-void StepSolver<Lanes, Scalar, Up>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
-  for (const PieceIndex piece : neighbourhood_.around(box)) visit(piece);
-  const Box2<Scalar> world = space_.touched_from(box);
-  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
-    const V shift = movers_.offset(mover, time_);
-    const Box2<Scalar> shifted{world.lower - shift, world.upper - shift};
-    if (!shifted.overlaps(movers_.phases.whole(mover))) continue;
-    for (const PieceIndex piece : movers_.phases.query(mover, shifted, memory_.of_mover))
-      if (!ignored(piece)) visit(piece);
+inline void for_each_near(Step& step, const Box2& box, const Visit& visit) noexcept {
+  for (const PieceIndex piece : step.neighbourhood.around(box)) visit(piece);
+  const Box2 world = step.space.touched_from(box);
+  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
+    const Vec2 shift = step.movers.offset(mover, step.time);
+    const Box2 shifted{world.lower - shift, world.upper - shift};
+    if (!shifted.overlaps(step.movers.phases.whole(mover))) continue;
+    for (const PieceIndex piece : step.movers.phases.query(mover, shifted, step.memory.of_mover))
+      if (!ignored(step, piece)) visit(piece);
   }
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
+/// Whether `condition(piece)` holds for one of them.
 template <class Condition>
-bool StepSolver<Lanes, Scalar, Up>::any_near(const Box2<Scalar>& box, const Condition& condition) noexcept {
+[[nodiscard]] inline bool any_near(Step& step, const Box2& box, const Condition& condition) noexcept {
   bool any = false;
-  for_each_near(box, [&](PieceIndex piece) { any = any || condition(piece); });
+  for_each_near(step, box, [&](PieceIndex piece) { any = any || condition(piece); });
   return any;
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::sweep_along(const V& displacement) noexcept {
-  motion_ = make_motion<Lanes>(space_, position_, displacement);
-  found_.clear();
-  sweep<Covered::as_any>(motion_, neighbourhood_.around(motion_.box(), displacement));
-  sweep_movers<Covered::as_any>();
-  if (stops_at_covered()) [[unlikely]]
-    sweep_again();
-  order_stops();
+/// The same for one piece, and a motion from now to a fraction of the step.
+[[nodiscard]] inline bool exactly_clear(const Step& step, PieceIndex piece, const Vec2& begin, const Vec2& target,
+                                        Real end) noexcept {
+  const Vec2 from = local(step, piece, begin);
+  const Vec2 to = target - offset(step, piece, end);
+  if (one_axis_separates(step.space, piece, from, to)) return true;
+  Motion motion = make_motion(step.space, from, Vec2(to - from));
+  motion.lost = lost_by(begin, offset(step, piece));
+  if (!in_way(step, motion, piece)) return true;
+  return clear_of_exactly(step.space, piece, step.movers.motions, begin, step.time, target, end);
 }
 
-/// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::sweep_again() noexcept {
-  found_.clear();
-  sweep<Covered::yields>(motion_, neighbourhood_.around(motion_.box(), motion_.displacement));
-  sweep_movers<Covered::yields>();
-}
-
-/// Whether a covered facet stopped the last sweep.
-template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::stops_at_covered() const noexcept {
-  if (!found_.hit) return false;
-  if (found_.stops.size() == 1) return found_.stops[0].axes.covered;  // the usual case
-  return std::any_of(found_.stops.begin(), found_.stops.end(),
-                     [](const Stop<Scalar>& stop) { return stop.axes.covered; });
-}
-
-template <std::size_t Lanes, class Scalar, class Up>
-template <Covered covered>
-void StepSolver<Lanes, Scalar, Up>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
-  for (const PieceIndex piece : pieces) {
-    const Scalar kept = kept_by_box(space_, motion, piece);
-    found_.least_kept = std::min(found_.least_kept, kept);
-    if (kept >= Tolerances<Scalar>{}.hit || !in_way(motion, piece)) continue;
-    if (ignored(piece) || slides_along_touched(motion, piece)) continue;
-    const Clearance<Scalar> clear = clearance(space_, motion, piece);
-    found_.least_separation = std::min(found_.least_separation, clear.start);
-    if (clear.clear()) continue;
-    const PieceHit<Scalar> hit = sweep_piece<covered>(space_, motion, piece, clear, up_);
-    if (hit.hit) keep_stop({piece, hit.stop, 0, hit.axes}, motion.length);
-  }
+/// Whether a straight motion that takes no time is clear of every piece, exactly.
+[[nodiscard]] inline bool exactly_clear(Step& step, const Vec2& from, const Vec2& to) noexcept {
+  return !any_near(step, {from.cwiseMin(to), from.cwiseMax(to)},
+                   [&](PieceIndex piece) { return !exactly_clear(step, piece, from, to, step.time); });
 }
 
 /// The motion of the last sweep, relative to a mover.
 /// @param offset of the mover when the motion began. @param displacement relative to it.
-template <std::size_t Lanes, class Scalar, class Up>
-typename StepSolver<Lanes, Scalar, Up>::LocalMotion StepSolver<Lanes, Scalar, Up>::motion_relative_to(
-    const V& offset, const V& displacement) const noexcept {
-  LocalMotion seen = make_motion<Lanes>(space_, V(motion_.from - offset), displacement);
-  seen.lost = lost_by(motion_.from, offset);
+[[nodiscard]] inline Motion motion_relative_to(const Step& step, const Vec2& offset,
+                                               const Vec2& displacement) noexcept {
+  Motion seen = make_motion(step.space, Vec2(step.motion.from - offset), displacement);
+  seen.lost = lost_by(step.motion.from, offset);
   return seen;
 }
 
-/// Sweeps the last motion against every mover, relative to it.
-template <std::size_t Lanes, class Scalar, class Up>
-template <Covered covered>
-void StepSolver<Lanes, Scalar, Up>::sweep_movers() noexcept {
-  // A sweep looks this far beyond the end of a motion, at most (it measures by the larger component).
-  constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
-  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
-    const V offset = movers_.offset(mover, time_);
-    const V from = motion_.from - offset;
-    const V displacement = movers_.relative(motion_.displacement, mover, time_);
-    const V to = from + displacement;
-    const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
-    if (!box.overlaps(movers_.phases.whole(mover))) continue;
-    sweep<covered>(motion_relative_to(offset, displacement), movers_.phases.query(mover, box, memory_.of_mover));
-  }
+[[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) noexcept {
+  return motion_relative_to(step, step.movers.offset(mover, begin),
+                            step.movers.relative(step.motion.displacement, mover, begin));
 }
 
 /// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
 /// @param length of the motion, as the piece sees it [m].
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::keep_stop(Stop<Scalar> stop, Scalar length) noexcept {
-  constexpr Tolerances<Scalar> tolerances{};
-  stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Scalar(0);
-  if (found_.hit && stop.stop > found_.stop + stop.together) return;
-  if (!found_.hit || stop.stop < found_.stop) {
-    found_.stop = stop.stop;
+inline void keep_stop(Step& step, Stop stop, Real length) noexcept {
+  stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Real(0);
+  if (step.found.hit && stop.stop > step.found.stop + stop.together) return;
+  if (!step.found.hit || stop.stop < step.found.stop) {
+    step.found.stop = stop.stop;
     std::size_t kept = 0;
-    for (const Stop<Scalar>& other : found_.stops)
-      if (other.stop <= found_.stop + other.together) found_.stops[kept++] = other;
-    while (found_.stops.size() > kept) found_.stops.pop_back();
+    for (const Stop& other : step.found.stops)
+      if (other.stop <= step.found.stop + other.together) step.found.stops[kept++] = other;
+    while (step.found.stops.size() > kept) step.found.stops.pop_back();
   }
-  found_.hit = true;
-  found_.stops.push_back(stop);
+  step.found.hit = true;
+  step.found.stops.push_back(stop);
+}
+
+template <Covered covered>
+inline void sweep(Step& step, const Motion& motion, std::span<const PieceIndex> pieces) noexcept {
+  for (const PieceIndex piece : pieces) {
+    const Real kept = kept_by_box(step.space, motion, piece);
+    step.found.least_kept = std::min(step.found.least_kept, kept);
+    if (kept >= tolerances.hit || !in_way(step, motion, piece)) continue;
+    if (ignored(step, piece) || slides_along_touched(step, motion, piece)) continue;
+    const Clearance clear = clearance(step.space, motion, piece);
+    step.found.least_separation = std::min(step.found.least_separation, clear.start);
+    if (clear.clear()) continue;
+    const PieceHit hit = sweep_piece<covered>(step.space, motion, piece, clear, step.up);
+    if (hit.hit) keep_stop(step, {piece, hit.stop, 0, hit.axes}, motion.length);
+  }
+}
+
+/// Sweeps the last motion against every mover, relative to it.
+template <Covered covered>
+inline void sweep_movers(Step& step) noexcept {
+  // A sweep looks this far beyond the end of a motion, at most (it measures by the larger component).
+  constexpr Real look = 2 * tolerances.look;
+  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
+    const Vec2 offset = step.movers.offset(mover, step.time);
+    const Vec2 from = step.motion.from - offset;
+    const Vec2 displacement = step.movers.relative(step.motion.displacement, mover, step.time);
+    const Vec2 to = from + displacement;
+    const Box2 box = step.space.touched_from(Box2{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
+    if (!box.overlaps(step.movers.phases.whole(mover))) continue;
+    sweep<covered>(step, motion_relative_to(step, offset, displacement),
+                   step.movers.phases.query(mover, box, step.memory.of_mover));
+  }
+}
+
+/// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
+[[gnu::cold, gnu::noinline]] inline void sweep_again(Step& step) noexcept {
+  step.found.clear();
+  sweep<Covered::yields>(step, step.motion, step.neighbourhood.around(step.motion.box(), step.motion.displacement));
+  sweep_movers<Covered::yields>(step);
+}
+
+/// Whether a covered facet stopped the last sweep.
+[[nodiscard]] inline bool stops_at_covered(const Step& step) noexcept {
+  if (!step.found.hit) return false;
+  if (step.found.stops.size() == 1) return step.found.stops[0].axes.covered;  // the usual case
+  return std::any_of(step.found.stops.begin(), step.found.stops.end(),
+                     [](const Stop& stop) { return stop.axes.covered; });
 }
 
 /// Puts the stop first whose normal points up most; of equals the one with the lowest index.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::order_stops() noexcept {
-  if (found_.stops.size() < 2) return;
-  const auto less_up = [this](const Stop<Scalar>& a, const Stop<Scalar>& b) {
-    return up_.up_of(space_.normal(a.piece, a.axes.normal)) < up_.up_of(space_.normal(b.piece, b.axes.normal));
+inline void order_stops(Step& step) noexcept {
+  if (step.found.stops.size() < 2) return;
+  const auto less_up = [&](const Stop& a, const Stop& b) {
+    return step.up.up_of(step.space.normal(a.piece, a.axes.normal)) <
+           step.up.up_of(step.space.normal(b.piece, b.axes.normal));
   };
-  std::swap(found_.stops[0], *std::max_element(found_.stops.begin(), found_.stops.end(), less_up));
+  std::swap(step.found.stops[0], *std::max_element(step.found.stops.begin(), step.found.stops.end(), less_up));
 }
 
-/// Advances along the motion of the last sweep up to fraction `stop`. False where that cannot be certified, or leaves
-/// the range: then nothing has changed.
-template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::advance(Scalar stop) noexcept {
-  if (stop == 0) return true;
-  V target = motion_.from + motion_.displacement * stop;
-  Scalar end = time_ + (1 - time_) * stop;
-  if (stop == 1) end = 1;
-  if (moving_.anchored) note_motion_on_ground();
-  if (moving_.anchored) target = anchor(end);
-  const Scalar furthest = std::max(std::abs(target.x()), std::abs(target.y()));
-  if (!(furthest <= Tolerances<Scalar>{}.range)) return false;
-  if (certify_ && !certified(target, end)) return false;
-  position_ = target;
-  on_ground_ = false;
-  time_ = end;
-  push_corner(time_);
-  return true;
+/// Sweeps from the present position. Motion and result are in `motion` and `found`.
+[[gnu::flatten]] inline void sweep_along(Step& step, const Vec2& displacement) noexcept {
+  step.motion = make_motion(step.space, step.position, displacement);
+  step.found.clear();
+  sweep<Covered::as_any>(step, step.motion, step.neighbourhood.around(step.motion.box(), displacement));
+  sweep_movers<Covered::as_any>(step);
+  if (stops_at_covered(step)) [[unlikely]]
+    sweep_again(step);
+  order_stops(step);
+}
+
+[[nodiscard]] inline bool blocks_exactly(const Step& step, PieceIndex piece, const Vec2& target, Real end) noexcept {
+  return best_axis(step.space, piece, local(step, piece, step.position)).separation < tolerances.certain &&
+         !exactly_clear(step, piece, step.position, target, end);
 }
 
 /// Whether the straight motion to `target` is proved clear of every piece that is nearer than rounding at its start.
 /// For pieces that are further away the sweep is proof enough.
-template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::certified(const V& target, Scalar end) noexcept {
-  return !any_near({position_, position_}, [&](PieceIndex piece) { return blocks_exactly(piece, target, end); });
+[[nodiscard, gnu::cold, gnu::noinline]] inline bool certified(Step& step, const Vec2& target, Real end) noexcept {
+  return !any_near(step, {step.position, step.position},
+                   [&](PieceIndex piece) { return blocks_exactly(step, piece, target, end); });
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::blocks_exactly(PieceIndex piece, const V& target, Scalar end) const noexcept {
-  return best_axis<Lanes>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
-         !exactly_clear(piece, position_, target, end);
-}
-
-/// Reports the contacts of one moment, the earliest impact first.
-/// @param begin when the motion of the last sweep began.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
-  const std::size_t before = result_.contacts.size();
-  on_ground_ = false;
-  for (const Stop<Scalar>& stop : found_.stops) {
-    const V normal = space_.normal(stop.piece, stop.axes.normal);
-    if (walkable(normal) && !on_ground_) {
-      met_ground_ = on_ground_ = true;
-      ground_ = stop.piece;
-      ground_axis_ = stop.axes.normal;
-    }
-    Scalar fraction = fraction_of(stop, begin);
-    if (begin == 0 && before > 0) [[unlikely]]
-      fraction = fraction_after_contacts(stop.piece, fraction);
-    report_contact(stop.piece, stop.axes.normal, fraction, before);
-  }
-  if (found_.stops.overflowed()) [[unlikely]]
-    report_more(begin, before);
-  // What the character touched when the motion began holds up nothing: the motion need not have closed that gap.
-  if (found_.stop > 0)
-    for (std::size_t i = before; i < result_.contacts.size(); ++i)
-      latest_impact_ = std::max(latest_impact_, result_.contacts[i].fraction);
-  note_reported();
-}
-
-/// Notes what was reported up to the last corner of the path.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::note_reported() noexcept {
-  memory_.reported_at[result_.path.size() - 1] = {result_.contacts.size(), latest_impact_};
+/// Advances along the motion of the last sweep up to fraction `stop`. False where that cannot be certified, or leaves
+/// the range: then nothing has changed.
+[[nodiscard]] inline bool advance(Step& step, Real stop) noexcept {
+  if (stop == 0) return true;
+  Vec2 target = step.motion.from + step.motion.displacement * stop;
+  Real end = step.time + (1 - step.time) * stop;
+  if (stop == 1) end = 1;
+  if (step.moving.anchored) note_motion_on_ground(step);
+  if (step.moving.anchored) target = anchor(step, end);
+  const Real furthest = std::max(std::abs(target.x()), std::abs(target.y()));
+  if (!(furthest <= tolerances.range)) return false;
+  if (step.certify && !certified(step, target, end)) return false;
+  step.position = target;
+  step.on_ground = false;
+  step.time = end;
+  push_corner(step, step.time);
+  return true;
 }
 
 /// Reports one contact for each collider and normal: the same polygon may be floor and wall. No contact gets an earlier
 /// fraction than an impact that came before, although a motion stops a little before its time of impact.
 /// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
-                                                   std::size_t this_moment) noexcept {
-  auto& contacts = result_.contacts;
-  fraction = std::max(fraction, latest_impact_);
-  const ColliderIndex collider = collider_of(piece);
-  const V normal = space_.normal(piece, axis);
-  Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
-    return other.collider == collider && dot(other.normal, normal) > 1 - same_plane<Scalar>;
+inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real fraction,
+                           std::size_t this_moment) noexcept {
+  auto& contacts = step.result.contacts;
+  fraction = std::max(fraction, step.latest_impact);
+  const ColliderIndex collider = collider_of(step, piece);
+  const Vec2 normal = step.space.normal(piece, axis);
+  Contact* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& other) {
+    return other.collider == collider && dot(other.normal, normal) > 1 - same_plane;
   });
   if (known != contacts.end() && (known < contacts.begin() + this_moment || known->fraction <= fraction)) return;
-  const ContactPlace<Scalar> place = contact_place(space_, piece, axis, normal, local(piece, position_));
-  const Contact<Scalar> contact{.collider = collider,
-                                .point = place.point + offset(piece),
-                                .normal = normal,
-                                .fraction = fraction,
-                                .separation = place.separation,
-                                .side = up_.side_of(normal)};
+  const ContactPlace place = contact_place(step.space, piece, axis, normal, local(step, piece, step.position));
+  const Contact contact{.collider = collider,
+                        .point = place.point + offset(step, piece),
+                        .normal = normal,
+                        .fraction = fraction,
+                        .separation = place.separation,
+                        .side = step.up.side_of(normal)};
   if (known != contacts.end())
     *known = contact;
   else
-    contacts.push_back(contact, memory_.contacts);
+    contacts.push_back(contact, step.memory.contacts);
 }
 
-/// Reports all pieces that stopped the last sweep, where there were too many to keep.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_moment) noexcept {
-  const auto report_hit = [&](const LocalMotion& motion, PieceIndex piece) {
-    constexpr Tolerances<Scalar> tolerances{};
-    if (ignored(piece) || !in_way(motion, piece)) return;
-    const Clearance<Scalar> clear = clearance(space_, motion, piece);
-    if (clear.clear()) return;
-    const Scalar together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Scalar(0);
-    const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear, up_);
-    if (hit.hit && hit.stop <= found_.stop + together)
-      report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
-  };
-  for (const PieceIndex piece : neighbourhood_.around(motion_.box(), motion_.displacement)) report_hit(motion_, piece);
-  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
-    const LocalMotion motion = motion_seen_by(mover, begin);
-    const PieceRange pieces = space_.scenery().pieces_of_mover(mover);
-    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
+/// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
+[[nodiscard]] inline std::span<const PieceIndex> pieces_along(Step& step, const Motion& motion,
+                                                              MoverIndex mover) noexcept {
+  if (mover != no_mover)
+    return step.movers.phases.query(mover, step.space.touched_from(motion.box()), step.memory.of_mover);
+  return step.neighbourhood.around(motion.box(), motion.displacement);
+}
+
+/// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
+[[nodiscard, gnu::noinline]] inline Real impact_with_another_piece(Step& step, const Stop& stop, const Motion& motion,
+                                                                   const Vec2& from) noexcept {
+  Real earliest = std::numeric_limits<Real>::infinity();
+  const std::span<const PieceInfo> pieces = step.space.scenery().pieces();
+  for (const PieceIndex other : pieces_along(step, motion, pieces[stop.piece].mover)) {
+    if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
+    if (!in_way(step, motion, other)) continue;
+    const Clearance clear = clearance(step.space, motion, other);
+    if (clear.clear()) continue;
+    const PieceHit hit = sweep_piece(step.space, motion, other, clear, step.up);
+    if (hit.hit) earliest = std::min(earliest, time_of_impact(step.space, from, motion.displacement, other, hit.axes));
   }
+  return earliest;
 }
 
-/// Puts the contacts in order of fraction; those of one fraction stay as they were met.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::order_contacts() noexcept {
-  const auto begin = result_.contacts.begin();
-  for (auto contact = begin; contact != result_.contacts.end(); ++contact) {
-    const auto place =
-        std::upper_bound(begin, contact, contact->fraction,
-                         [](Scalar fraction, const Contact<Scalar>& other) { return fraction < other.fraction; });
-    std::rotate(place, contact, contact + 1);
-  }
-}
-
-/// Reports a contact with a piece that is touched now.
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::report_touched(PieceIndex piece) noexcept {
-  const std::size_t axis = best_axis<Lanes>(space_, piece, local(piece, position_)).axis;
-  report_contact(piece, axis, time_, result_.contacts.size());
+/// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
+/// before its time of impact: another piece of the same collider may be hit in between.
+[[nodiscard]] inline Real impact_of(Step& step, const Stop& stop, const Motion& motion, const Vec2& from) noexcept {
+  Real earliest = time_of_impact(step.space, from, motion.displacement, stop.piece, stop.axes);
+  if ((earliest - stop.stop) * motion.length <= 2 * tolerances.stop) return earliest;
+  if (!step.space.info(stop.piece).whole_collider)
+    earliest = std::min(earliest, impact_with_another_piece(step, stop, motion, from));
+  return earliest;
 }
 
 /// Time of impact with the collider of a piece in the last sweep, as a fraction of the step.
 /// @param begin when that motion began.
-template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept {
-  const V& from = begin == 0 ? start_ : motion_.from;
-  const MoverIndex mover = mover_of(stop.piece);
+[[nodiscard]] inline Real fraction_of(Step& step, const Stop& stop, Real begin) noexcept {
+  const Vec2& from = begin == 0 ? step.start : step.motion.from;
+  const MoverIndex mover = mover_of(step, stop.piece);
   if (mover != no_mover) {
-    const V shift = movers_.offset(mover, begin);
-    return begin + (1 - begin) * impact_of(stop, motion_seen_by(mover, begin), V(from - shift));
+    const Vec2 shift = step.movers.offset(mover, begin);
+    return begin + (1 - begin) * impact_of(step, stop, motion_seen_by(step, mover, begin), Vec2(from - shift));
   }
-  return begin + (1 - begin) * impact_of(stop, motion_, from);
+  return begin + (1 - begin) * impact_of(step, stop, step.motion, from);
+}
+
+/// Reports all pieces that stopped the last sweep, where there were too many to keep.
+[[gnu::cold, gnu::noinline]] inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
+  const auto report_hit = [&](const Motion& motion, PieceIndex piece) {
+    if (ignored(step, piece) || !in_way(step, motion, piece)) return;
+    const Clearance clear = clearance(step.space, motion, piece);
+    if (clear.clear()) return;
+    const Real together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Real(0);
+    const PieceHit hit = sweep_piece(step.space, motion, piece, clear, step.up);
+    if (hit.hit && hit.stop <= step.found.stop + together)
+      report_contact(step, piece, hit.axes.normal, fraction_of(step, {piece, hit.stop, together, hit.axes}, begin),
+                     this_moment);
+  };
+  for (const PieceIndex piece : step.neighbourhood.around(step.motion.box(), step.motion.displacement))
+    report_hit(step.motion, piece);
+  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
+    const Motion motion = motion_seen_by(step, mover, begin);
+    const PieceRange pieces = step.space.scenery().pieces_of_mover(mover);
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
+  }
 }
 
 /// The fraction of a contact that is met before any time has passed, by a motion that other contacts have turned.
 /// Either the wanted motion comes to it before it comes to them, or it comes after the first of them.
 /// @param turned time of impact of the motion that was turned.
-template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::fraction_after_contacts(PieceIndex piece, Scalar turned) noexcept {
-  Scalar first = 1;
-  for (const Contact<Scalar>& contact : result_.contacts) first = std::min(first, contact.fraction);
-  const MoverIndex mover = mover_of(piece);
-  const V offset = mover == no_mover ? V(V::Zero()) : movers_.offset(mover, 0);
-  const V way = mover == no_mover ? wanted_ : V(wanted_ - movers_.displacement(mover));
-  LocalMotion motion = make_motion<Lanes>(space_, V(start_ - offset), way);
-  motion.lost = lost_by(start_, offset);
-  if (in_way(motion, piece)) {
-    const Clearance<Scalar> clear = clearance(space_, motion, piece);
-    const PieceHit<Scalar> hit = clear.clear() ? PieceHit<Scalar>{} : sweep_piece(space_, motion, piece, clear, up_);
-    const Scalar wanted = hit.hit ? time_of_impact(space_, motion.from, way, piece, hit.axes) : first;
+[[nodiscard, gnu::cold, gnu::noinline]] inline Real fraction_after_contacts(Step& step, PieceIndex piece,
+                                                                            Real turned) noexcept {
+  Real first = 1;
+  for (const Contact& contact : step.result.contacts) first = std::min<Real>(first, contact.fraction);
+  const MoverIndex mover = mover_of(step, piece);
+  const Vec2 offset = mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.offset(mover, 0);
+  const Vec2 way = mover == no_mover ? step.wanted : Vec2(step.wanted - step.movers.displacement(mover));
+  Motion motion = make_motion(step.space, Vec2(step.start - offset), way);
+  motion.lost = lost_by(step.start, offset);
+  if (in_way(step, motion, piece)) {
+    const Clearance clear = clearance(step.space, motion, piece);
+    const PieceHit hit = clear.clear() ? PieceHit{} : sweep_piece(step.space, motion, piece, clear, step.up);
+    const Real wanted = hit.hit ? time_of_impact(step.space, motion.from, way, piece, hit.axes) : first;
     if (wanted < first) return wanted;
   }
   return std::max(first, turned);
 }
 
-/// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
-/// before its time of impact: another piece of the same collider may be hit in between.
-template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                                const V& from) noexcept {
-  Scalar earliest = time_of_impact(space_, from, motion.displacement, stop.piece, stop.axes);
-  if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
-  if (!space_.info(stop.piece).whole_collider)
-    earliest = std::min(earliest, impact_with_another_piece(stop, motion, from));
-  return earliest;
-}
-
-/// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
-template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                                                const V& from) noexcept {
-  Scalar earliest = std::numeric_limits<Scalar>::infinity();
-  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
-  for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
-    if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
-    if (!in_way(motion, other)) continue;
-    const Clearance<Scalar> clear = clearance(space_, motion, other);
-    if (clear.clear()) continue;
-    const PieceHit<Scalar> hit = sweep_piece(space_, motion, other, clear, up_);
-    if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.displacement, other, hit.axes));
+/// Reports the contacts of one moment, the earliest impact first.
+/// @param begin when the motion of the last sweep began.
+[[gnu::flatten]] inline void report(Step& step, Real begin) noexcept {
+  const std::size_t before = step.result.contacts.size();
+  step.on_ground = false;
+  for (const Stop& stop : step.found.stops) {
+    const Vec2 normal = step.space.normal(stop.piece, stop.axes.normal);
+    if (walkable(step, normal) && !step.on_ground) {
+      step.met_ground = step.on_ground = true;
+      step.ground = stop.piece;
+      step.ground_axis = stop.axes.normal;
+    }
+    Real fraction = fraction_of(step, stop, begin);
+    if (begin == 0 && before > 0) [[unlikely]]
+      fraction = fraction_after_contacts(step, stop.piece, fraction);
+    report_contact(step, stop.piece, stop.axes.normal, fraction, before);
   }
-  return earliest;
+  if (step.found.stops.overflowed()) [[unlikely]]
+    report_more(step, begin, before);
+  // What the character touched when the motion began holds up nothing: the motion need not have closed that gap.
+  if (step.found.stop > 0)
+    for (std::size_t i = before; i < step.result.contacts.size(); ++i)
+      step.latest_impact = std::max<Real>(step.latest_impact, step.result.contacts[i].fraction);
+  note_reported(step);
 }
 
-/// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
-template <std::size_t Lanes, class Scalar, class Up>
-std::span<const PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_along(const LocalMotion& motion,
-                                                                        MoverIndex mover) noexcept {
-  if (mover != no_mover) return movers_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
-  return neighbourhood_.around(motion.box(), motion.displacement);
+/// Puts the contacts in order of fraction; those of one fraction stay as they were met.
+[[gnu::cold, gnu::noinline]] inline void order_contacts(Step& step) noexcept {
+  const auto begin = step.result.contacts.begin();
+  for (auto contact = begin; contact != step.result.contacts.end(); ++contact) {
+    const auto place = std::upper_bound(begin, contact, contact->fraction,
+                                        [](Real fraction, const Contact& other) { return fraction < other.fraction; });
+    std::rotate(place, contact, contact + 1);
+  }
 }
 
-template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::push_corner(Scalar fraction) noexcept {
-  if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
-    return;
-  result_.path.push_back({position_, fraction}, memory_.corners);
-  note_reported();
+/// Reports a contact with a piece that is touched now.
+[[gnu::cold, gnu::noinline]] inline void report_touched(Step& step, PieceIndex piece) noexcept {
+  const std::size_t axis = best_axis(step.space, piece, local(step, piece, step.position)).axis;
+  report_contact(step, piece, axis, step.time, step.result.contacts.size());
 }
 
-}  // namespace paperproof::octagon_sweep
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -7,17 +7,16 @@ namespace paperproof {
 namespace {
 
 /// The search of the core, with its tree or without.
-template <class Scalar>
-class CoreSearch final : public BroadPhase<Scalar> {
+class CoreSearch final : public BroadPhase {
  public:
-  CoreSearch(std::span<const Box2<Scalar>> boxes, PieceSearch search) : tree_(boxes, search) {}
+  CoreSearch(std::span<const Box2> boxes, PieceSearch search) : tree_(boxes, search) {}
 
-  [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept override {
+  [[nodiscard]] std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept override {
     return tree_.query(query, found);
   }
 
  private:
-  broad_phase::Tree<Scalar> tree_;
+  broad_phase::Tree tree_;
 };
 
 }  // namespace
@@ -34,14 +33,10 @@ std::string_view name_of(BroadPhaseKind kind) noexcept {
   return "tree";
 }
 
-template <class Scalar>
-std::unique_ptr<BroadPhase<Scalar>> make_broad_phase(BroadPhaseKind kind, std::span<const Box2<Scalar>> boxes) {
-  if (kind == BroadPhaseKind::buckets) return std::make_unique<broad_phase::Buckets<Scalar>>(boxes);
+std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, std::span<const Box2> boxes) {
+  if (kind == BroadPhaseKind::buckets) return std::make_unique<broad_phase::Buckets>(boxes);
   const bool all_pairs = kind == BroadPhaseKind::all_pairs;
-  return std::make_unique<CoreSearch<Scalar>>(boxes, all_pairs ? PieceSearch::one_by_one : PieceSearch::tree);
+  return std::make_unique<CoreSearch>(boxes, all_pairs ? PieceSearch::one_by_one : PieceSearch::tree);
 }
-
-template std::unique_ptr<BroadPhase<float>> make_broad_phase(BroadPhaseKind, std::span<const Box2<float>>);
-template std::unique_ptr<BroadPhase<double>> make_broad_phase(BroadPhaseKind, std::span<const Box2<double>>);
 
 }  // namespace paperproof

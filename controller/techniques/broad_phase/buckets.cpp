@@ -14,77 +14,64 @@ constexpr std::int64_t most_cells_of_a_box = 64;
 constexpr double last_cell = 0x1p30;
 
 /// The value that a fraction of all values lies below. Reorders them.
-template <class Scalar>
-Scalar quantile(std::vector<Scalar>& values, std::size_t quarters) {
+double quantile(std::vector<double>& values, std::size_t quarters) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * quarters / 4);
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
 /// Spread of the middle half of the boxes along an axis [m].
-template <class Scalar>
-Scalar middle_spread(std::span<const Box2<Scalar>> boxes, Eigen::Index axis) {
-  std::vector<Scalar> lower;
-  for (const Box2<Scalar>& box : boxes) lower.push_back(box.lower[axis]);
+double middle_spread(std::span<const Box2> boxes, Eigen::Index axis) {
+  std::vector<double> lower;
+  for (const Box2& box : boxes) lower.push_back(box.lower[axis]);
   return quantile(lower, 3) - quantile(lower, 1);
 }
 
 /// The side of a square that holds one box, on average, if boxes lie evenly: half of them in half of the width [m].
-template <class Scalar>
-Scalar spacing(std::span<const Box2<Scalar>> boxes) {
-  const auto count = static_cast<Scalar>(boxes.size());
-  const Scalar width = 2 * middle_spread(boxes, 0);
-  const Scalar height = 2 * middle_spread(boxes, 1);
+double spacing(std::span<const Box2> boxes) {
+  const auto count = static_cast<double>(boxes.size());
+  const double width = 2 * middle_spread(boxes, 0);
+  const double height = 2 * middle_spread(boxes, 1);
   // Two roots, because the product could overflow. Along a line the other side is zero.
   return std::max(std::sqrt(width) * std::sqrt(height) / std::sqrt(count), std::max(width, height) / count);
 }
 
-template <class Scalar>
-Scalar median_of_longer_sides(std::span<const Box2<Scalar>> boxes) {
-  std::vector<Scalar> sides;
-  for (const Box2<Scalar>& box : boxes) sides.push_back((box.upper - box.lower).maxCoeff());
+double median_of_longer_sides(std::span<const Box2> boxes) {
+  std::vector<double> sides;
+  for (const Box2& box : boxes) sides.push_back((box.upper - box.lower).maxCoeff());
   return quantile(sides, 2);
 }
 
 /// Any number will do where all boxes are points in one place.
-template <class Scalar>
-Scalar cells_per_metre(std::span<const Box2<Scalar>> boxes) {
+double cells_per_metre(std::span<const Box2> boxes) {
   if (boxes.empty()) return 1;
-  const Scalar side = std::max(median_of_longer_sides(boxes), spacing(boxes));
-  const Scalar per_metre = 1 / side;
-  return std::isfinite(per_metre) ? per_metre : Scalar(1);
+  const double side = std::max(median_of_longer_sides(boxes), spacing(boxes));
+  const double per_metre = 1 / side;
+  return std::isfinite(per_metre) ? per_metre : 1.0;
 }
 
 }  // namespace
 
-template <class Scalar>
-Buckets<Scalar>::Buckets(std::span<const Box2<Scalar>> boxes)
-    : boxes_(boxes), cells_per_metre_(cells_per_metre(boxes)) {
-  fill();
-}
+Buckets::Buckets(std::span<const Box2> boxes) : boxes_(boxes), cells_per_metre_(cells_per_metre(boxes)) { fill(); }
 
 /// The cell number never falls as the coordinate rises, with any rounding, so boxes that overlap share a cell.
-template <class Scalar>
-std::int64_t Buckets<Scalar>::cell_of(Scalar coordinate) const noexcept {
-  const double cell = std::floor(static_cast<double>(coordinate * cells_per_metre_));
+std::int64_t Buckets::cell_of(double coordinate) const noexcept {
+  const double cell = std::floor(coordinate * cells_per_metre_);
   return static_cast<std::int64_t>(std::clamp(cell, -last_cell, last_cell));
 }
 
-template <class Scalar>
-typename Buckets<Scalar>::Cells Buckets<Scalar>::cells_of(const Box2<Scalar>& box) const noexcept {
+typename Buckets::Cells Buckets::cells_of(const Box2& box) const noexcept {
   return {{cell_of(box.lower.x()), cell_of(box.lower.y())}, {cell_of(box.upper.x()), cell_of(box.upper.y())}};
 }
 
 /// Multiplying by a large odd number spreads neighbours over the upper bits, which are then folded onto the lower ones.
-template <class Scalar>
-std::size_t Buckets<Scalar>::bucket_of(const Cell& cell) const noexcept {
+std::size_t Buckets::bucket_of(const Cell& cell) const noexcept {
   const std::uint64_t of_x = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15U;
   const std::uint64_t mixed = (of_x ^ (of_x >> 32U) ^ static_cast<std::uint64_t>(cell.y)) * 0xd6e8feb86659fd93U;
   return static_cast<std::size_t>(mixed ^ (mixed >> 32U)) & (first_entry_.size() - 2);
 }
 
-template <class Scalar>
-void Buckets<Scalar>::fill() {
+void Buckets::fill() {
   std::vector<Entry> unsorted;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const auto piece = static_cast<PieceIndex>(i);
@@ -107,14 +94,12 @@ void Buckets<Scalar>::fill() {
 }
 
 /// A box may be in several of the query's cells. It counts only in the first cell that both share.
-template <class Scalar>
-bool Buckets<Scalar>::is_first_cell(const Cell& cell, const Cells& cells, const Box2<Scalar>& box) const noexcept {
+bool Buckets::is_first_cell(const Cell& cell, const Cells& cells, const Box2& box) const noexcept {
   return cell.x == std::max(cells.lower.x, cell_of(box.lower.x())) &&
          cell.y == std::max(cells.lower.y, cell_of(box.lower.y()));
 }
 
-template <class Scalar>
-std::size_t Buckets<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+std::size_t Buckets::query(const Box2& query, std::span<PieceIndex> found) const noexcept {
   std::size_t count = 0;
   const auto look_at = [&](PieceIndex piece) {
     if (!boxes_[piece].overlaps(query)) return;
@@ -140,8 +125,5 @@ std::size_t Buckets<Scalar>::query(const Box2<Scalar>& query, std::span<PieceInd
   if (count <= found.size()) std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
   return count;
 }
-
-template class Buckets<float>;
-template class Buckets<double>;
 
 }  // namespace paperproof::broad_phase

@@ -17,12 +17,11 @@ namespace paperproof::broad_phase {
 ///
 /// A box that would fill more than 64 cells is not in the grid; every query looks at it. A query that covers more cells
 /// than there are boxes looks at all boxes instead.
-template <class Scalar>
-class Buckets final : public BroadPhase<Scalar> {
+class Buckets final : public BroadPhase {
  public:
-  explicit Buckets(std::span<const Box2<Scalar>> boxes);
+  explicit Buckets(std::span<const Box2> boxes);
 
-  [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept override;
+  [[nodiscard]] std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept override;
 
  private:
   struct Cell {
@@ -41,14 +40,14 @@ class Buckets final : public BroadPhase<Scalar> {
     PieceIndex piece = 0;
   };
 
-  [[nodiscard]] std::int64_t cell_of(Scalar coordinate) const noexcept;
-  [[nodiscard]] Cells cells_of(const Box2<Scalar>& box) const noexcept;
+  [[nodiscard]] std::int64_t cell_of(double coordinate) const noexcept;
+  [[nodiscard]] Cells cells_of(const Box2& box) const noexcept;
   [[nodiscard]] std::size_t bucket_of(const Cell& cell) const noexcept;
-  [[nodiscard]] bool is_first_cell(const Cell& cell, const Cells& cells, const Box2<Scalar>& box) const noexcept;
+  [[nodiscard]] bool is_first_cell(const Cell& cell, const Cells& cells, const Box2& box) const noexcept;
   void fill();
 
-  std::span<const Box2<Scalar>> boxes_;
-  Scalar cells_per_metre_ = 1;
+  std::span<const Box2> boxes_;
+  double cells_per_metre_ = 1;
   std::vector<PieceIndex> large_;           ///< Boxes that are not in the grid.
   std::vector<std::uint32_t> first_entry_;  ///< By bucket, and one more: where the last one ends.
   std::vector<Entry> entries_;

@@ -42,75 +42,67 @@ using discrete::Frame;
 using discrete::SolvedImpact;
 using discrete::Workplace;
 
-template <class Scalar>
-class Discrete final : public JointTechnique<Scalar> {
+class Discrete final : public JointTechnique {
  public:
-  Discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+  Discrete(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
-        broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
-        box_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
+        broad_phase_(make_broad_phase(def.broad_phase, scenery.static_boxes())),
+        box_{character.shape.box().lower, character.shape.box().upper},
         iterations_(def.article.iterations),
         fastest_surface_(fastest_surface(scenery)) {
-    for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner.cast<Scalar>());
+    for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner);
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "discrete"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return make_joint_scratch(1); }
-  [[nodiscard]] Scratch<Scalar> make_joint_scratch(std::size_t most_characters) const override;
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override;
-  bool move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
-                     CrowdReport<Scalar>& report) const noexcept override;
+  [[nodiscard]] Scratch make_scratch() const override { return make_joint_scratch(1); }
+  [[nodiscard]] Scratch make_joint_scratch(std::size_t most_characters) const override;
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
+  bool move_together(std::span<const MoveRequest> requests, Scratch& scratch,
+                     CrowdReport& report) const noexcept override;
 
  private:
-  using Frames = std::span<Frame<Scalar>>;
+  using Frames = std::span<Frame>;
 
   /// What the character overlaps.
   struct Inside {
     bool anything = false;
-    bool what_stands_still = false;                  ///< By however little: a push must not lead into it.
-    decltype(MoveResult<Scalar>::crushed) movers{};  ///< Colliders of those that move in this step.
+    bool what_stands_still = false;          ///< By however little: a push must not lead into it.
+    decltype(MoveResult::crushed) movers{};  ///< Colliders of those that move in this step.
   };
 
-  void add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, CrowdMember<Scalar>* member,
-                 std::vector<Frame<Scalar>>& frames) const noexcept;
-  [[nodiscard]] std::size_t move_all(Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] Body<Scalar> body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept;
-  [[nodiscard]] std::span<Body<Scalar>> gather(std::span<const Frame<Scalar>> frames,
-                                               Scratch<Scalar>& scratch) const noexcept;
-  void note_company(Frames frames, const Workplace<Scalar>& work) const noexcept;
-  [[nodiscard]] std::size_t report(Frames frames, const Workplace<Scalar>& work) const noexcept;
-  void report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact, PieceIndex piece) const noexcept;
-  void report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept;
-  [[nodiscard]] bool take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept;
-  [[nodiscard]] bool pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] bool passes_static(const Vec2<Scalar>& from, const Vec2<Scalar>& to,
-                                   Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] Inside find_inside(const Frame<Scalar>& frame, bool at_end, Scratch<Scalar>& scratch) const noexcept;
-  void stay(Frame<Scalar>& frame) const noexcept;
-  void finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept;
-  void arrive(Frame<Scalar>& frame) const noexcept;
-  void measure_gaps(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept;
+  void add_frame(const MoveRequest& request, MoveResult& result, CrowdMember* member,
+                 std::vector<Frame>& frames) const noexcept;
+  [[nodiscard]] std::size_t move_all(Scratch& scratch) const noexcept;
+  [[nodiscard]] Body body_of(PieceIndex piece, const FrameOfReference& place) const noexcept;
+  [[nodiscard]] std::span<Body> gather(std::span<const Frame> frames, Scratch& scratch) const noexcept;
+  void note_company(Frames frames, const Workplace& work) const noexcept;
+  [[nodiscard]] std::size_t report(Frames frames, const Workplace& work) const noexcept;
+  void report_piece(Frame& frame, const discrete::Impact& impact, PieceIndex piece) const noexcept;
+  void report_meeting(Frames frames, const SolvedImpact& solved) const noexcept;
+  [[nodiscard]] bool take_along(Frame& frame, ColliderIndex ground, double time) const noexcept;
+  [[nodiscard]] bool pushed_through(Frames frames, BodyIndex character, Scratch& scratch) const noexcept;
+  [[nodiscard]] bool passes_static(const Vec2d& from, const Vec2d& to, Scratch& scratch) const noexcept;
+  [[nodiscard]] Inside find_inside(const Frame& frame, bool at_end, Scratch& scratch) const noexcept;
+  void stay(Frame& frame) const noexcept;
+  void finish(Frame& frame, Scratch& scratch) const noexcept;
+  void arrive(Frame& frame) const noexcept;
+  void measure_gaps(const Vec2d& position, MoveResult& result) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;
-  Box2<Scalar> box_;
+  const Scenery* scenery_;
+  std::unique_ptr<BroadPhase> broad_phase_;
+  FixedVector<Vec2d, CharacterShape::max_points> outline_;
+  Box2 box_;
   int iterations_;
-  Scalar fastest_surface_;
+  double fastest_surface_;
 };
 
-template <class Scalar>
-Workplace<Scalar>& workplace_of(Scratch<Scalar>& scratch) noexcept {
-  return static_cast<Workplace<Scalar>&>(*scratch.own);
-}
+Workplace& workplace_of(Scratch& scratch) noexcept { return static_cast<Workplace&>(*scratch.own); }
 
-template <class Scalar>
-Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters) const {
+Scratch Discrete::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
-  Scratch<Scalar> scratch;
+  Scratch scratch;
   scratch.solids.pieces = PieceBuffer(pieces);
-  auto own = std::make_unique<Workplace<Scalar>>();
+  auto own = std::make_unique<Workplace>();
   own->frames.reserve(most_characters);
   own->bodies.reserve(pieces + most_characters);
   own->near.reserve(pieces);
@@ -124,24 +116,21 @@ Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters
   return scratch;
 }
 
-template <class Scalar>
-void Discrete<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-                            MoveResult<Scalar>& result) const noexcept {
+void Discrete::move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept {
   if (article::leaves_range(*scenery_, fastest_surface_, request)) return article::refuse(request, result);
-  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  std::vector<Frame>& frames = workplace_of(scratch).frames;
   frames.clear();
   add_frame(request, result, nullptr, frames);
   (void)move_all(scratch);
 }
 
-template <class Scalar>
-bool Discrete<Scalar>::move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
-                                     CrowdReport<Scalar>& report) const noexcept {
-  const auto leaves = [&](const MoveRequest<Scalar>& request) {
+bool Discrete::move_together(std::span<const MoveRequest> requests, Scratch& scratch,
+                             CrowdReport& report) const noexcept {
+  const auto leaves = [&](const MoveRequest& request) {
     return article::leaves_range(*scenery_, fastest_surface_, request);
   };
   if (std::any_of(requests.begin(), requests.end(), leaves)) return false;
-  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  std::vector<Frame>& frames = workplace_of(scratch).frames;
   frames.clear();
   for (std::size_t i = 0; i < requests.size(); ++i)
     add_frame(requests[i], report.members[i].step.move, &report.members[i], frames);
@@ -150,13 +139,11 @@ bool Discrete<Scalar>::move_together(std::span<const MoveRequest<Scalar>> reques
 }
 
 /// The character as it wants to move.
-template <class Scalar>
-void Discrete<Scalar>::add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
-                                 CrowdMember<Scalar>* member, std::vector<Frame<Scalar>>& frames) const noexcept {
+void Discrete::add_frame(const MoveRequest& request, MoveResult& result, CrowdMember* member,
+                         std::vector<Frame>& frames) const noexcept {
   result.clear();
-  Frame<Scalar>& frame =
-      frames.emplace_back(Frame<Scalar>{request, FrameOfReference<Scalar>(*scenery_, request), result, member});
-  frame.character.outline = std::span<const Vec2<Scalar>>(outline_.begin(), outline_.end());
+  Frame& frame = frames.emplace_back(Frame{request, FrameOfReference(*scenery_, request), result, member});
+  frame.character.outline = std::span<const Vec2d>(outline_.begin(), outline_.end());
   frame.character.box = box_;
   frame.character.base = frame.place.motion_of(frame.place.mover());
   frame.character.position = frame.place.start();
@@ -166,16 +153,15 @@ void Discrete<Scalar>::add_frame(const MoveRequest<Scalar>& request, MoveResult<
 }
 
 /// All frames of the workplace. @return how many impacts between characters were solved.
-template <class Scalar>
-std::size_t Discrete<Scalar>::move_all(Scratch<Scalar>& scratch) const noexcept {
-  Workplace<Scalar>& work = workplace_of(scratch);
+std::size_t Discrete::move_all(Scratch& scratch) const noexcept {
+  Workplace& work = workplace_of(scratch);
   const Frames frames = work.frames;
   std::size_t impacts = 0;
   bool left_over = true;
   bool overflowed = false;
   for (int iteration = 0; left_over && iteration < iterations_; ++iteration) {
-    for (Frame<Scalar>& frame : frames) frame.expected = frame.character.expected();
-    const std::span<Body<Scalar>> bodies = gather(frames, scratch);
+    for (Frame& frame : frames) frame.expected = frame.character.expected();
+    const std::span<Body> bodies = gather(frames, scratch);
     work.solver.solve_once(bodies);
     for (std::size_t i = 0; i < frames.size(); ++i) frames[i].character = bodies[i];
     if (iteration == 0) note_company(frames, work);
@@ -183,9 +169,9 @@ std::size_t Discrete<Scalar>::move_all(Scratch<Scalar>& scratch) const noexcept 
     impacts += report(frames, work);
     for (BodyIndex i = 0; i < frames.size(); ++i)
       if (pushed_through(frames, i, scratch)) stay(frames[i]);
-    left_over = std::any_of(frames.begin(), frames.end(), [](const Frame<Scalar>& frame) { return frame.left_over; });
+    left_over = std::any_of(frames.begin(), frames.end(), [](const Frame& frame) { return frame.left_over; });
   }
-  for (Frame<Scalar>& frame : frames) {
+  for (Frame& frame : frames) {
     if (overflowed && !frame.stays) frame.result.status = MoveStatus::dropped;
     finish(frame, scratch);
   }
@@ -193,10 +179,9 @@ std::size_t Discrete<Scalar>::move_all(Scratch<Scalar>& scratch) const noexcept 
 }
 
 /// A piece as it goes, in the frame of reference of its mover.
-template <class Scalar>
-Body<Scalar> Discrete<Scalar>::body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept {
+Body Discrete::body_of(PieceIndex piece, const FrameOfReference& place) const noexcept {
   const PieceInfo& info = scenery_->pieces()[piece];
-  Body<Scalar> body;
+  Body body;
   body.outline = scenery_->vertices_of(piece);
   body.box = scenery_->box(piece);
   body.base = place.motion_of(info.mover);
@@ -207,10 +192,8 @@ Body<Scalar> Discrete<Scalar>::body_of(PieceIndex piece, const FrameOfReference<
 }
 
 /// The characters and all pieces near the total box of any of them.
-template <class Scalar>
-std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> frames,
-                                                 Scratch<Scalar>& scratch) const noexcept {
-  Workplace<Scalar>& work = workplace_of(scratch);
+std::span<Body> Discrete::gather(std::span<const Frame> frames, Scratch& scratch) const noexcept {
+  Workplace& work = workplace_of(scratch);
   work.near.clear();  // keeps its memory, as all of them
   const auto add = [&work](PieceIndex piece) {
     if (work.gathered[piece] != 0) return;
@@ -218,8 +201,8 @@ std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> 
     work.near.push_back(piece);
   };
   const PieceIndex movers_end = scenery_->sensor_pieces().first;
-  for (const Frame<Scalar>& frame : frames) {
-    const Box2<Scalar> total = frame.character.total_box();
+  for (const Frame& frame : frames) {
+    const Box2 total = frame.character.total_box();
     const std::size_t found = broad_phase_->query(total, scratch.solids.pieces);
     for (const PieceIndex piece : std::span(scratch.solids.pieces).first(found)) add(piece);
     for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece)
@@ -228,35 +211,33 @@ std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> 
   for (const PieceIndex piece : work.near) work.gathered[piece] = 0;
   if (frames.size() > 1) std::sort(work.near.begin(), work.near.end());
   work.bodies.clear();
-  for (const Frame<Scalar>& frame : frames) work.bodies.push_back(frame.character);
+  for (const Frame& frame : frames) work.bodies.push_back(frame.character);
   for (const PieceIndex piece : work.near) work.bodies.push_back(body_of(piece, frames.front().place));
   return work.bodies;
 }
 
 /// Who is at risk of colliding with whom when the step begins, and who overlaps.
-template <class Scalar>
-void Discrete<Scalar>::note_company(Frames frames, const Workplace<Scalar>& work) const noexcept {
+void Discrete::note_company(Frames frames, const Workplace& work) const noexcept {
   for (BodyIndex i = 0; i < frames.size(); ++i)
     if (frames[i].member != nullptr) frames[i].member->island = work.solver.island_of(i);
   for (const discrete::Pair& pair : work.solver.pairs()) {
     if (pair.second >= frames.size()) continue;
-    const Body<Scalar>& first = frames[pair.first].character;
-    const Body<Scalar>& second = frames[pair.second].character;
-    if (!discrete::began_overlapping<Scalar>(first, second, Tolerances<Scalar>{}.certain)) continue;
+    const Body& first = frames[pair.first].character;
+    const Body& second = frames[pair.second].character;
+    if (!discrete::began_overlapping(first, second, Tolerances{}.certain)) continue;
     frames[pair.first].member->started_overlapping.push_back(pair.second);
     frames[pair.second].member->started_overlapping.push_back(pair.first);
   }
-  for (Frame<Scalar>& frame : frames)
+  for (Frame& frame : frames)
     if (frame.member != nullptr)
       std::sort(frame.member->started_overlapping.begin(), frame.member->started_overlapping.end());
 }
 
 /// What the last round pushed apart. @return how many of these were two characters.
-template <class Scalar>
-std::size_t Discrete<Scalar>::report(Frames frames, const Workplace<Scalar>& work) const noexcept {
+std::size_t Discrete::report(Frames frames, const Workplace& work) const noexcept {
   std::size_t meetings = 0;
-  for (Frame<Scalar>& frame : frames) frame.left_over = false;
-  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
+  for (Frame& frame : frames) frame.left_over = false;
+  for (const SolvedImpact& each : work.solver.solved()) {
     frames[each.bodies.first].left_over = true;
     if (each.bodies.second < frames.size()) {
       report_meeting(frames, each);
@@ -268,9 +249,7 @@ std::size_t Discrete<Scalar>::report(Frames frames, const Workplace<Scalar>& wor
   return meetings;
 }
 
-template <class Scalar>
-void Discrete<Scalar>::report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact,
-                                    PieceIndex piece) const noexcept {
+void Discrete::report_piece(Frame& frame, const discrete::Impact& impact, PieceIndex piece) const noexcept {
   const PieceInfo& info = scenery_->pieces()[piece];
   const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
   article::add_contact(*scenery_, {piece, impact.point, impact.normal, impact.time}, side, impact.time, frame.result);
@@ -278,16 +257,15 @@ void Discrete<Scalar>::report_piece(Frame<Scalar>& frame, const discrete::Impact
     article::add_once(info.collider, frame.pushers);
   if (side != Side::bottom) return;
   frame.result.grounded = true;
-  frame.result.ride.ground = frame.place.carries(info.collider) ? info.collider : Ride<Scalar>::none;
+  frame.result.ride.ground = frame.place.carries(info.collider) ? info.collider : Ride::none;
   frame.left_over = take_along(frame, info.collider, impact.time) || frame.left_over;
 }
 
 /// Who comes down on another stands on it, and is not carried along.
-template <class Scalar>
-void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept {
-  const auto note = [&](BodyIndex one, BodyIndex other, const Vec2<Scalar>& normal) {
-    Frame<Scalar>& frame = frames[one];
-    frame.member->add_contact(other, normal, solved.impact.time, UpFrame<Scalar>{});
+void Discrete::report_meeting(Frames frames, const SolvedImpact& solved) const noexcept {
+  const auto note = [&](BodyIndex one, BodyIndex other, const Vec2d& normal) {
+    Frame& frame = frames[one];
+    frame.member->add_contact(other, normal, solved.impact.time, UpFrame{});
     if (frame.stays) return;
     frame.left_over = true;
     if (side_of_normal(normal.x(), normal.y()) == Side::bottom) frame.result.grounded = true;
@@ -297,26 +275,24 @@ void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>&
 }
 
 /// What comes to rest on moving ground is carried for the rest of the frame, unless it had a speed of its own along it.
-template <class Scalar>
-bool Discrete<Scalar>::take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept {
-  if (!frame.place.carries(ground) || frame.request.ride.ground != Ride<Scalar>::none) return false;
+bool Discrete::take_along(Frame& frame, ColliderIndex ground, double time) const noexcept {
+  if (!frame.place.carries(ground) || frame.request.ride.ground != Ride::none) return false;
   if (frame.request.velocity.x() != 0 || frame.character.velocity.x() != 0) return false;
-  const Vec2<Scalar> motion = frame.place.motion(frame.place.mover_of(ground)) + frame.place.surface_motion(ground);
+  const Vec2d motion = frame.place.motion(frame.place.mover_of(ground)) + frame.place.surface_motion(ground);
   frame.character.movement.x() += motion.x() * (1 - time);
   frame.character.velocity.x() = frame.place.velocity_of(ground).x();
   return motion.x() != 0;
 }
 
 /// One of the last round's pushes by a mover led through something that stands still.
-template <class Scalar>
-bool Discrete<Scalar>::pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept {
-  const Frame<Scalar>& frame = frames[character];
+bool Discrete::pushed_through(Frames frames, BodyIndex character, Scratch& scratch) const noexcept {
+  const Frame& frame = frames[character];
   if (frame.pushers.empty() || frame.stays) return false;
-  const Workplace<Scalar>& work = workplace_of(scratch);
-  const Vec2<Scalar> shift = frame.place.shift_at_end(no_mover);
-  Vec2<Scalar> expected = frame.expected;
-  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
-    const Vec2<Scalar> from = expected;
+  const Workplace& work = workplace_of(scratch);
+  const Vec2d shift = frame.place.shift_at_end(no_mover);
+  Vec2d expected = frame.expected;
+  for (const SolvedImpact& each : work.solver.solved()) {
+    const Vec2d from = expected;
     if (each.bodies.second == character) expected += each.second_push;
     if (each.bodies.first != character) continue;
     expected += each.first_push;
@@ -328,41 +304,35 @@ bool Discrete<Scalar>::pushed_through(Frames frames, BodyIndex character, Scratc
 }
 
 /// A push leads through a piece that stands still, from one side of it to another.
-template <class Scalar>
-bool Discrete<Scalar>::passes_static(const Vec2<Scalar>& from, const Vec2<Scalar>& to,
-                                     Scratch<Scalar>& scratch) const noexcept {
-  using Time = geometry::OverlapTime<Scalar>;
+bool Discrete::passes_static(const Vec2d& from, const Vec2d& to, Scratch& scratch) const noexcept {
+  using Time = geometry::OverlapTime;
   std::vector<PieceIndex>& in_way = workplace_of(scratch).in_way;
   const std::size_t count =
       broad_phase_->query({from.cwiseMin(to) + box_.lower, from.cwiseMax(to) + box_.upper}, in_way);
   return std::any_of(in_way.begin(), in_way.begin() + static_cast<std::ptrdiff_t>(count), [&](PieceIndex piece) {
     if (scenery_->pieces()[piece].one_way) return false;
     const Time time =
-        geometry::overlap_time<Scalar>({outline_.begin(), outline_.end()}, scenery_->vertices_of(piece), from, to);
+        geometry::overlap_time({outline_.begin(), outline_.end()}, scenery_->vertices_of(piece), from, to);
     return time.any() && time.begin != Time::before && time.end != Time::after;
   });
 }
 
 /// Where the step begins, or where the character is expected to end.
-template <class Scalar>
-typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(const Frame<Scalar>& frame, bool at_end,
-                                                                Scratch<Scalar>& scratch) const noexcept {
-  const auto placed = [&](Body<Scalar> body) {
+typename Discrete::Inside Discrete::find_inside(const Frame& frame, bool at_end, Scratch& scratch) const noexcept {
+  const auto placed = [&](Body body) {
     if (at_end) body.position = body.expected();
-    body.base =
-        at_end ? MoverMotion<Scalar>{body.base.to, body.base.to} : MoverMotion<Scalar>{body.base.from, body.base.from};
+    body.base = at_end ? MoverMotion{body.base.to, body.base.to} : MoverMotion{body.base.from, body.base.from};
     body.movement.setZero();
     return body;
   };
   Inside inside;
-  const std::span<const Body<Scalar>> bodies = gather({&frame, 1}, scratch);
-  const Body<Scalar> character = placed(bodies.front());
+  const std::span<const Body> bodies = gather({&frame, 1}, scratch);
+  const Body character = placed(bodies.front());
   for (std::size_t i = 1; i < bodies.size(); ++i) {
-    const Body<Scalar> body = placed(bodies[i]);
+    const Body body = placed(bodies[i]);
     const PieceInfo& info = scenery_->pieces()[workplace_of(scratch).near[i - 1]];
-    if (info.mover == no_mover && discrete::began_overlapping<Scalar>(character, body, 0))
-      inside.what_stands_still = true;
-    if (!discrete::began_overlapping<Scalar>(character, body, Tolerances<Scalar>{}.touch)) continue;
+    if (info.mover == no_mover && discrete::began_overlapping(character, body, 0)) inside.what_stands_still = true;
+    if (!discrete::began_overlapping(character, body, Tolerances{}.touch)) continue;
     inside.anything = true;
     if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
       article::add_once(info.collider, inside.movers);
@@ -371,8 +341,7 @@ typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(const Frame<Scal
 }
 
 /// Nothing is pushed into what stands still, or through it. For others it is in the way there, and nothing moves it.
-template <class Scalar>
-void Discrete<Scalar>::stay(Frame<Scalar>& frame) const noexcept {
+void Discrete::stay(Frame& frame) const noexcept {
   frame.result.crushed = frame.pushers;
   article::stay_crushed(frame.request, frame.result);
   frame.stays = true;
@@ -385,8 +354,7 @@ void Discrete<Scalar>::stay(Frame<Scalar>& frame) const noexcept {
 }
 
 /// After the last round.
-template <class Scalar>
-void Discrete<Scalar>::finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept {
+void Discrete::finish(Frame& frame, Scratch& scratch) const noexcept {
   if (frame.stays) return;
   if (frame.left_over || scenery_->mover_count() > 0) {
     const Inside begin = find_inside(frame, false, scratch);
@@ -400,12 +368,11 @@ void Discrete<Scalar>::finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) co
 }
 
 /// In the world, and on what carries the character.
-template <class Scalar>
-void Discrete<Scalar>::arrive(Frame<Scalar>& frame) const noexcept {
-  MoveResult<Scalar>& result = frame.result;
-  const Vec2<Scalar> position = frame.character.expected();
+void Discrete::arrive(Frame& frame) const noexcept {
+  MoveResult& result = frame.result;
+  const Vec2d position = frame.character.expected();
   measure_gaps(position, result);
-  for (Contact<Scalar>& contact : result.contacts) contact.point = frame.place.in_world(contact.point, 1);
+  for (Contact& contact : result.contacts) contact.point = frame.place.in_world(contact.point, 1);
   result.velocity = frame.character.velocity;
   frame.place.arrive(position, result);
   result.path.push_back({frame.request.position, 0});
@@ -413,15 +380,14 @@ void Discrete<Scalar>::arrive(Frame<Scalar>& frame) const noexcept {
 }
 
 /// Along each contact's normal, from the obstacle to the nearest corner of the character where it ended.
-template <class Scalar>
-void Discrete<Scalar>::measure_gaps(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept {
-  for (Contact<Scalar>& contact : result.contacts) {
-    const auto height_of = [&](const Vec2<Scalar>& corner) {
-      const Vec2<Scalar> from_point = position + corner - contact.point;
+void Discrete::measure_gaps(const Vec2d& position, MoveResult& result) const noexcept {
+  for (Contact& contact : result.contacts) {
+    const auto height_of = [&](const Vec2d& corner) {
+      const Vec2d from_point = position + corner - contact.point;
       return from_point.dot(contact.normal);
     };
     contact.separation = height_of(outline_[0]);
-    for (const Vec2<Scalar>& corner : outline_) contact.separation = std::min(contact.separation, height_of(corner));
+    for (const Vec2d& corner : outline_) contact.separation = std::min(contact.separation, height_of(corner));
   }
 }
 

@@ -17,24 +17,22 @@ namespace paperproof::discrete {
 inline constexpr std::size_t most_pairs_each = 256;
 
 /// One frame of one character while it is worked out, in its frame of reference.
-template <class Scalar>
 struct Frame {
-  const MoveRequest<Scalar>& request;
-  FrameOfReference<Scalar> place;
-  MoveResult<Scalar>& result;
-  CrowdMember<Scalar>* member;  ///< Null for one that is alone.
-  Body<Scalar> character{};
-  Vec2<Scalar> expected{Vec2<Scalar>::Zero()};      ///< Where it was expected before the last round [m].
-  decltype(MoveResult<Scalar>::crushed) pushers{};  ///< Colliders of movers that pushed the character.
-  bool left_over = true;                            ///< The last round changed something.
-  bool stays = false;                               ///< It was crushed, and is where the step began.
+  const MoveRequest& request;
+  FrameOfReference place;
+  MoveResult& result;
+  CrowdMember* member;  ///< Null for one that is alone.
+  Body character{};
+  Vec2d expected{Vec2d::Zero()};            ///< Where it was expected before the last round [m].
+  decltype(MoveResult::crushed) pushers{};  ///< Colliders of movers that pushed the character.
+  bool left_over = true;                    ///< The last round changed something.
+  bool stays = false;                       ///< It was crushed, and is where the step began.
 };
 
-template <class Scalar>
 struct Workplace final : OwnMemory {
-  Solver<Scalar> solver{Tolerances<Scalar>{}.stop, Tolerances<Scalar>{}.touch};
-  std::vector<Frame<Scalar>> frames;
-  std::vector<Body<Scalar>> bodies;    ///< The characters, then what is near any of them.
+  Solver solver{Tolerances{}.stop, Tolerances{}.touch};
+  std::vector<Frame> frames;
+  std::vector<Body> bodies;            ///< The characters, then what is near any of them.
   std::vector<PieceIndex> near;        ///< The pieces among the bodies, ascending.
   std::vector<std::uint8_t> gathered;  ///< By piece: it is among them. All zero between frames.
   std::vector<PieceIndex> in_way;      ///< Of a push.

@@ -21,17 +21,15 @@ struct Pair {
 };
 
 /// A body, and what it covers during a frame.
-template <class Scalar>
 struct Reach {
-  Box2<Scalar> box;
+  Box2 box;
   BodyIndex body = 0;
 };
 
 /// Of all bodies of a frame. What cannot be moved makes pairs only with what can.
-template <class Scalar>
 struct Reaches {
-  std::vector<Reach<Scalar>> movable;
-  std::vector<Reach<Scalar>> fixed;
+  std::vector<Reach> movable;
+  std::vector<Reach> fixed;
 };
 
 /// Pairs, up to a number of them; those that come later are left out, and remembered as such.
@@ -63,14 +61,12 @@ class PairList {
 
 /// Adds all pairs, by looking at everything that can be moved with everything else: the slow, honest twin, and the
 /// faster one where there is little that can be moved.
-template <class Scalar>
-void find_pairs_one_by_one(const Reaches<Scalar>& reaches, PairList& pairs);
+void find_pairs_one_by_one(const Reaches& reaches, PairList& pairs);
 
 /// The same pairs in another order, by sort and sweep (Baraff 1992, "Dynamic Simulation of Non-Penetrating Rigid
 /// Bodies"): boxes are sorted by where they begin along an axis, and each is compared with those that begin within it.
 /// The axis is the one along which fewer overlap. Takes no memory.
 /// @param reaches are put in another order.
-template <class Scalar>
-void find_pairs_by_sweep(Reaches<Scalar>& reaches, PairList& pairs);
+void find_pairs_by_sweep(Reaches& reaches, PairList& pairs);
 
 }  // namespace paperproof::discrete

@@ -10,8 +10,7 @@ constexpr std::size_t worth_sweeping = 64;
 
 }  // namespace
 
-template <class Scalar>
-void Solver<Scalar>::reserve(std::size_t bodies, std::size_t pairs) {
+void Solver::reserve(std::size_t bodies, std::size_t pairs) {
   reaches_.movable.reserve(bodies);
   reaches_.fixed.reserve(bodies);
   parents_.reserve(bodies);
@@ -20,24 +19,22 @@ void Solver<Scalar>::reserve(std::size_t bodies, std::size_t pairs) {
   solved_.reserve(pairs);
 }
 
-template <class Scalar>
-int Solver<Scalar>::solve(std::span<Body<Scalar>> bodies, int rounds) {
+int Solver::solve(std::span<Body> bodies, int rounds) {
   int used = 0;
   while (used < rounds && solve_once(bodies)) ++used;
   return used;
 }
 
-template <class Scalar>
-bool Solver<Scalar>::solve_once(std::span<Body<Scalar>> bodies) {
+bool Solver::solve_once(std::span<Body> bodies) {
   find_pairs(bodies);
   find_islands(bodies);
   plan(bodies);
   solved_.clear();
   for (const Planned& each : planned_) {
-    Body<Scalar>& first = bodies[each.bodies.first];
-    Body<Scalar>& second = bodies[each.bodies.second];
+    Body& first = bodies[each.bodies.first];
+    Body& second = bodies[each.bodies.second];
     // An earlier impact may have changed this one, or prevented it.
-    const auto impact = find_impact<Scalar>(first, second, touch_);
+    const auto impact = find_impact(first, second, touch_);
     if (!impact) continue;
     solved_.push_back({.bodies = each.bodies, .impact = *impact});
     push_apart(solved_.back(), first, second);
@@ -45,8 +42,7 @@ bool Solver<Scalar>::solve_once(std::span<Body<Scalar>> bodies) {
   return !solved_.empty();
 }
 
-template <class Scalar>
-void Solver<Scalar>::find_pairs(std::span<const Body<Scalar>> bodies) {
+void Solver::find_pairs(std::span<const Body> bodies) {
   reaches_.movable.clear();
   reaches_.fixed.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -59,13 +55,9 @@ void Solver<Scalar>::find_pairs(std::span<const Body<Scalar>> bodies) {
     find_pairs_by_sweep(reaches_, pairs_);
 }
 
-template <class Scalar>
-BodyIndex Solver<Scalar>::island_of(BodyIndex body) const noexcept {
-  return parents_[body];
-}
+BodyIndex Solver::island_of(BodyIndex body) const noexcept { return parents_[body]; }
 
-template <class Scalar>
-void Solver<Scalar>::find_islands(std::span<const Body<Scalar>> bodies) {
+void Solver::find_islands(std::span<const Body> bodies) {
   parents_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) parents_.push_back(static_cast<BodyIndex>(i));
   // On the way to a root each body is hung one up, so that no way grows long.
@@ -83,11 +75,10 @@ void Solver<Scalar>::find_islands(std::span<const Body<Scalar>> bodies) {
   for (BodyIndex& parent : parents_) parent = parents_[parent];
 }
 
-template <class Scalar>
-void Solver<Scalar>::plan(std::span<const Body<Scalar>> bodies) {
+void Solver::plan(std::span<const Body> bodies) {
   planned_.clear();
   for (const Pair& pair : pairs_.all()) {
-    const auto impact = find_impact<Scalar>(bodies[pair.first], bodies[pair.second], touch_);
+    const auto impact = find_impact(bodies[pair.first], bodies[pair.second], touch_);
     if (impact) planned_.push_back({parents_[pair.first], impact->time, pair});
   }
   std::sort(planned_.begin(), planned_.end(), [](const Planned& a, const Planned& b) {
@@ -96,24 +87,19 @@ void Solver<Scalar>::plan(std::span<const Body<Scalar>> bodies) {
   });
 }
 
-template <class Scalar>
-void Solver<Scalar>::push_apart(SolvedImpact<Scalar>& solved, Body<Scalar>& first,
-                                Body<Scalar>& second) const noexcept {
-  const Vec2<Scalar>& normal = solved.impact.normal;
-  const Scalar share = first.inverse_mass / (first.inverse_mass + second.inverse_mass);
-  const Vec2<Scalar> push = normal * (solved.impact.depth + gap_);
+void Solver::push_apart(SolvedImpact& solved, Body& first, Body& second) const noexcept {
+  const Vec2d& normal = solved.impact.normal;
+  const double share = first.inverse_mass / (first.inverse_mass + second.inverse_mass);
+  const Vec2d push = normal * (solved.impact.depth + gap_);
   solved.first_push = push * share;
   solved.second_push = push * (share - 1);
   first.movement += solved.first_push;
   second.movement += solved.second_push;
-  const Vec2<Scalar> relative = first.velocity - second.velocity;
-  const Scalar approach = relative.dot(normal);
+  const Vec2d relative = first.velocity - second.velocity;
+  const double approach = relative.dot(normal);
   if (!(approach < 0)) return;
   first.velocity -= normal * (approach * share);
   second.velocity += normal * (approach * (1 - share));
 }
-
-template class Solver<float>;
-template class Solver<double>;
 
 }  // namespace paperproof::discrete

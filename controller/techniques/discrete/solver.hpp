@@ -9,12 +9,11 @@
 namespace paperproof::discrete {
 
 /// Two bodies that were pushed apart.
-template <class Scalar>
 struct SolvedImpact {
   Pair bodies;
-  Impact<Scalar> impact;                           ///< As it was before the push.
-  Vec2<Scalar> first_push{Vec2<Scalar>::Zero()};   ///< [m]
-  Vec2<Scalar> second_push{Vec2<Scalar>::Zero()};  ///< [m]
+  Impact impact;                     ///< As it was before the push.
+  Vec2d first_push{Vec2d::Zero()};   ///< [m]
+  Vec2d second_push{Vec2d::Zero()};  ///< [m]
 };
 
 /// Corrects the movements of one frame.
@@ -27,25 +26,24 @@ struct SolvedImpact {
 ///
 /// Results depend on the bodies and their order only. One solver per thread: it owns the memory that it works in, which
 /// grows to what the largest frame needed.
-template <class Scalar>
 class Solver {
  public:
   /// @param gap between bodies that were pushed apart [m]. Zero: rounding leaves them overlapping.
   /// @param touch up to this overlap at the start of a frame bodies only touch [m].
-  Solver(Scalar gap, Scalar touch) noexcept : gap_(gap), touch_(touch) {}
+  Solver(double gap, double touch) noexcept : gap_(gap), touch_(touch) {}
 
   /// Takes all memory that frames of this size need, so that none is taken later.
   /// @param pairs no more than so many are looked at in a round from now on: see `overflowed`.
   void reserve(std::size_t bodies, std::size_t pairs);
 
   /// One round. @return whether anything was pushed.
-  bool solve_once(std::span<Body<Scalar>> bodies);
+  bool solve_once(std::span<Body> bodies);
 
   /// Up to `rounds` rounds. @return how many pushed something; fewer than `rounds`: nothing is left to solve.
-  int solve(std::span<Body<Scalar>> bodies, int rounds);
+  int solve(std::span<Body> bodies, int rounds);
 
   /// What the last round pushed apart, island by island, in order of time of impact.
-  [[nodiscard]] std::span<const SolvedImpact<Scalar>> solved() const noexcept { return solved_; }
+  [[nodiscard]] std::span<const SolvedImpact> solved() const noexcept { return solved_; }
   /// At risk of colliding in the last round, in no particular order.
   [[nodiscard]] std::span<const Pair> pairs() const noexcept { return pairs_.all(); }
   /// There were more of them in the last round than `reserve` allowed: it did not look at all of them.
@@ -56,25 +54,22 @@ class Solver {
  private:
   struct Planned {
     BodyIndex island = 0;
-    Scalar time = 0;
+    double time = 0;
     Pair bodies;
   };
 
-  void find_pairs(std::span<const Body<Scalar>> bodies);
-  void find_islands(std::span<const Body<Scalar>> bodies);
-  void plan(std::span<const Body<Scalar>> bodies);
-  void push_apart(SolvedImpact<Scalar>& solved, Body<Scalar>& first, Body<Scalar>& second) const noexcept;
+  void find_pairs(std::span<const Body> bodies);
+  void find_islands(std::span<const Body> bodies);
+  void plan(std::span<const Body> bodies);
+  void push_apart(SolvedImpact& solved, Body& first, Body& second) const noexcept;
 
-  Scalar gap_;
-  Scalar touch_;
-  Reaches<Scalar> reaches_;
+  double gap_;
+  double touch_;
+  Reaches reaches_;
   PairList pairs_;
   std::vector<BodyIndex> parents_;  ///< Never larger than the body's own index: a root is the lowest of its island.
   std::vector<Planned> planned_;
-  std::vector<SolvedImpact<Scalar>> solved_;
+  std::vector<SolvedImpact> solved_;
 };
-
-extern template class Solver<float>;
-extern template class Solver<double>;
 
 }  // namespace paperproof::discrete

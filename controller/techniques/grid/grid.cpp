@@ -33,31 +33,29 @@ namespace {
 using grid::Square;
 using grid::Squares;
 
-template <class Scalar>
-class Grid final : public Technique<Scalar> {
+class Grid final : public Technique {
  public:
-  Grid(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
-      : squares_(scenery.as_run(), def.article.square, static_cast<double>(Tolerances<Scalar>{}.touch)),
+  Grid(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
+      : squares_(scenery.as_run(), def.article.square, Tolerances{}.touch),
         box_(character.shape.box()),
-        glide_speed_(static_cast<Scalar>(std::max(character.walk_speed, def.article.square))) {}
+        glide_speed_(std::max(character.walk_speed, def.article.square)) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "grid"; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return {}; }
+  [[nodiscard]] Scratch make_scratch() const override { return {}; }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override { return squares_.memory_bytes(); }
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override;
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
 
  private:
-  [[nodiscard]] Vec2<Scalar> glided(const MoveRequest<Scalar>& request) const noexcept;
-  [[nodiscard]] Square square_of(const Vec2<Scalar>& position) const noexcept;
-  [[nodiscard]] Vec2<Scalar> position_in(const Square& square) const noexcept;
-  void prevent(const Square& square, const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) const noexcept;
-  void meet(const Square& square, ColliderIndex collider, Side side, MoveResult<Scalar>& result) const noexcept;
-  [[nodiscard]] Square step_from(const Square& square, MoveResult<Scalar>& result) const noexcept;
+  [[nodiscard]] Vec2d glided(const MoveRequest& request) const noexcept;
+  [[nodiscard]] Square square_of(const Vec2d& position) const noexcept;
+  [[nodiscard]] Vec2d position_in(const Square& square) const noexcept;
+  void prevent(const Square& square, const MoveRequest& request, MoveResult& result) const noexcept;
+  void meet(const Square& square, ColliderIndex collider, Side side, MoveResult& result) const noexcept;
+  [[nodiscard]] Square step_from(const Square& square, MoveResult& result) const noexcept;
 
   Squares squares_;
-  Box2<double> box_;    ///< Of the character.
-  Scalar glide_speed_;  ///< [m/s]
+  Box2 box_;            ///< Of the character.
+  double glide_speed_;  ///< [m/s]
 };
 
 Square next_to(Square square, Eigen::Index component, bool forwards) noexcept {
@@ -65,9 +63,7 @@ Square next_to(Square square, Eigen::Index component, bool forwards) noexcept {
   return square;
 }
 
-template <class Scalar>
-void Grid<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>&,
-                        MoveResult<Scalar>& result) const noexcept {
+void Grid::move(const MoveRequest& request, Scratch&, MoveResult& result) const noexcept {
   if (article::refuse_out_of_range(request, result)) return;
   result.clear();
   result.velocity = request.velocity;
@@ -83,51 +79,43 @@ void Grid<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>&,
 }
 
 /// What is left of the motion that was kept: where nothing is wanted, what is drawn goes on to its square.
-template <class Scalar>
-Vec2<Scalar> Grid<Scalar>::glided(const MoveRequest<Scalar>& request) const noexcept {
-  const Scalar way = glide_speed_ * request.dt;
-  Vec2<Scalar> left = request.technique_memory;
+Vec2d Grid::glided(const MoveRequest& request) const noexcept {
+  const double way = glide_speed_ * request.dt;
+  Vec2d left = request.technique_memory;
   for (const Eigen::Index i : {0, 1})
     if (request.displacement[i] == 0) left[i] -= std::clamp(left[i], -way, way);
   return left;
 }
 
-template <class Scalar>
-Square Grid<Scalar>::square_of(const Vec2<Scalar>& position) const noexcept {
-  const double middle = static_cast<double>(position.x()) + (box_.lower.x() + box_.upper.x()) / 2;
-  const double feet = static_cast<double>(position.y()) + box_.lower.y();
+Square Grid::square_of(const Vec2d& position) const noexcept {
+  const double middle = position.x() + (box_.lower.x() + box_.upper.x()) / 2;
+  const double feet = position.y() + box_.lower.y();
   return {static_cast<std::int64_t>(std::floor(middle / squares_.side())),
           static_cast<std::int64_t>(std::floor(feet / squares_.side() + 0.5))};
 }
 
 /// The feet are never below the edge by rounding.
-template <class Scalar>
-Vec2<Scalar> Grid<Scalar>::position_in(const Square& square) const noexcept {
+Vec2d Grid::position_in(const Square& square) const noexcept {
   const double middle = (static_cast<double>(square.column) + 0.5) * squares_.side();
   const double bottom = static_cast<double>(square.row) * squares_.side();
-  return {static_cast<Scalar>(middle - (box_.lower.x() + box_.upper.x()) / 2),
-          difference_rounded_up(static_cast<Scalar>(bottom), static_cast<Scalar>(box_.lower.y()))};
+  return {middle - (box_.lower.x() + box_.upper.x()) / 2, difference_rounded_up(bottom, box_.lower.y())};
 }
 
 /// Takes away the motion that leads into a solid square. Only a motion that was wanted in this step makes a contact.
-template <class Scalar>
-void Grid<Scalar>::prevent(const Square& square, const MoveRequest<Scalar>& request,
-                           MoveResult<Scalar>& result) const noexcept {
+void Grid::prevent(const Square& square, const MoveRequest& request, MoveResult& result) const noexcept {
   for (const Eigen::Index component : {1, 0}) {
-    Scalar& wanted = result.technique_memory[component];
+    double& wanted = result.technique_memory[component];
     if (wanted == 0) continue;
     const bool forwards = wanted > 0;
     const auto collider = squares_.collider_at(next_to(square, component, forwards));
     if (!collider) continue;
     wanted = 0;
-    const Scalar now = request.displacement[component];
+    const double now = request.displacement[component];
     if (forwards ? now > 0 : now < 0) meet(square, *collider, article::side_ahead(component, forwards), result);
   }
 }
 
-template <class Scalar>
-void Grid<Scalar>::meet(const Square& square, ColliderIndex collider, Side side,
-                        MoveResult<Scalar>& result) const noexcept {
+void Grid::meet(const Square& square, ColliderIndex collider, Side side, MoveResult& result) const noexcept {
   const Eigen::Index component = article::component_of(side);
   const auto outwards = static_cast<double>(article::outwards(side));
   const double half = squares_.side() / 2;
@@ -135,9 +123,9 @@ void Grid<Scalar>::meet(const Square& square, ColliderIndex collider, Side side,
               (static_cast<double>(square.row) + 0.5) * squares_.side()};
   point[component] += outwards * half;
   const double reach = outwards < 0 ? box_.lower[component] : box_.upper[component];
-  const double gap = (point[component] - static_cast<double>(result.position[component]) - reach) * outwards;
-  Contact<Scalar> contact{.collider = collider, .point = point.cast<Scalar>(), .separation = static_cast<Scalar>(gap)};
-  contact.normal[component] = static_cast<Scalar>(-outwards);
+  const double gap = (point[component] - result.position[component] - reach) * outwards;
+  Contact contact{.collider = collider, .point = point, .separation = gap};
+  contact.normal[component] = -outwards;
   contact.side = side;
   result.contacts.push_back(contact);
   result.velocity[component] = 0;
@@ -145,10 +133,9 @@ void Grid<Scalar>::meet(const Square& square, ColliderIndex collider, Side side,
 }
 
 /// One square in the direction of the larger component, where half a square of it is wanted.
-template <class Scalar>
-Square Grid<Scalar>::step_from(const Square& square, MoveResult<Scalar>& result) const noexcept {
-  const auto side = static_cast<Scalar>(squares_.side());
-  Vec2<Scalar>& wanted = result.technique_memory;
+Square Grid::step_from(const Square& square, MoveResult& result) const noexcept {
+  const auto side = squares_.side();
+  Vec2d& wanted = result.technique_memory;
   const Eigen::Index component = std::abs(wanted.x()) > std::abs(wanted.y()) ? 0 : 1;
   Square end = square;
   if (std::abs(wanted[component]) >= side / 2) {

@@ -48,12 +48,10 @@ struct PixelBox {
   return {};
 }
 
-template <class Scalar>
-[[nodiscard]] std::int64_t floor_to_pixel(Scalar coordinate) noexcept {
+[[nodiscard]] inline std::int64_t floor_to_pixel(double coordinate) noexcept {
   return static_cast<std::int64_t>(std::floor(coordinate));
 }
-template <class Scalar>
-[[nodiscard]] std::int64_t ceil_to_pixel(Scalar coordinate) noexcept {
+[[nodiscard]] inline std::int64_t ceil_to_pixel(double coordinate) noexcept {
   return static_cast<std::int64_t>(std::ceil(coordinate));
 }
 

@@ -20,12 +20,12 @@ struct Advance {
 /// @tparam Rules what the picture says, const:
 ///   `bool is_free(sprite, placement)`, `Advance advance(sprite, placement, side, rising)`, and
 ///   `for_each_blocking(sprite, placement, side, visit)` with the solid pixels that stopped an advance.
-template <class Scalar, class Rules>
+template <class Rules>
 class PixelWalk {
  public:
   /// @param result as `RasterParts::refuse` leaves it.
-  PixelWalk(const RasterParts<Scalar>& parts, const Rules& rules, const MoveRequest<Scalar>& request,
-            Scratch<Scalar>& scratch, MoveResult<Scalar>& result) noexcept
+  PixelWalk(const RasterParts& parts, const Rules& rules, const MoveRequest& request, Scratch& scratch,
+            MoveResult& result) noexcept
       : parts_(parts),
         rules_(rules),
         request_(request),
@@ -57,13 +57,13 @@ class PixelWalk {
 
   /// Whether the leading edge has more pixels to enter.
   [[nodiscard]] bool is_due(Eigen::Index component) const noexcept {
-    const Scalar end = corner_[component] + way_[component];
+    const double end = corner_[component] + way_[component];
     if (stopped_[static_cast<std::size_t>(component)] || way_[component] == 0) return false;
     return way_[component] > 0 ? at(component) < ceil_to_pixel(end) : at(component) > floor_to_pixel(end);
   }
   /// The fraction of the movement at which the next pixel is entered. A pixel that the start lies in is entered at 0.
-  [[nodiscard]] Scalar time_of(Eigen::Index component) const noexcept {
-    const Scalar to_go = static_cast<Scalar>(at(component)) - corner_[component];
+  [[nodiscard]] double time_of(Eigen::Index component) const noexcept {
+    const double to_go = static_cast<double>(at(component)) - corner_[component];
     return fraction_of_step(to_go / way_[component]);
   }
   [[nodiscard]] Side side_of(Eigen::Index component) const noexcept {
@@ -73,19 +73,19 @@ class PixelWalk {
 
   void step(Eigen::Index component) noexcept {
     const Side side = side_of(component);
-    const Scalar time = time_of(component);
+    const double time = time_of(component);
     const bool rising = way_.y() > 0 && !stopped_[1];
     const Advance advance = rules_.advance(parts_.sprite(), at_, side, rising);
     if (advance.blocked) return stop(component, side, time);
     if (advance.lift != 0) record(time);
     at_ = at_ + towards(side) + Pixel{0, advance.lift};
     lifted_ += advance.lift;
-    corner_.y() += static_cast<Scalar>(advance.lift);
+    corner_.y() += static_cast<double>(advance.lift);
     // First up and then along, so that the way does not cut through the pixel that it climbs.
     if (advance.lift > 0) record(time);
   }
 
-  void stop(Eigen::Index component, Side side, Scalar time) noexcept {
+  void stop(Eigen::Index component, Side side, double time) noexcept {
     stopped_[static_cast<std::size_t>(component)] = true;
     result_.velocity[component] = 0;
     if (side == Side::bottom) result_.grounded = true;
@@ -95,8 +95,8 @@ class PixelWalk {
     record(time);
   }
 
-  [[nodiscard]] Vec2<Scalar> position_at(Scalar time) const noexcept {
-    Vec2<Scalar> position = request_.position + request_.displacement * time;
+  [[nodiscard]] Vec2d position_at(double time) const noexcept {
+    Vec2d position = request_.position + request_.displacement * time;
     position.y() += parts_.metres(lifted_);
     for (const Eigen::Index i : {0, 1}) {
       if (stopped_[static_cast<std::size_t>(i)]) position[i] = parts_.position_of(at(i), i);
@@ -105,8 +105,8 @@ class PixelWalk {
   }
 
   /// A corner of the way, where there is room for one more and the end.
-  void record(Scalar time) noexcept {
-    const Vec2<Scalar> position = position_at(time);
+  void record(double time) noexcept {
+    const Vec2d position = position_at(time);
     if (position == result_.path.back().position) return;
     if (result_.path.size() + 1 < most_corners) result_.path.push_back({position, time});
   }
@@ -114,42 +114,41 @@ class PixelWalk {
   /// Of the path: a walk over many pixels shows its first turns.
   static constexpr std::size_t most_corners = 32;
 
-  const RasterParts<Scalar>& parts_;
+  const RasterParts& parts_;
   const Rules& rules_;
-  const MoveRequest<Scalar>& request_;
-  Scratch<Scalar>& scratch_;
-  MoveResult<Scalar>& result_;
-  Vec2<Scalar> corner_;  ///< Where the movement began, lifted with the character [px].
-  Vec2<Scalar> way_;     ///< [px]
-  Pixel at_;             ///< The placement now.
+  const MoveRequest& request_;
+  Scratch& scratch_;
+  MoveResult& result_;
+  Vec2d corner_;  ///< Where the movement began, lifted with the character [px].
+  Vec2d way_;     ///< [px]
+  Pixel at_;      ///< The placement now.
   std::int64_t lifted_ = 0;
   std::array<bool, 2> stopped_{};
 };
 
 /// A technique that walks from pixel to pixel behind the common interface.
 /// @tparam Rules as for `PixelWalk`, with `memory_bytes()`.
-template <class Scalar, class Rules>
-class PixelTechnique final : public Technique<Scalar> {
+template <class Rules>
+class PixelTechnique final : public Technique {
  public:
   /// @param name that lives as long as the program.
-  PixelTechnique(std::string_view name, RasterParts<Scalar> parts, Rules rules)
+  PixelTechnique(std::string_view name, RasterParts parts, Rules rules)
       : name_(name), parts_(std::move(parts)), rules_(std::move(rules)) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
+  [[nodiscard]] Scratch make_scratch() const override { return parts_.make_scratch(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override {
     return rules_.memory_bytes() + parts_.sprite().mask().memory_bytes();
   }
 
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override {
+  void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     if (parts_.refuse(request, result)) return;
-    PixelWalk<Scalar, Rules>(parts_, rules_, request, scratch, result).run();
+    PixelWalk<Rules>(parts_, rules_, request, scratch, result).run();
   }
 
  private:
   std::string_view name_;
-  RasterParts<Scalar> parts_;
+  RasterParts parts_;
   Rules rules_;
 };
 

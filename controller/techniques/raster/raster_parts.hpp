@@ -13,70 +13,64 @@
 namespace paperproof::raster {
 
 /// A share of the way as a fraction of the step, in [0, 1]; a negative zero, as of no way at all to the left, is zero.
-template <class Scalar>
-[[nodiscard]] Scalar fraction_of_step(Scalar share) noexcept {
-  return share > 0 ? std::min(share, Scalar(1)) : Scalar(0);
-}
+[[nodiscard]] inline double fraction_of_step(double share) noexcept { return share > 0 ? std::min(share, 1.0) : 0.0; }
 
-/// @tparam Scalar of the positions; pictures are drawn in double. Immutable; shareable between threads.
-template <class Scalar>
+/// @tparam double of the positions; pictures are drawn in double. Immutable; shareable between threads.
 class RasterParts {
  public:
   /// @param def its article knobs are valid. `scenery` must outlive the parts.
   /// @throws NotExpressible as `Sprite`.
-  RasterParts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character);
+  RasterParts(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character);
 
-  [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return *scenery_; }
+  [[nodiscard]] const Scenery& scenery() const noexcept { return *scenery_; }
   [[nodiscard]] const Sprite& sprite() const noexcept { return sprite_; }
   [[nodiscard]] double pixels_per_metre() const noexcept { return pixels_per_metre_; }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const;
+  [[nodiscard]] Scratch make_scratch() const;
 
   /// Lower left corner of the bounding box [px].
-  [[nodiscard]] Vec2<Scalar> corner_at(const Vec2<Scalar>& position) const noexcept {
-    return (position + lower_) * scale_;
+  [[nodiscard]] Vec2d corner_at(const Vec2d& position) const noexcept {
+    return (position + lower_) * pixels_per_metre_;
   }
   /// A coordinate of the position whose corner is on a whole pixel [m].
-  [[nodiscard]] Scalar position_of(std::int64_t corner, Eigen::Index component) const noexcept {
-    return static_cast<Scalar>(corner) / scale_ - lower_[component];
+  [[nodiscard]] double position_of(std::int64_t corner, Eigen::Index component) const noexcept {
+    return static_cast<double>(corner) / pixels_per_metre_ - lower_[component];
   }
-  [[nodiscard]] Scalar metres(std::int64_t pixels) const noexcept { return static_cast<Scalar>(pixels) / scale_; }
+  [[nodiscard]] double metres(std::int64_t pixels) const noexcept {
+    return static_cast<double>(pixels) / pixels_per_metre_;
+  }
 
   /// Where a movement by `way` begins: the first of the up to four placements around `corner` that `is_free` accepts.
   /// A movement that was free ends on one of them. The one that lies farthest ahead comes first: it is where a movement
   /// in the same direction has ended. None is free: that one, and `inside`.
   template <class IsFree>
-  [[nodiscard]] Pixel start(const Vec2<Scalar>& corner, const Vec2<Scalar>& way, const IsFree& is_free,
-                            bool& inside) const noexcept;
+  [[nodiscard]] Pixel start(const Vec2d& corner, const Vec2d& way, const IsFree& is_free, bool& inside) const noexcept;
 
   /// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances or takes more
   /// than `article::max_search_steps` pixels.
-  [[nodiscard]] bool refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) const noexcept;
+  [[nodiscard]] bool refuse(const MoveRequest& request, MoveResult& result) const noexcept;
 
   /// Looks up whose pixels are around a placement, before `report`.
-  void look_around(const Pixel& placement, Scratch<Scalar>& scratch) const noexcept;
+  void look_around(const Pixel& placement, Scratch& scratch) const noexcept;
   /// Adds a contact with the collider that a solid pixel belongs to, where it is around the last `look_around`.
   /// The picture knows of no surface: the point is the middle of the pixel's edge that faces the character, the normal
   /// that of the side, and the separation zero.
-  void report(const Pixel& pixel, Side side, Scalar fraction, const Scratch<Scalar>& scratch,
-              MoveResult<Scalar>& result) const noexcept;
+  void report(const Pixel& pixel, Side side, double fraction, const Scratch& scratch,
+              MoveResult& result) const noexcept;
 
  private:
   [[nodiscard]] bool is_of(PieceIndex piece, const Pixel& pixel) const noexcept {
-    return covers<Scalar>(scenery_->vertices_of(piece), pixels_per_metre_, pixel);
+    return covers(scenery_->vertices_of(piece), pixels_per_metre_, pixel);
   }
 
-  const Scenery<Scalar>* scenery_;
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  const Scenery* scenery_;
+  std::unique_ptr<BroadPhase> broad_phase_;
   double pixels_per_metre_;
-  Scalar scale_;        ///< The same.
-  Vec2<Scalar> lower_;  ///< Corner of the bounding box, relative to the position [m].
+  Vec2d lower_;  ///< Corner of the bounding box, relative to the position [m].
   Sprite sprite_;
 };
 
-template <class Scalar>
 template <class IsFree>
-Pixel RasterParts<Scalar>::start(const Vec2<Scalar>& corner, const Vec2<Scalar>& way, const IsFree& is_free,
-                                 bool& inside) const noexcept {
+Pixel RasterParts::start(const Vec2d& corner, const Vec2d& way, const IsFree& is_free, bool& inside) const noexcept {
   const Pixel low{floor_to_pixel(corner.x()), floor_to_pixel(corner.y())};
   const Pixel high{ceil_to_pixel(corner.x()), ceil_to_pixel(corner.y())};
   const Pixel ahead{way.x() > 0 ? high.x : low.x, way.y() > 0 ? high.y : low.y};
@@ -88,8 +82,5 @@ Pixel RasterParts<Scalar>::start(const Vec2<Scalar>& corner, const Vec2<Scalar>&
   inside = true;
   return ahead;
 }
-
-extern template class RasterParts<float>;
-extern template class RasterParts<double>;
 
 }  // namespace paperproof::raster

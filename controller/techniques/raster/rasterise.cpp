@@ -126,7 +126,7 @@ PixelBox pixels_around(const SceneryDef& scenery, double pixels_per_metre) {
   const std::vector<ColliderIndex> solids = standing_solids(scenery);
   if (solids.empty()) return {};
   const Vec2d& any = scenery.colliders[solids.front()].points.front();
-  Box2<double> box{any, any};
+  Box2 box{any, any};
   for (const ColliderIndex solid : solids) {
     for (const Vec2d& point : scenery.colliders[solid].points) box = box.merged({point, point});
   }
@@ -135,11 +135,8 @@ PixelBox pixels_around(const SceneryDef& scenery, double pixels_per_metre) {
   return {lower, upper.x - lower.x + 1, upper.y - lower.y + 1};
 }
 
-template <class Scalar>
-bool covers(std::span<const Vec2<Scalar>> outline, double pixels_per_metre, const Pixel& pixel) noexcept {
-  const auto vertex = [&](std::size_t i) -> Vec2d {
-    return outline[i % outline.size()].template cast<double>() * pixels_per_metre;
-  };
+bool covers(std::span<const Vec2d> outline, double pixels_per_metre, const Pixel& pixel) noexcept {
+  const auto vertex = [&](std::size_t i) -> Vec2d { return outline[i % outline.size()] * pixels_per_metre; };
   if (outline.size() == 2) return Line(vertex(0), vertex(1)).covers(pixel);
   bool inside = false;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -148,8 +145,5 @@ bool covers(std::span<const Vec2<Scalar>> outline, double pixels_per_metre, cons
   }
   return inside;
 }
-
-template bool covers(std::span<const Vec2<float>>, double, const Pixel&) noexcept;
-template bool covers(std::span<const Vec2<double>>, double, const Pixel&) noexcept;
 
 }  // namespace paperproof::raster

@@ -45,7 +45,6 @@ void for_each_span(const SceneryDef& scenery, double pixels_per_metre, const Vis
 
 /// Whether `pixel` is one of a piece's solid pixels.
 /// @param outline of a polygon, or the two ends of a chain's segment [m].
-template <class Scalar>
-[[nodiscard]] bool covers(std::span<const Vec2<Scalar>> outline, double pixels_per_metre, const Pixel& pixel) noexcept;
+[[nodiscard]] bool covers(std::span<const Vec2d> outline, double pixels_per_metre, const Pixel& pixel) noexcept;
 
 }  // namespace paperproof::raster

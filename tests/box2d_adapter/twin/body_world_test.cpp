@@ -24,7 +24,7 @@ struct Bodies {
   void step() { world.step(frame, motions); }
 
   BodyWorld world;
-  std::vector<MoverMotion<double>> motions;
+  std::vector<MoverMotion> motions;
 };
 
 JointDef spring(double stiffness, double damping = 0) {
@@ -62,7 +62,7 @@ TEST(BodyWorld, bad_definitions_and_steps_are_refused_before_box2d_sees_them) {
   EXPECT_THROW(Bodies(colliders, {{}}, {0, nan}), InvalidDefinition);
   EXPECT_THROW(Bodies(colliders, {{}, {}}, gravity), InvalidDefinition);
   Bodies bodies(colliders, {{}}, gravity);
-  std::vector<MoverMotion<double>> two(2);
+  std::vector<MoverMotion> two(2);
   for (const double dt : {0.0, nan}) EXPECT_THROW(bodies.world.step(dt, bodies.motions), InvalidDefinition);
   EXPECT_THROW(bodies.world.step(frame, two), InvalidDefinition);
   bodies.step();

@@ -13,7 +13,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Scenery<double> ground() { return level({box(-5, -1, 5, 0)}); }
+Scenery ground() { return level({box(-5, -1, 5, 0)}); }
 
 TEST(InvalidDefinitions, a_bad_position_step_or_place_is_refused_and_changes_nothing) {
   ReferenceWorld world(ground(), {}, {0, 2});
@@ -101,7 +101,7 @@ void try_step(ReferenceWorld& world, Random& random, Outcomes& outcomes) {
     ++outcomes.steps;
     outcomes.steps_with_contact += !step.contacts.empty();
     ASSERT_TRUE(world.position().allFinite() && step.velocity.allFinite());
-    for (const Contact<double>& contact : step.contacts) {
+    for (const Contact& contact : step.contacts) {
       ASSERT_TRUE(contact.point.allFinite() && contact.normal.allFinite() && std::isfinite(contact.separation));
       ASSERT_TRUE(contact.fraction >= 0 && contact.fraction <= 1);
     }

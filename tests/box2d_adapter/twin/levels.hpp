@@ -23,9 +23,7 @@ inline ColliderDef with_hole(ColliderDef solid, const ColliderDef& hole) {
   solid.holes.push_back(hole.points);
   return solid;
 }
-inline Scenery<double> level(std::vector<ColliderDef> colliders) {
-  return Scenery<double>(SceneryDef{std::move(colliders)});
-}
+inline Scenery level(std::vector<ColliderDef> colliders) { return Scenery(SceneryDef{std::move(colliders)}); }
 
 /// Steps `world` under gravity until `steps` are done; the velocity that was left carries over as in a run.
 template <class EachStep>

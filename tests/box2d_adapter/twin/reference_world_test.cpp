@@ -16,11 +16,11 @@ namespace {
 
 const Vec2d standing{0, half_height + rest_gap};
 
-Scenery<double> floor() { return level({box(-5, -1, 5, 0)}); }
+Scenery floor() { return level({box(-5, -1, 5, 0)}); }
 
 std::vector<ColliderIndex> colliders_of(const TwinStep& step) {
   std::vector<ColliderIndex> result;
-  for (const Contact<double>& contact : step.contacts) result.push_back(contact.collider);
+  for (const Contact& contact : step.contacts) result.push_back(contact.collider);
   return result;
 }
 
@@ -114,7 +114,7 @@ TEST(StepContacts, are_none_with_a_wall_beside_which_it_rests_without_pushing) {
 }
 
 /// At constant speed, in one step after the other.
-std::vector<MoverMotion<double>> steady(const Vec2d& velocity, int step) {
+std::vector<MoverMotion> steady(const Vec2d& velocity, int step) {
   return {{velocity * (step * frame), velocity * ((step + 1) * frame)}};
 }
 
@@ -132,15 +132,15 @@ TEST(TwinMovers, begin_anew_where_the_story_does) {
 
 TEST(TwinMovers, are_refused_where_they_are_not_one_for_each_or_not_finite_and_flagged_beyond_the_cap) {
   ReferenceWorld world(level({box(0, 0, 1, 1, 0)}), {}, {50, 50});
-  const std::vector<MoverMotion<double>> nan{{{0, 0}, {0, std::nan("")}}};
-  for (const auto& bad : {std::vector<MoverMotion<double>>(0), std::vector<MoverMotion<double>>(2), nan})
+  const std::vector<MoverMotion> nan{{{0, 0}, {0, std::nan("")}}};
+  for (const auto& bad : {std::vector<MoverMotion>(0), std::vector<MoverMotion>(2), nan})
     EXPECT_THROW((void)world.step({0, 0}, frame, bad), InvalidDefinition);
   EXPECT_EQ(world.position(), Vec2d(50, 50));
   const double cap_speed = max_travel_per_step / frame;
   EXPECT_FALSE(world.step({0, 0}, frame, steady({0.99 * cap_speed, 0}, 0)).capped);
   EXPECT_TRUE(world.step({0, 0}, frame, steady({1.01 * cap_speed, 0}, 1)).capped);
   const auto turned = [&](const std::vector<MoverTurn>& turns) {
-    return world.step_all(std::array{TwinWish{}}, frame, std::array{MoverMotion<double>{}}, turns).front().capped;
+    return world.step_all(std::array{TwinWish{}}, frame, std::array{MoverMotion{}}, turns).front().capped;
   };
   EXPECT_FALSE(turned({{0, 1.5}}));
   EXPECT_TRUE(turned({{0, 1.6}})) << "a quarter of a circle";

@@ -59,14 +59,14 @@ struct HeroContact {
   /// was destroyed and made anew at the same address is taken for the old one.
   b2Fixture* fixture = nullptr;
   Change change = Change::added;
-  Contact<double> contact;  ///< Of a `removed` one: the last.
+  Contact contact;  ///< Of a `removed` one: the last.
 };
 
 /// The hero's open interior came to overlap a sensor fixture, or ceased to. What happened between two steps (the hero
 /// was placed, the sensor was made) is at fraction 0 of the second one.
 struct HeroSensorEvent {
   b2Fixture* sensor = nullptr;
-  SensorEvent<double>::Change change = SensorEvent<double>::Change::enter;
+  SensorEvent::Change change = SensorEvent::Change::enter;
   double fraction = 0;  ///< Of the step, in [0, 1].
 };
 
@@ -82,7 +82,7 @@ struct BodyPose {
 /// A hero at one time, to save or to roll back. Restore it together with the world.
 struct HeroSave {
   CharacterDef character;
-  CharacterState<double> state;
+  CharacterState state;
   b2Fixture* ride = nullptr;           ///< What `state.ride` is on.
   b2Fixture* ground = nullptr;         ///< What `state.ground` is.
   std::vector<b2Fixture*> crushers{};  ///< What `state.crushers` are.
@@ -93,7 +93,7 @@ struct HeroSave {
   b2Vec2 body_velocity{0, 0};        ///< with its weight and push [m/s].
   bool is_bullet = true;
   Vec2d struck{Vec2d::Zero()};  ///< The velocity with which its body strikes what stopped the hero at once [m/s].
-  Box2<double> reach{};         ///< See `LocalController::reach`.
+  Box2 reach{};                 ///< See `LocalController::reach`.
 };
 
 /// A character in a game's own `b2World`, moved by a `LocalController`. Each frame the world steps, then the hero:
@@ -142,10 +142,10 @@ class Hero {
   [[nodiscard]] const Vec2d& position() const noexcept { return state().position; }
   [[nodiscard]] const Vec2d& velocity() const noexcept { return state().velocity; }
   [[nodiscard]] bool grounded() const noexcept { return state().grounded; }
-  [[nodiscard]] const CharacterState<double>& state() const noexcept;
+  [[nodiscard]] const CharacterState& state() const noexcept;
   /// The last step. Its colliders are those of this step: see `fixture_of`. Valid until the next step, `change` or
   /// `restore`.
-  [[nodiscard]] const StepReport<double>& report() const noexcept;
+  [[nodiscard]] const StepReport& report() const noexcept;
   /// @param collider of `report()`. @return null for `no_collider`.
   [[nodiscard]] b2Fixture* fixture_of(ColliderIndex collider) const noexcept;
   /// What the hero stands on or slides down: see `MoveResult::ground`. Null in the air. Valid until the next step, or

@@ -13,7 +13,6 @@ namespace paperproof {
 ///
 /// Every implementation returns the same pieces in the same order (ascending index): implementations differ in cost
 /// only. Immutable after construction; may be shared between threads.
-template <class Scalar>
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
@@ -21,7 +20,7 @@ class BroadPhase {
   /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
   /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
   ///   again with more room.
-  [[nodiscard]] virtual std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept = 0;
+  [[nodiscard]] virtual std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept = 0;
 };
 
 enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
@@ -33,8 +32,6 @@ enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
 /// - `buckets` is a grid of uniform squares, kept in a hash table: constant cost where boxes are alike and queries are
 ///   small.
 /// - `tree` is the core's packed tree of boxes, sixteen to a node: the cost is logarithmic in the number of boxes.
-template <class Scalar>
-[[nodiscard]] std::unique_ptr<BroadPhase<Scalar>> make_broad_phase(BroadPhaseKind kind,
-                                                                   std::span<const Box2<Scalar>> boxes);
+[[nodiscard]] std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, std::span<const Box2> boxes);
 
 }  // namespace paperproof

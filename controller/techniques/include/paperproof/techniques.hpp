@@ -83,15 +83,12 @@ struct Knob {
 /// One of two words: false for the first.
 [[nodiscard]] bool is_second(const std::string& text, std::string_view first, std::string_view second);
 
-template <class Scalar>
-using TechniqueMaker = std::unique_ptr<Technique<Scalar>> (*)(const TechniqueDef&, const Scenery<Scalar>&,
-                                                              const CharacterDef&);
+using TechniqueMaker = std::unique_ptr<Technique> (*)(const TechniqueDef&, const Scenery&, const CharacterDef&);
 
 /// How a technique is known.
 struct TechniqueEntry {
   std::string_view name;
-  TechniqueMaker<float> make_float = nullptr;    ///< Null: it is `octagon_sweep`,
-  TechniqueMaker<double> make_double = nullptr;  ///< which the core makes.
+  TechniqueMaker make = nullptr;  ///< Null: it is `octagon_sweep`, which the core makes.
   std::vector<Knob> knobs{};
   bool knows_movers = false;   ///< False: scenery that moves or conveys is refused.
   bool knows_circles = false;  ///< False: scenery with circles is refused.
@@ -101,15 +98,15 @@ struct TechniqueEntry {
   double (*unit)(const ArticleKnobs& knobs) = nullptr;
 };
 
-/// For a technique that is built from (const TechniqueDef&, const Scenery<Scalar>&, const CharacterDef&).
-template <template <class> class Made>
+/// For a technique that is built from (const TechniqueDef&, const Scenery&, const CharacterDef&).
+template <class Made>
 [[nodiscard]] TechniqueEntry entry_of(std::string_view name, std::vector<Knob> knobs = {}) {
-  return {name,
-          [](const TechniqueDef& def, const Scenery<float>& scenery, const CharacterDef& character)
-              -> std::unique_ptr<Technique<float>> { return std::make_unique<Made<float>>(def, scenery, character); },
-          [](const TechniqueDef& def, const Scenery<double>& scenery, const CharacterDef& character)
-              -> std::unique_ptr<Technique<double>> { return std::make_unique<Made<double>>(def, scenery, character); },
-          std::move(knobs)};
+  return {
+      name,
+      [](const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character) -> std::unique_ptr<Technique> {
+        return std::make_unique<Made>(def, scenery, character);
+      },
+      std::move(knobs)};
 }
 
 /// All of them: the article's in its order, `octagon_sweep`, those that were registered. Thread-safe once `main` began.
@@ -125,20 +122,16 @@ bool register_technique(TechniqueEntry entry);
 /// @throws std::invalid_argument for `octagon_sweep` and for a name that is not known, a knob out of range, or a sprite
 /// of another size than the character; InvalidCharacter for an impossible character; NotExpressible where the technique
 /// cannot express the scenery.
-template <class Scalar>
-[[nodiscard]] std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                                const CharacterDef& character);
+[[nodiscard]] std::unique_ptr<Technique> make_technique(const TechniqueDef& def, const Scenery& scenery,
+                                                        const CharacterDef& character);
 
 /// A controller that moves by the technique. Its `CharacterDef::wall_reach` is one unit.
 /// @throws as `make_technique`.
-template <class Scalar>
-[[nodiscard]] TechniqueController<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                                          const TechniqueDef& def);
+[[nodiscard]] TechniqueController make_controller(const Scenery& scenery, const CharacterDef& character,
+                                                  const TechniqueDef& def);
 
 /// A crowd that moves by the technique.
 /// @throws as `make_technique`, and std::invalid_argument for a technique that knows one character.
-template <class Scalar>
-[[nodiscard]] TechniqueCrowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                                                const TechniqueDef& def);
+[[nodiscard]] TechniqueCrowd make_crowd(const Scenery& scenery, const CharacterDef& character, const TechniqueDef& def);
 
 }  // namespace paperproof

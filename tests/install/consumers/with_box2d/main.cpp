@@ -23,12 +23,12 @@ int main() {
   b2Body* const hero_body = world.CreateBody(&hero_def);
 
   const WorldScenery borrowed = scenery_of(world);
-  const Scenery<double> scenery(borrowed.scenery);
+  const Scenery scenery(borrowed.scenery);
   const CharacterDef character;
-  const Controller<double> controller(scenery, character);
-  Scratch<double> scratch = controller.make_scratch();
-  StepReport<double> report;
-  CharacterState<double> hero;
+  const Controller controller(scenery, character);
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
+  CharacterState hero;
   hero.position = {0, 3};
   const double dt = 1.0 / 64;
   for (int step = 0; step < 120; ++step) {
@@ -42,5 +42,5 @@ int main() {
   const double behind = std::abs(hero.position.y() - static_cast<double>(hero_body->GetPosition().y));
   const bool on_floor = !report.move.contacts.empty() && borrowed.fixtures[report.move.contacts[0].collider] == floor;
   std::printf("grounded %d, %g m above the floor, its body %g m behind\n", hero.grounded, gap, behind);
-  return hero.grounded && on_floor && gap > 0 && gap <= Tolerances<double>{}.touch && behind < 1e-5 ? 0 : 1;
+  return hero.grounded && on_floor && gap > 0 && gap <= Tolerances{}.touch && behind < 1e-5 ? 0 : 1;
 }

@@ -7,12 +7,12 @@
 
 int main() {
   const paperproof::SceneryDef level{{{.points = {{-5, -1}, {5, -1}, {5, 0}, {-5, 0}}}}};
-  const paperproof::Scenery<double> scenery(level);
+  const paperproof::Scenery scenery(level);
   const paperproof::CharacterDef character;
-  const paperproof::Controller<double> controller(scenery, character);
-  paperproof::Scratch<double> scratch = controller.make_scratch();
-  paperproof::StepReport<double> report;
-  paperproof::CharacterState<double> state;
+  const paperproof::Controller controller(scenery, character);
+  paperproof::Scratch scratch = controller.make_scratch();
+  paperproof::StepReport report;
+  paperproof::CharacterState state;
   state.position = {0, 3};
   paperproof::box2d::ReferenceWorld world(scenery, character, state.position);
 

@@ -53,7 +53,7 @@ class BodyWorld {
   /// @param joints between bodies and the ground, which is no collider: joints change no collision but of what is
   /// pinned.
   /// @throws InvalidDefinition in words; never aborts inside Box2D.
-  BodyWorld(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
+  BodyWorld(const Scenery& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
             std::span<const JointDef> joints = {});
   ~BodyWorld();
   BodyWorld(BodyWorld&&) noexcept;
@@ -65,7 +65,7 @@ class BodyWorld {
   /// @param turns one for each mover, or none where none turns.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
-  void step(double dt, std::span<MoverMotion<double>> motions, std::span<const MoverTurn> turns = {});
+  void step(double dt, std::span<MoverMotion> motions, std::span<const MoverTurn> turns = {});
 
  private:
   struct Impl;

@@ -89,14 +89,14 @@ struct TwinStep {
     Vec2d normal{Vec2d::Zero()};  ///< Unit, upwards.
   };
   std::optional<Ground> ground;
-  std::vector<PathPoint<double>> path;      ///< Start, positions seen in callbacks during the step, end.
-  std::vector<Contact<double>> contacts;    ///< Touching after the step, and those that began and ended during it.
-  std::vector<MoverMotion<double>> movers;  ///< Where Box2D had the movers when the step began and ended.
-  std::vector<MoverTurn> turns;             ///< How far it had turned them.
+  std::vector<PathPoint> path;      ///< Start, positions seen in callbacks during the step, end.
+  std::vector<Contact> contacts;    ///< Touching after the step, and those that began and ended during it.
+  std::vector<MoverMotion> movers;  ///< Where Box2D had the movers when the step began and ended.
+  std::vector<MoverTurn> turns;     ///< How far it had turned them.
   /// Box2D looks for sensors once, when a step begins, and within 20 mm: what is crossed in one step is not seen, and
   /// the fraction is always 0.
-  std::vector<SensorEvent<double>> sensors;
-  std::vector<CrowdContact<double>> met;  ///< Contacts with other characters, listed as those with scenery are.
+  std::vector<SensorEvent> sensors;
+  std::vector<CrowdContact> met;  ///< Contacts with other characters, listed as those with scenery are.
   /// One-way chains that held the character when the step began, and through which it went because it dropped; of
   /// chains beside the way those are among them whose box it met. Ascending.
   std::vector<ColliderIndex> dropped_through;
@@ -109,10 +109,10 @@ class ReferenceWorld {
  public:
   /// @param scenery judged and cut exactly as for the controller; every definition is validated before Box2D sees it.
   /// @throws InvalidDefinition in words; never aborts inside Box2D.
-  ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
+  ReferenceWorld(const Scenery& scenery, const CharacterDef& character, const Vec2d& position,
                  const ReferenceWorldDef& def = {});
   /// The same with several characters of one kind.
-  ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
+  ReferenceWorld(const Scenery& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
                  const ReferenceWorldDef& def = {});
   ~ReferenceWorld();
   ReferenceWorld(ReferenceWorld&&) noexcept;
@@ -129,18 +129,17 @@ class ReferenceWorld {
   /// @param drop one-way chains hold nobody in this step.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
-  const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {},
+  const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion> movers = {},
                        bool drop = false);
   /// The same with a wish of each character. @returns one for each, valid until the next step.
   /// @param turns one for each mover, or none where none turns. As with the motions, by velocity; Box2D turns a body by
   ///   at most a quarter of a circle in a step, and beyond that the step counts as capped.
   std::span<const TwinStep> step_all(std::span<const TwinWish> wishes, double dt,
-                                     std::span<const MoverMotion<double>> movers = {},
-                                     std::span<const MoverTurn> turns = {});
+                                     std::span<const MoverMotion> movers = {}, std::span<const MoverTurn> turns = {});
 
   /// The same step of the same world, for timing Box2D alone: nothing is recorded and nothing read. Where there are
   /// one-way chains a listener lets through what they do not hold; elsewhere there is none.
-  void step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion<double>> movers = {},
+  void step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers = {},
                  std::span<const MoverTurn> turns = {});
 
   [[nodiscard]] Vec2d position(std::size_t character = 0) const;

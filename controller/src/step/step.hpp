@@ -1,0 +1,266 @@
+/// One step of the octagon sweep.
+///
+/// A step goes this way (step_solve.hpp):
+///   1. step_ride.hpp: a rider adds the motion of its ground to the desired displacement.
+///   2. step_start.hpp: a start that overlaps something, or is nearer than it should be, is made free.
+///   3. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
+///      stands still has none.
+///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
+///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
+///      free position; where there is none, the movers crush the character.
+///   6. step_solve.hpp: does the character stand on ground?
+///   7. step_stairs.hpp: is there a stair to climb, or ground to follow a little below?
+///
+/// `Step` is a plain struct, and all of these are functions that take it; each is defined before it is called, so that
+/// no file needs a later one. They are in headers, and one source includes them all: a function that is called from one
+/// place is inlined. What nearly every step does is flattened (an eighth of its instructions), and what hardly any does
+/// is kept out of it (3 %, and a fifth of the compile time).
+#pragma once
+
+#include "step/free_position.hpp"
+#include "step/narrow_phase.hpp"
+#include "step/neighbourhood.hpp"
+#include "step/octagon_sweep.hpp"
+#include "step/one_way.hpp"
+#include "step/response.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
+
+/// What a technique knows before the first step.
+struct Settings {
+  Real walkable_cosine;   ///< Least upward component of a normal that is walked on.
+  Real walkable_tangent;  ///< Steepest walkable slope, as rise over run.
+  Real snap;              ///< How far down ground is followed [m].
+  Real step_height;       ///< How high a walker climbs [m].
+  Real max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
+  Real look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
+  int iterations;
+};
+
+/// What a sweep over all pieces found.
+struct SweepResult {
+  bool hit = false;
+  Real stop = 1;              ///< Fraction of the motion that is free.
+  Real least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit`
+                              ///< where all of them are further away than that.
+  Real least_kept = 0;        ///< By a box direction over the whole motion, of all pieces [m].
+  /// The pieces that stop it there. If there are more than fit, the others are reported too, and the next sweep meets
+  /// them again.
+  FixedVector<Stop, MoveResult::max_contacts> stops;
+
+  void clear() noexcept {
+    hit = false;
+    stop = 1;
+    least_separation = least_kept = std::numeric_limits<Real>::infinity();
+    stops.clear();
+  }
+};
+
+/// The displacement that is wanted, and the velocity behind it. Each response changes both alike.
+struct DesiredMotion {
+  Desired displacement;  ///< For the rest of the step [m].
+  Desired velocity;      ///< [m/s]
+
+  /// Without steering.
+  [[nodiscard]] static DesiredMotion plain(const Vec2& displacement, const Vec2& velocity) noexcept {
+    return {{displacement, displacement}, {velocity, velocity}};
+  }
+};
+
+/// How far a hull reaches to a side of the character's position [m].
+struct FootReach {
+  Real hull;
+  Real foot;  ///< Its lowest points.
+};
+
+/// What a step knows about its ride and about movers that crush.
+struct MoverState {
+  Ride ride{};                            ///< What carries the character in this step, with its velocity in this step.
+  MoverIndex carrier = no_mover;          ///< The mover of that; none for a conveyor that stands still.
+  PieceIndex ridden = 0;                  ///< The piece of that.
+  bool anchored = false;                  ///< The character has not moved relative to what carries it.
+  bool waits = false;                     ///< See `wait`.
+  std::uint8_t ignored = does_not_block;  ///< Colliders with one of these roles do not block.
+  std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
+  bool side_lost = false;                 ///< From which side of one of them the character came is not known.
+  std::optional<Vec2> last_free{};        ///< The last free position before the step, if there was one.
+  std::size_t corners_before_crush = 0;   ///< Of the path, when the first mover crushed; and
+  MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
+};
+
+/// A free position, and the corner of the path from which it is reached.
+struct FreePosition {
+  Real distance;  ///< From where the character is [m].
+  Vec2 position;
+  std::size_t corner;
+};
+
+/// Corners of the path.
+struct Corners {
+  std::size_t first;
+  std::size_t end;  ///< One past the last.
+};
+
+/// All that a step knows.
+struct Step {
+  // As an aggregate, all of it would be zero first: an eighth of a step.
+  Step(const ConfigurationSpace& of_space, const Settings& by, Neighbourhood around, MoversInStep& among,
+       const UpFrame& frame, MoveResult& into) noexcept
+      : space(of_space),
+        pieces(of_space.scenery().pieces().data()),
+        settings(by),
+        neighbourhood(around),
+        movers(among),
+        memory(around.memory()),
+        up(frame),
+        result(into) {
+    memory.clear();
+  }
+
+  const ConfigurationSpace& space;
+  const PieceInfo* pieces;
+  const Settings& settings;
+  Neighbourhood neighbourhood;
+  MoversInStep& movers;
+  StepMemory& memory;
+  UpFrame up;
+  MoveResult& result;
+
+  Motion motion;              ///< Of the last sweep,
+  SweepResult found;          ///< and what it met.
+  Vec2 start{Vec2::Zero()};   ///< Where the step began, or the way out of a solid ended, before gaps were restored.
+                              ///< Times of impact count from there.
+  Vec2 wanted{Vec2::Zero()};  ///< Displacement in the step, that of the ground included, before anything was met [m].
+  Vec2 position{Vec2::Zero()};
+  Vec2 velocity{Vec2::Zero()};
+  Real time = 0;           ///< Fraction of the step that is spent.
+  Real dt = 0;             ///< Of the step [s].
+  Real latest_impact = 0;  ///< See `Reported`.
+  Real fall = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
+  Real steered = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
+  Real leaves_ground_above = 0;  ///< See `StepRequest`.
+  bool drops = false;            ///< One-way segments do not block in this step.
+  bool certify = false;          ///< Something is nearer than rounding: every motion needs an exact certificate.
+  bool climbs = false;           ///< The step began on ground, with no more upward speed than climbing gives.
+  bool after_walk = false;       ///< See `Surface`.
+  bool wedged = false;           ///< A fall ended between surfaces that are touched together.
+  bool met_ground = false;       ///< Walkable ground was hit in this step,
+  bool on_ground = false;        ///< and the character has not moved since, nor hit anything else.
+  PieceIndex ground = 0;         ///< That ground, where `met_ground`; the surface that points up most, where `wedged`;
+  std::size_t ground_axis = 0;   ///< and the axis of its normal.
+  MoverState moving;
+};
+
+/// Whether a mover passes through the character. It then moves only to a free position.
+[[nodiscard]] inline bool is_passed_through(const Step& step) noexcept {
+  return step.moving.overlapping > 0 || !step.result.crushed.empty();
+}
+
+/// Displacement of a surface in the rest of the step [m].
+[[nodiscard]] inline Vec2 remaining_of(const Step& step, const TouchedSurface& surface) noexcept {
+  if (surface.mover == no_mover) return Vec2::Zero();
+  return step.movers.remaining(surface.mover, step.time);
+}
+
+/// Whether a surface moves into a character that stays where it is, by more than rounding.
+[[nodiscard]] inline bool moves_in(const Step& step, const TouchedSurface& surface) noexcept {
+  return dot(remaining_of(step, surface), surface.normal) > tolerances.certain;
+}
+
+/// Displacement of the mover of a collider in the step [m].
+[[nodiscard]] inline Vec2 displacement_of(const Step& step, ColliderIndex collider) noexcept {
+  const MoverIndex mover = step.space.scenery().collider(collider).mover;
+  return mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.displacement(mover);
+}
+
+[[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) noexcept {
+  return step.pieces[piece].mover;
+}
+
+[[nodiscard]] inline TouchedSurface surface_at(const Step& step, PieceIndex piece, std::size_t axis) noexcept {
+  return {piece, mover_of(step, piece), axis, step.space.normal(piece, axis), step.space.offset(piece, axis)};
+}
+
+[[nodiscard]] inline ColliderIndex collider_of(const Step& step, PieceIndex piece) noexcept {
+  return step.pieces[piece].collider;
+}
+
+/// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
+[[nodiscard]] inline bool ignored(const Step& step, PieceIndex piece) noexcept {
+  return step.memory.is(collider_of(step, piece), step.moving.ignored);
+}
+
+/// Velocity of a surface [m/s].
+[[nodiscard]] inline Vec2 velocity_of(const Step& step, const TouchedSurface& surface) noexcept {
+  if (surface.mover == no_mover) return Vec2::Zero();
+  return step.movers.displacement(surface.mover) / step.movers.dt;
+}
+
+/// Ground that falls faster than the character may.
+[[nodiscard]] inline bool falls_away(const Step& step, const Vec2& ground) noexcept {
+  return step.up.up_of(ground) < -step.settings.max_fall_speed;
+}
+
+[[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) noexcept {
+  const Scenery& scenery = step.space.scenery();
+  return static_cast<Real>(scenery.collider(scenery.pieces()[piece].collider).surface_speed);
+}
+
+/// The mover that takes along what stands on a piece, if one does.
+[[nodiscard]] inline MoverIndex carrier_of(const Step& step, PieceIndex piece) noexcept {
+  return step.space.scenery().collider(collider_of(step, piece)).carries ? mover_of(step, piece) : no_mover;
+}
+
+[[nodiscard]] inline bool carries(const Step& step, PieceIndex piece) noexcept {
+  return carrier_of(step, piece) != no_mover || surface_speed(step, piece) != 0;
+}
+
+[[nodiscard]] inline bool walkable(const Step& step, const Vec2& normal) noexcept {
+  return step.up.up_of(normal) >= step.settings.walkable_cosine;
+}
+
+inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
+
+[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece, Real time) noexcept {
+  const MoverIndex mover = mover_of(step, piece);
+  return mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.offset(mover, time);
+}
+
+/// Offset of the mover of a piece now, at fraction `time`; zero for a piece that stands still.
+[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece) noexcept { return offset(step, piece, step.time); }
+
+/// A one-way segment in a step that drops through them.
+[[nodiscard]] inline bool passes_one_way(const Step& step, PieceIndex piece) noexcept {
+  return step.drops && step.space.info(piece).one_way_axis != ObstacleInfo::not_one_way;
+}
+
+/// Whether a piece can stop a motion at all.
+[[nodiscard]] inline bool in_way(const Step& step, const Motion& motion, PieceIndex piece) noexcept {
+  return blocks(step.space, motion, piece) && !passes_one_way(step, piece);
+}
+
+/// A position relative to the mover of a piece: the piece itself is stored at offset zero.
+[[nodiscard]] inline Vec2 local(const Step& step, PieceIndex piece, const Vec2& p) noexcept {
+  return mover_of(step, piece) == no_mover ? p : Vec2(p - offset(step, piece));
+}
+
+/// Notes what was reported up to the last corner of the path.
+inline void note_reported(Step& step) noexcept {
+  step.memory.reported_at[step.result.path.size() - 1] = {step.result.contacts.size(), step.latest_impact};
+}
+
+[[gnu::always_inline]] inline void push_corner(Step& step, Real fraction) noexcept {
+  if (!step.result.path.empty() && step.result.path.back().fraction == fraction &&
+      step.result.path.back().position == step.position)
+    return;
+  step.result.path.push_back({step.position, fraction}, step.memory.corners);
+  note_reported(step);
+}
+
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -1,0 +1,66 @@
+/// What the character stands on at the end of a step.
+#pragma once
+
+#include "step/step.hpp"
+#include "step/step_ride.hpp"
+#include "step/step_start.hpp"
+#include "step/step_sweep.hpp"
+
+namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
+
+[[gnu::cold, gnu::noinline]] inline void note_ground_velocity(Step& step, PieceIndex piece) noexcept {
+  step.result.ground.velocity = ground_velocity(step, piece, step.result.ground.normal);
+}
+
+[[gnu::always_inline]] inline void note_ground(Step& step, GroundState state, PieceIndex piece,
+                                               const Vec2& normal) noexcept {
+  step.result.grounded = state != GroundState::steep;
+  step.result.ground.state = state;
+  step.result.ground.collider = collider_of(step, piece);
+  step.result.ground.normal = normal;
+  step.result.ground.velocity = Vec2::Zero();
+  if (step.movers.active) [[unlikely]]
+    note_ground_velocity(step, piece);
+}
+
+/// How fast round ground falls away below a motion that went along a tangent of it at most a step ago [m/s].
+/// @param motion relative to it [m/s].
+[[nodiscard, gnu::cold, gnu::noinline]] inline Real falls_away_from_tangent(const Step& step, PieceIndex piece,
+                                                                            Vec2 motion) noexcept {
+  const Real speed = length_of(motion);
+  return speed * speed * step.dt / step.space.scenery().circle(piece).radius;
+}
+
+/// Whether the motion at the end of the step leaves ground that it touches: one more step of it would part them by more
+/// than `touch`. Vertices that are rounded make seams of straight ground bend by 1e-12 or 1e-6: they are no crests. A
+/// jump leaves at any speed. Round ground falls away below a walk, which does not leave it.
+[[nodiscard, gnu::always_inline]] inline bool leaves(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
+  Vec2 ground = Vec2::Zero();
+  if (mover_of(step, piece) != no_mover) ground = step.movers.displacement(mover_of(step, piece)) / step.movers.dt;
+  const Real leaving = dot(Vec2(step.velocity - ground), normal);
+  if (leaving <= step.leaves_ground_above) return false;
+  if (step.leaves_ground_above == 0) return leaving > along_plane * (length_of(step.velocity) + length_of(ground));
+  return !step.space.is_circle(piece) || leaving > falls_away_from_tangent(step, piece, Vec2(step.velocity - ground));
+}
+
+/// The normal of a piece, if the character touches it now and it is walkable ground.
+[[nodiscard, gnu::always_inline]] inline std::optional<Vec2> touched_ground(const Step& step,
+                                                                            PieceIndex piece) noexcept {
+  if (passes_one_way(step, piece)) return std::nullopt;
+  const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
+  if (!(std::abs(best.separation) <= tolerances.touch)) return std::nullopt;
+  const Vec2 normal = step.space.normal(piece, best.axis);
+  return walkable(step, normal) && may_block(step, piece, step.position) ? std::optional<Vec2>(normal) : std::nullopt;
+}
+
+[[nodiscard, gnu::always_inline]] inline bool stands_on(const Step& step, PieceIndex piece) noexcept {
+  const std::optional<Vec2> normal = touched_ground(step, piece);
+  return normal && !leaves(step, piece, *normal);
+}
+
+[[nodiscard, gnu::cold, gnu::noinline]] inline bool touches_ground(Step& step) noexcept {
+  return any_near(step, {step.position, step.position},
+                  [&](PieceIndex piece) { return touched_ground(step, piece).has_value(); });
+}
+
+}  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL
