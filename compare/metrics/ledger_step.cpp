@@ -15,19 +15,17 @@ namespace {
 /// Cosine of the angle between two normals of one face, as far as Box2D's rounded corners know it.
 constexpr double same_face = 0.9;
 constexpr double ulp_of_float = 0x1p-23;
-using Touch = Contact;
-
-bool is_touch(const ExactContact& exact, const Touch& touch) {
+bool is_touch(const ExactContact& exact, const Contact& touch) {
   return exact.collider == touch.collider && exact.side == touch.side;
 }
 
-bool is_exact(const StepJudgement& judged, const Touch& touch) {
+bool is_exact(const StepJudgement& judged, const Contact& touch) {
   return std::any_of(judged.contacts.begin(), judged.contacts.end(),
                      [&](const ExactContact& exact) { return is_touch(exact, touch); });
 }
 
 /// Met by the motion from the start alone, which something else may have turned before.
-bool is_only_foreseen(const StepJudgement& judged, const Touch& touch) {
+bool is_only_foreseen(const StepJudgement& judged, const Contact& touch) {
   return std::all_of(judged.contacts.begin(), judged.contacts.end(),
                      [&](const ExactContact& exact) { return !is_touch(exact, touch) || exact.foreseen; });
 }
@@ -78,17 +76,17 @@ std::vector<StepLedger::Event> StepLedger::events() {
   return std::move(events_);
 }
 
-bool StepLedger::same_surface(const Touch& a, const Touch& b) const {
+bool StepLedger::same_surface(const Contact& a, const Contact& b) const {
   if (!(a.normal.dot(b.normal) > same_face)) return false;
   return a.collider == b.collider || std::abs((a.point - b.point).dot(b.normal)) <= box2d_skin + rounding_;
 }
 
 void StepLedger::match() {
   std::vector<bool> taken(r_.contacts.size());
-  for (const Touch& touch : m_.contacts) {
+  for (const Contact& touch : m_.contacts) {
     bool found = false;
     for (std::size_t i = 0; i < taken.size(); ++i) {
-      const Touch& other = r_.contacts[i];
+      const Contact& other = r_.contacts[i];
       if (!same_surface(touch, other)) continue;
       found = taken[i] = true;
       if (touch.collider == other.collider && touch.side == other.side) both_.emplace_back(&touch, &other);
@@ -99,7 +97,7 @@ void StepLedger::match() {
     if (!taken[i]) only_reference_.push_back(&r_.contacts[i]);
 }
 
-std::string StepLedger::named(const Touch& touch) const {
+std::string StepLedger::named(const Contact& touch) const {
   return fmt::format("{} `{}`, normal ({:.3g}, {:.3g}), at {:.4g}", name_of(touch.side),
                      mine_.header->ids[touch.collider], touch.normal.x(), touch.normal.y(), touch.fraction);
 }
@@ -112,35 +110,36 @@ std::optional<Cause> StepLedger::within_skin(double gap) const {
 }
 
 /// As for the contender's recall: another collider of the same side stands for the same floor.
-bool StepLedger::is_missed_by_mine(const Touch& touch) const {
+bool StepLedger::is_missed_by_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.mine.judged;
   if (m_.stuck || !is_exact(judged, touch) || is_only_foreseen(judged, touch)) return false;
-  return std::none_of(m_.contacts.begin(), m_.contacts.end(),
-                      [&](const Touch& reported) { return reported.side == touch.side && is_exact(judged, reported); });
+  return std::none_of(m_.contacts.begin(), m_.contacts.end(), [&](const Contact& reported) {
+    return reported.side == touch.side && is_exact(judged, reported);
+  });
 }
 
-bool StepLedger::is_right_of_mine(const Touch& touch) const {
+bool StepLedger::is_right_of_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.mine.judged;
   if (is_exact(judged, touch) || contains(judged.deflected, std::pair(touch.collider, touch.side))) return true;
   return (contains(judged.dont_care, touch.collider) && !is_ghost(judged, touch)) ||
          contains(judged.excused_by_company, touch.collider);
 }
 
-bool StepLedger::reports_next(const Touch& touch) const {
+bool StepLedger::reports_next(const Contact& touch) const {
   if (after_ == nullptr) return false;
-  const std::vector<Touch>& next = after_->reference.step.contacts;
-  return std::any_of(next.begin(), next.end(), [&](const Touch& later) { return same_surface(touch, later); });
+  const std::vector<Contact>& next = after_->reference.step.contacts;
+  return std::any_of(next.begin(), next.end(), [&](const Contact& later) { return same_surface(touch, later); });
 }
 
 /// Whether Box2D's cap ends its way before it comes to what exact arithmetic says it would meet.
-bool StepLedger::is_capped_before(const Touch& touch) const {
+bool StepLedger::is_capped_before(const Contact& touch) const {
   if (!r_.capped || !(r_.requested.norm() > longest_way)) return false;
   const auto impact =
       reference_.solids->time_of_impact(Place(r_.path.front(), r_.movers), r_.requested, touch.collider);
   return impact && static_cast<double>(impact->fraction) * r_.requested.norm() > longest_way - box2d_skin;
 }
 
-StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) const {
+StepLedger::Event StepLedger::of_reference(const Contact& touch, EventKind kind) const {
   const StepJudgement& judged = now_.reference.judged;
   const double gap = reference_solids_.gap_on_way(touch.collider);
   const double mine = mine_solids_.gap_on_way(touch.collider);
@@ -168,7 +167,7 @@ StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) c
   return event;
 }
 
-StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
+StepLedger::Event StepLedger::of_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.reference.judged;
   const double gap = reference_solids_.gap_on_way(touch.collider);
   Event event{EventKind::contact,
@@ -197,28 +196,28 @@ StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
 }
 
 void StepLedger::add_contacts() {
-  const auto with = [](const std::vector<const Touch*>& some, const Touch& touch) {
+  const auto with = [](const std::vector<const Contact*>& some, const Contact& touch) {
     const auto found =
-        std::find_if(some.begin(), some.end(), [&](const Touch* other) { return other->collider == touch.collider; });
+        std::find_if(some.begin(), some.end(), [&](const Contact* other) { return other->collider == touch.collider; });
     return found == some.end() ? nullptr : *found;
   };
-  for (const Touch* touch : only_reference_) {
-    const Touch* other = with(only_mine_, *touch);
+  for (const Contact* touch : only_reference_) {
+    const Contact* other = with(only_mine_, *touch);
     Event event = of_reference(*touch, other != nullptr ? EventKind::side : EventKind::contact);
     if (other != nullptr && !is_right_of_mine(*other)) event.cause = Cause::error_of_ours;
     events_.push_back(std::move(event));
   }
-  for (const Touch* touch : only_mine_)
+  for (const Contact* touch : only_mine_)
     if (with(only_reference_, *touch) == nullptr) events_.push_back(of_mine(*touch));
 }
 
 /// Relative to what the collider goes along with [m].
-Vec2d StepLedger::wanted_of_reference(const Touch& touch) const {
+Vec2d StepLedger::wanted_of_reference(const Contact& touch) const {
   return r_.requested - reference_solids_.moved(touch.collider, touch.point, touch.fraction);
 }
 
 /// From where Box2D was at the time that it reports, to the collider [m].
-double StepLedger::gap_when_reported(const Touch& touch) const {
+double StepLedger::gap_when_reported(const Contact& touch) const {
   const auto next = std::find_if(r_.path.begin() + 1, r_.path.end() - 1,
                                  [&](const PathPoint& corner) { return corner.fraction >= touch.fraction; });
   const PathPoint& from = *(next - 1);
@@ -232,14 +231,14 @@ double StepLedger::gap_when_reported(const Touch& touch) const {
 /// Of the colliders and sides that both report, the one whose earliest times differ most.
 void StepLedger::add_time() {
   double most = same_event;
-  const Touch* mine = nullptr;
-  const Touch* reference = nullptr;
+  const Contact* mine = nullptr;
+  const Contact* reference = nullptr;
   for (const auto& [m, r] : both_) {
-    const auto is_it = [touch = r](const Touch& other) {
+    const auto is_it = [touch = r](const Contact& other) {
       return other.collider == touch->collider && other.side == touch->side;
     };
     double first = m->fraction;
-    for (const Touch& other : m_.contacts)
+    for (const Contact& other : m_.contacts)
       if (is_it(other)) first = std::min(first, other.fraction);
     const double apart = std::abs(first - r->fraction) * std::abs(wanted_of_reference(*r).dot(m->normal));
     if (!(apart > most)) continue;
@@ -304,7 +303,7 @@ void StepLedger::add_toggle() {
   if (reference && !reason) {
     event.cause = Cause::skin;
     for (const Ledger::Moment* moment : {before_, &now_})
-      for (const Touch& touch : moment->reference.step.contacts)
+      for (const Contact& touch : moment->reference.step.contacts)
         if (!within_skin(SolidsInStep(*reference_.header, *reference_.solids, moment->reference.step)
                              .gap_on_way(touch.collider)))
           event.cause.reset();

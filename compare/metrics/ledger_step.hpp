@@ -61,11 +61,10 @@ class StepLedger {
   [[nodiscard]] double rounding() const noexcept { return rounding_; }
 
  private:
-  using Touch = Contact;
   void match();
   void add_contacts();
-  [[nodiscard]] Event of_reference(const Touch& touch, EventKind kind) const;
-  [[nodiscard]] Event of_mine(const Touch& touch) const;
+  [[nodiscard]] Event of_reference(const Contact& touch, EventKind kind) const;
+  [[nodiscard]] Event of_mine(const Contact& touch) const;
   void add_time();
   void add_crossings();
   void add_toggle();
@@ -75,20 +74,20 @@ class StepLedger {
   [[nodiscard]] std::optional<Cause> circumstance_of_stop() const;
   void settle();
 
-  [[nodiscard]] bool same_surface(const Touch& a, const Touch& b) const;
-  [[nodiscard]] bool is_missed_by_mine(const Touch& touch) const;
-  [[nodiscard]] bool is_right_of_mine(const Touch& touch) const;
-  [[nodiscard]] bool reports_next(const Touch& touch) const;
-  [[nodiscard]] bool is_capped_before(const Touch& touch) const;
+  [[nodiscard]] bool same_surface(const Contact& a, const Contact& b) const;
+  [[nodiscard]] bool is_missed_by_mine(const Contact& touch) const;
+  [[nodiscard]] bool is_right_of_mine(const Contact& touch) const;
+  [[nodiscard]] bool reports_next(const Contact& touch) const;
+  [[nodiscard]] bool is_capped_before(const Contact& touch) const;
   [[nodiscard]] std::optional<Cause> within_skin(double gap) const;
   [[nodiscard]] std::vector<MetSurface> near_reference() const;
   [[nodiscard]] bool is_turned_by_ghost() const;
-  [[nodiscard]] double gap_when_reported(const Touch& touch) const;
-  [[nodiscard]] Vec2d wanted_of_reference(const Touch& touch) const;
+  [[nodiscard]] double gap_when_reported(const Contact& touch) const;
+  [[nodiscard]] Vec2d wanted_of_reference(const Contact& touch) const;
   [[nodiscard]] bool follows_our_law() const;
   /// Whether Box2D's velocity is what its own law makes, and if not, why.
   [[nodiscard]] bool follows_box2ds_law(std::optional<Cause>& otherwise) const;
-  [[nodiscard]] std::string named(const Touch& touch) const;
+  [[nodiscard]] std::string named(const Contact& touch) const;
 
   const LedgerParty& mine_;
   const LedgerParty& reference_;
@@ -104,9 +103,9 @@ class StepLedger {
   double apart_ = 0;
   double rounding_ = 0;
   double taken_ = 0;
-  std::vector<std::pair<const Touch*, const Touch*>> both_;
-  std::vector<const Touch*> only_mine_;
-  std::vector<const Touch*> only_reference_;
+  std::vector<std::pair<const Contact*, const Contact*>> both_;
+  std::vector<const Contact*> only_mine_;
+  std::vector<const Contact*> only_reference_;
   std::vector<Event> events_;
 };
 

@@ -21,8 +21,6 @@ constexpr int solver_rounds = 8;
 /// A ghost turns a velocity if it adds more than this along its normal [m/s].
 constexpr double turned = 1e-4;
 
-using Touch = Contact;
-
 double width_of(const std::vector<Vec2d>& hull) {
   const auto [left, right] =
       std::minmax_element(hull.begin(), hull.end(), [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
@@ -63,7 +61,7 @@ std::vector<MetSurface> StepLedger::near_reference() const {
     if (!known) surfaces.push_back({.normal = normal, .velocity = velocity, .spread = spread});
   };
   const auto is_of_ghost = [this](ColliderIndex collider, const NearFace& face) {
-    return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Touch& touch) {
+    return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Contact& touch) {
       return touch.collider == collider && is_ghost(now_.reference.judged, touch) &&
              (touch.normal - face.normal).norm() < one_normal;
     });
@@ -85,7 +83,7 @@ std::vector<MetSurface> StepLedger::near_reference() const {
 
 bool StepLedger::is_turned_by_ghost() const {
   const Vec2d added = r_.velocity - r_.requested / dt_;
-  return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Touch& touch) {
+  return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Contact& touch) {
     return is_ghost(now_.reference.judged, touch) && added.dot(touch.normal) > turned;
   });
 }
@@ -140,7 +138,7 @@ bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
   for (const Ledger::Moment* moment : {&now_, before_}) {
     if (moment == nullptr) continue;
     const TraceStep& step = moment->reference.step;
-    for (const Touch& touch : step.contacts)
+    for (const Contact& touch : step.contacts)
       reported.push_back({.normal = touch.normal,
                           .velocity = velocity_of(SolidsInStep(*reference_.header, *reference_.solids, step), touch)});
     kept = step.velocity - step.requested / dt_;

@@ -32,7 +32,7 @@ struct Pose {
   bool jumping = false;
   bool jump_held = false;
   bool jump_pending = false;
-  Ride ride{};                          ///< Without its place: what is put down stands anew.
+  Ride ride{};                          ///< Its `place` is not used: a character that is put down begins a new ride.
   Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what it rides on.
 };
 

@@ -16,22 +16,23 @@ TechniqueController controller_for(const TechniqueEntry& technique, ScalarKind s
   const CharacterDef character = rules_for(technique, scene, planning.knobs);
   const TechniqueDef def = definition_of(technique, scene, planning);
   if (scalar == ScalarKind::binary64) return make_controller(scenery, character, def);
-  if (technique.make != nullptr) throw NotApplicable(fmt::format("{} computes in double alone", technique.name));
+  if (computes_in_one(technique.name)) throw NotApplicable(fmt::format("{} computes in double alone", technique.name));
   return TechniqueController(make_controller_in_float(scenery, character, {def.search, def.sweep_iterations}));
 }
 
 class TechniqueContender final : public Contender {
  public:
-  /// @param shared by all contenders of a scene; one in float brings its own, rounded.
+  /// @param shared by all contenders of a scene, and must outlive them; one in float brings its own, rounded.
   TechniqueContender(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene, const Scenery& shared,
                      const Planning& planning)
       : scalar_(scalar),
         rounded_(scalar == ScalarKind::binary32 ? std::make_unique<Scenery>(as_run(shared.as_run(), scalar)) : nullptr),
-        controller_(controller_for(technique, scalar, scene, rounded_ ? *rounded_ : shared, planning)),
+        scenery_(rounded_ ? *rounded_ : shared),
+        controller_(controller_for(technique, scalar, scene, scenery_, planning)),
         scratch_(controller_.make_scratch()),
         sides_(sides_of(technique)),
-        movers_(scene.movers.size(), rounded_ ? *rounded_ : shared, scalar),
-        header_(header_of(technique, scalar, rounded_ ? *rounded_ : shared, scene, planning)) {
+        movers_(scene.movers.size(), scenery_, scalar),
+        header_(header_of(technique, scalar, scenery_, scene, planning)) {
     place_at_start(*this, scene);
   }
 
@@ -61,7 +62,8 @@ class TechniqueContender final : public Contender {
 
  private:
   ScalarKind scalar_;
-  std::unique_ptr<const Scenery> rounded_;  ///< In double the scene's own runs.
+  std::unique_ptr<const Scenery> rounded_;  ///< Null in double,
+  const Scenery& scenery_;                  ///< where the shared scenery runs.
   TechniqueController controller_;
   Scratch scratch_;
   Sides sides_;

@@ -188,15 +188,15 @@ Scratch Controller::make_scratch() const {
     const CharacterState& state, const Crushers& crushers, const Vec2d& displacement, const Vec2d& velocity,
     double steered, bool drop, bool jumps, const StepContext& context) const noexcept {
   return {.position = state.position,
-          .displacement = {displacement.x(), displacement.y()},
-          .velocity = {velocity.x(), velocity.y()},
+          .displacement = displacement,
+          .velocity = velocity,
           .steered = steered,
           .last_free = state.last_free,
           .has_last_free = state.has_last_free,
           .grounded = state.grounded,
           .crushed = state.crushed,
           .drop = drop,
-          .leaves_ground_above = jumps ? 0.0 : Tolerances{}.touch / context.dt,
+          .next_dt = jumps ? 0 : context.dt,
           .crushers = {crushers.begin(), crushers.end()},
           .movers = context.movers,
           .filter = filter_of(context),
@@ -220,8 +220,7 @@ Scratch Controller::make_scratch() const {
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop,
-                    state.jumping && !rises, context);
+  return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
 }
 
 [[gnu::always_inline]] inline void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,

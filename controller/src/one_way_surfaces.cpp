@@ -219,7 +219,7 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   const bool goes_on_before = index == 0;
   const bool goes_on_after = index + 1 == surface.edge_count;
   const auto all_corners = [&](const auto& holds) {
-    return std::all_of(hull_.begin(), hull_.end(), [&](const Vec2d& o) { return holds(Vec2d(o)); });
+    return std::all_of(hull_.begin(), hull_.end(), [&](const Vec2d& o) { return holds(o); });
   };
   if (all_corners([&](const Vec2d& o) { return orientation_sign_of_offset(a, b, p, o, r) >= 0; })) return true;
   if (!goes_on_after &&

@@ -77,7 +77,7 @@ class OneWaySurfaces {
   [[nodiscard]] bool is_below_exactly(const Surface& surface, std::uint32_t edge, const Vec2d& position,
                                       const Vec2d& rest) const noexcept;
 
-  FixedVector<Vec2d, CharacterShape::max_points> hull_;  ///< Counter-clockwise, rounded [m].
+  FixedVector<Vec2d, CharacterShape::max_points> hull_;  ///< Counter-clockwise [m].
   std::vector<Frame> frames_;
   std::vector<Surface> surfaces_;
   std::vector<Edge> edges_;

@@ -17,7 +17,7 @@ PieceFinder::PieceFinder(const Scenery& scenery, const CharacterShape& shape, st
   const Box2& box = shape.box();
   const double size = (box.upper - box.lower).maxCoeff();
   look_ahead_ = look_ahead_share * size;
-  reach_ = Box2{box.lower, box.upper}.inflated(Tolerances{}.look + reach_share * size);
+  reach_ = box.inflated(Tolerances{}.look + reach_share * size);
   std::vector<Group> of_mover(scenery.mover_count());
   for (const PieceIndex piece : pieces) {
     const MoverIndex mover = scenery.pieces()[piece].mover;

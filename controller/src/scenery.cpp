@@ -110,11 +110,11 @@ struct Pieces {
                    .vertex_count = static_cast<std::uint8_t>(outline.size()),
                    .one_way = def.one_way.has_value()};
     const Box2 box = Box2::around(outline);
-    boxes.push_back({box.lower, box.upper});
+    boxes.push_back(box);
     if (is_upright_rectangle(outline))
       info.rectangle_corner = corner_of(box, outline[0]);
     else
-      for (const Vec2d& vertex : outline) vertices.push_back(vertex);
+      vertices.insert(vertices.end(), outline.begin(), outline.end());
     infos.push_back(info);
   }
 

@@ -168,20 +168,20 @@ bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const n
 void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
                       Events& events) const noexcept {
   using Change = SensorEvent::Change;
-  using Time = OverlapTime;
   // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)
     if (overlap_with(piece).well_inside.contains(segment.positions)) return;
-  const auto stay_in = [&](PieceIndex piece) -> Time {
-    if (!overlap_with(piece).any.overlaps(segment.positions)) return {.begin = Time::after, .end = Time::before};
+  const auto stay_in = [&](PieceIndex piece) -> OverlapTime {
+    if (!overlap_with(piece).any.overlaps(segment.positions))
+      return {.begin = OverlapTime::after, .end = OverlapTime::before};
     if (scenery_->pieces()[piece].is_circle())
       return geometry::overlap_time(outline_, scenery_->circle(piece), segment.from, segment.to);
     return geometry::overlap_time(overlap_with(piece).axes, segment.from, segment.to);
   };
   const Stays<decltype(stay_in)> stays(pieces, stay_in);
-  for (Time stay = stays.after(Time::before - 1); stay.any(); stay = stays.after(stay.end)) {
-    if (stay.begin != Time::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
-    if (stay.end == Time::after) return;
+  for (OverlapTime stay = stays.after(OverlapTime::before - 1); stay.any(); stay = stays.after(stay.end)) {
+    if (stay.begin != OverlapTime::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
+    if (stay.end == OverlapTime::after) return;
     add_in_order({sensor, Change::exit, segment.fraction(stay.end)}, events);
     if (pieces.size() == 1) return;  // convex: it is left once
   }

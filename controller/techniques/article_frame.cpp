@@ -36,8 +36,6 @@ class Frame {
   }
 
  private:
-  using Group = PieceGroup;
-
   /// Where the character may come during the frame by itself.
   [[nodiscard]] Box2 total_box() const noexcept {
     const Box2& body = parts_.points.box;
@@ -55,7 +53,7 @@ class Frame {
   [[nodiscard]] bool something_moves_near() noexcept {
     if (request_.ride.ground != Ride::none) return true;
     groups_ = parts_.groups_near(total_box().inflated(most_push()), record_.frame(), scratch_);
-    return std::any_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+    return std::any_of(groups_.begin(), groups_.end(), [&](const PieceGroup& group) {
       const std::span<const PieceIndex> pieces = group.pieces.pieces();
       return std::any_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
         return record_.frame().carries(parts_.scenery->pieces()[piece].collider);
@@ -89,7 +87,7 @@ class Frame {
   }
 
   void see_where_it_begins() noexcept {
-    for (const Group& group : groups_) {
+    for (const PieceGroup& group : groups_) {
       const bool inside = parts_.inside(group.pieces, group.seen(position_, 0));
       began_inside_ = began_inside_ || inside;
       if (group.mover == no_mover) began_in_static_ = inside;
@@ -152,12 +150,12 @@ class Frame {
     bool hit = false;
     if (parts_.knobs.objects == ArticleKnobs::Objects::all) {
       for (const Side side : all_sides)
-        for (const Group& group : groups_) hit = resolve_pair(group, side, groups_) || hit;
+        for (const PieceGroup& group : groups_) hit = resolve_pair(group, side, groups_) || hit;
       return hit;
     }
-    for (const Group& group : groups_) {
+    for (const PieceGroup& group : groups_) {
       for (std::span<const PieceIndex> rest = group.pieces.pieces(); !rest.empty();) {
-        Group object = group;
+        PieceGroup object = group;
         object.pieces = group.pieces.object_at_front(rest);
         rest = rest.subspan(object.pieces.pieces().size());
         for (const Side side : all_sides) hit = resolve_pair(object, side, std::span(&object, 1)) || hit;
@@ -167,7 +165,7 @@ class Frame {
   }
 
   /// @param others what the pair is free of afterwards: the group among them.
-  bool resolve_pair(const Group& group, Side side, std::span<const Group> others) noexcept {
+  bool resolve_pair(const PieceGroup& group, Side side, std::span<const PieceGroup> others) noexcept {
     if (!record_.is_tested(side, group)) return false;
     const std::optional<PointHit> found = report_penetration(group, side);
     if (!found) return false;
@@ -176,9 +174,10 @@ class Frame {
     return true;
   }
 
-  [[nodiscard]] bool pair_is_inside(Side side, const Vec2d& position, std::span<const Group> groups) const noexcept {
+  [[nodiscard]] bool pair_is_inside(Side side, const Vec2d& position,
+                                    std::span<const PieceGroup> groups) const noexcept {
     const std::span<const std::size_t> points = distinct(record_.pair(side));
-    return std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
+    return std::any_of(groups.begin(), groups.end(), [&](const PieceGroup& group) {
       return std::any_of(points.begin(), points.end(), [&](std::size_t i) {
         return group.pieces.containing(group.seen(position, 1) + parts_.points.offsets[i]).has_value();
       });
@@ -186,7 +185,7 @@ class Frame {
   }
 
   /// @return the first of the hits.
-  std::optional<PointHit> report_penetration(const Group& group, Side side) noexcept {
+  std::optional<PointHit> report_penetration(const PieceGroup& group, Side side) noexcept {
     Vec2d back{Vec2d::Zero()};
     back[component_of(side)] = static_cast<double>(-outwards(side));
     std::optional<PointHit> first;
@@ -203,7 +202,7 @@ class Frame {
 
   /// Unit by unit towards the start and, where needed, beyond it by as much as the character is long in that direction.
   /// What is not free then (something larger than the character is in the way) does not move in that direction at all.
-  void push_back(const Group& group, Side side, const PointHit& hit, std::span<const Group> others) noexcept {
+  void push_back(const PieceGroup& group, Side side, const PointHit& hit, std::span<const PieceGroup> others) noexcept {
     const Eigen::Index component = component_of(side);
     const double extent = parts_.points.box.upper[component] - parts_.points.box.lower[component];
     const Vec2d drift = group.drift();
@@ -232,10 +231,10 @@ class Frame {
 
   /// A mover pushes nothing through what stands still: the pair in front looks where it is pushed. What is pushed moves
   /// that way, so that from now on the pairs that face it are tested.
-  [[nodiscard]] bool may_push(const Group& group, Side side, const Vec2d& adjusted, const PointHit& hit) noexcept {
+  [[nodiscard]] bool may_push(const PieceGroup& group, Side side, const Vec2d& adjusted, const PointHit& hit) noexcept {
     const Vec2d push = adjusted - movement_;
     if (group.mover != no_mover) {
-      for (const Group& other : groups_) {
+      for (const PieceGroup& other : groups_) {
         if (other.mover != no_mover) continue;
         for (const std::size_t i : distinct(record_.pair(opposite(side)))) {
           const Vec2d from = other.seen(position_ + movement_, 1) + parts_.points.offsets[i];
@@ -265,7 +264,7 @@ class Frame {
   bool find_what_is_inside() noexcept {
     look_around();
     bool in_static = false;
-    for (const Group& group : groups_) {
+    for (const PieceGroup& group : groups_) {
       for (const Vec2d& offset : parts_.points.offsets) {
         const auto piece = group.pieces.containing(group.seen(position_, 1) + offset);
         if (!piece) continue;
@@ -291,9 +290,9 @@ class Frame {
   MoveResult& result_;
   FrameRecord record_;
   Box2 reach_;  ///< How far the movement can lead, where something moves.
-  std::span<const Group> groups_;
+  std::span<const PieceGroup> groups_;
   Vec2d position_;      ///< In the frame of reference.
-  Vec2d movement_;      ///< What is left of the frame's.
+  Vec2d movement_;      ///< The rest of the movement of this frame [m].
   bool moves_ = false;  ///< Something that moves or carries is near.
   bool began_inside_ = false;
   bool began_in_static_ = false;

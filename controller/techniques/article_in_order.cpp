@@ -40,11 +40,9 @@ class SearchInOrder {
   }
 
  private:
-  using Group = PieceGroup;
-
   /// What a pair ran into, and went along with from then on.
   struct Hold {
-    const Group* group = nullptr;  ///< Null: nothing was hit on this side.
+    const PieceGroup* group = nullptr;  ///< Null: nothing was hit on this side.
     ColliderIndex collider = 0;
     Side side = Side::bottom;
     double since = 0;
@@ -58,7 +56,7 @@ class SearchInOrder {
   };
   /// The next thing that a pair runs into.
   struct Meeting {
-    const Group* group = nullptr;  ///< Null: nothing.
+    const PieceGroup* group = nullptr;  ///< Null: nothing.
     Side side = Side::bottom;
     PairImpact impact;
   };
@@ -67,7 +65,7 @@ class SearchInOrder {
     Meeting next;
     for (const Side side : all_sides) {
       if (is_wedged_[static_cast<std::size_t>(component_of(side))]) continue;
-      for (const Group& group : groups_) {
+      for (const PieceGroup& group : groups_) {
         const Vec2d rest = (movement_ + group.drift()) * (1 - time_);
         if (rest.isZero(0) || !is_searched(side, rest)) continue;
         const PairImpact impact = search(parts_, group.pieces, record_.pair(side), seen(group, side), rest);
@@ -86,7 +84,7 @@ class SearchInOrder {
 
   /// The character's position now. What goes along with a group keeps its place there: were that rounded, a point
   /// would come to be on the line of a chain, or an ulp beyond, and would not be seen to cross it any more.
-  [[nodiscard]] Vec2d seen(const Group& group, Side side) const noexcept {
+  [[nodiscard]] Vec2d seen(const PieceGroup& group, Side side) const noexcept {
     Vec2d result = group.seen(position_, time_);
     const Hold& hold = holds_[static_cast<std::size_t>(side)];
     if (hold.group == &group && !(time_ > hold.until)) result[component_of(side)] = hold.seen[component_of(side)];
@@ -95,7 +93,7 @@ class SearchInOrder {
 
   /// From here on the component of the pair goes as what it met does.
   void respond(const Meeting& meeting) noexcept {
-    const Group& group = *meeting.group;
+    const PieceGroup& group = *meeting.group;
     const Side side = meeting.side;
     const auto component = static_cast<std::size_t>(component_of(side));
     const Vec2d landing = seen(group, side) + meeting.impact.reached;
@@ -128,7 +126,7 @@ class SearchInOrder {
       result_.path.push_back({record_.frame().in_world(position_, time_), time_});
   }
 
-  void follow(Eigen::Index component, const Group& group) noexcept {
+  void follow(Eigen::Index component, const PieceGroup& group) noexcept {
     for (const Eigen::Index i : {0, 1}) {
       if (i != component && !record_.shortens()) continue;
       movement_[i] = 0 - group.drift()[i];
@@ -137,7 +135,7 @@ class SearchInOrder {
   }
 
   /// What comes to rest on moving ground is carried from then on, unless it had a speed of its own along the ground.
-  void take_along(const Group& group, const PointHit& hit) noexcept {
+  void take_along(const PieceGroup& group, const PointHit& hit) noexcept {
     const ColliderIndex ground = record_.collider_of(hit);
     if (!record_.frame().carries(ground) || request_.ride.ground != Ride::none || request_.velocity.x() != 0) return;
     movement_.x() = record_.frame().surface_motion(ground).x() - group.drift().x();
@@ -176,7 +174,7 @@ class SearchInOrder {
   }
 
   const Parts& parts_;
-  std::span<const Group> groups_;
+  std::span<const PieceGroup> groups_;
   const MoveRequest& request_;
   FrameRecord& record_;
   MoveResult& result_;

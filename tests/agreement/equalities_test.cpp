@@ -27,10 +27,6 @@ namespace {
 
 using compare::RandomRun;
 using compare::Scene;
-using Context = StepContext;
-using Report = StepReport;
-using State = CharacterState;
-
 /// How one and the same thing is said in another way of a run: vectors are multiplied, colliders are numbered anew, and
 /// a character is said to be somewhere else, as its shape is written around another origin.
 struct Saying {
@@ -53,7 +49,7 @@ struct Saying {
     if (mirrors() && input.move) input.move = -*input.move;
     return input;
   }
-  [[nodiscard]] State of(State state) const {
+  [[nodiscard]] CharacterState of(CharacterState state) const {
     for (Vec2d* p : {&state.position, &state.last_free, &state.ride.place}) *p = of_place(*p);
     for (Vec2d* v : {&state.velocity, &state.ride.velocity, &state.ground.normal, &state.ground.velocity}) *v = of(*v);
     for (Crusher& crusher : state.crushers) {
@@ -85,7 +81,7 @@ struct Saying {
 };
 
 /// What differs between a step and what the other way says; empty where nothing does. @param near are equal numbers.
-std::string difference(const Report& one, const Report& other, const Saying& saying, double near) {
+std::string difference(const StepReport& one, const StepReport& other, const Saying& saying, double near) {
   const MoveResult& a = one.move;
   const MoveResult& b = other.move;
   const auto same = [near](const Vec2d& p, const Vec2d& q) { return p == q || (p - q).cwiseAbs().maxCoeff() <= near; };
@@ -115,7 +111,7 @@ std::string difference(const Report& one, const Report& other, const Saying& say
 }
 
 /// Steps one character in some way. It owns what it needs.
-using Stepper = std::function<void(State&, const Input&, const Context&, Report&)>;
+using Stepper = std::function<void(CharacterState&, const Input&, const StepContext&, StepReport&)>;
 
 struct OtherWay {
   Saying saying{};
@@ -133,8 +129,8 @@ struct World {
 };
 
 Stepper controller_of(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {}) {
-  return [world = std::make_shared<World>(def, character, technique)](State& state, const Input& input,
-                                                                      const Context& context, Report& report) {
+  return [world = std::make_shared<World>(def, character, technique)](CharacterState& state, const Input& input,
+                                                                      const StepContext& context, StepReport& report) {
     world->controller.step(state, input, context, world->scratch, report);
   };
 }
@@ -207,7 +203,8 @@ OtherWay edited_level(const RandomRun& run, Random& random, OtherWay other) {
   }
   const auto controller = std::make_shared<LevelController>(*level, other.saying.of(run.scene.character));
   const auto poses = std::make_shared<std::vector<PoseMotion>>();
-  other.step = [level, controller, poses](State& state, const Input& input, const Context& context, Report& report) {
+  other.step = [level, controller, poses](CharacterState& state, const Input& input, const StepContext& context,
+                                          StepReport& report) {
     poses->clear();
     for (const MoverMotion& motion : context.movers) poses->push_back({{motion.from, 0}, {motion.to, 0}});
     controller->step(state, input, {context.gravity, context.dt, *poses, nullptr, context.up}, report);
@@ -257,15 +254,16 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
   add(compare::box(-2, -2, 2, 2, ghost), false);
   const Stepper whole = controller_of(def, run.scene.character);
   const auto motions = std::make_shared<std::vector<MoverMotion>>();
-  other.step = [=, kept = is_there](State& state, const Input& input, const Context& context, Report& report) {
+  other.step = [=, kept = is_there](CharacterState& state, const Input& input, const StepContext& context,
+                                    StepReport& report) {
     motions->assign(context.movers.begin(), context.movers.end());
     motions->push_back({{0, 0}, {0.1, 0}});
-    Context with = context;
+    StepContext with = context;
     with.movers = *motions;
     // Another character takes its step before, with the same memory and without a filter.
-    State of_another;
+    CharacterState of_another;
     of_another.position = state.position;
-    Report report_of_another;
+    StepReport report_of_another;
     whole(of_another, {}, with, report_of_another);
     with.filter = filter.get();
     whole(state, input, with, report);
@@ -276,10 +274,10 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
 /// Saved as bytes and restored in each step, with memory that others have used or nobody has.
 OtherWay restored_each_step(const RandomRun& run, Random&, OtherWay) {
   const auto world = std::make_shared<World>(run.scene.scenery, run.scene.character);
-  return {.step = [world](State& state, const Input& input, const Context& context, Report& report) {
-    State elsewhere = state;
+  return {.step = [world](CharacterState& state, const Input& input, const StepContext& context, StepReport& report) {
+    CharacterState elsewhere = state;
     elsewhere.position += Vec2d(1, 1);
-    Report of_elsewhere;
+    StepReport of_elsewhere;
     world->controller.step(elsewhere, {.move = 1}, context, world->scratch, of_elsewhere);
     state = restored(save(state));
     world->controller.step(state, input, context, world->scratch, report);
@@ -290,9 +288,9 @@ OtherWay restored_each_step(const RandomRun& run, Random&, OtherWay) {
 /// In another thread, while this one steps the same.
 OtherWay in_two_threads(const RandomRun& run, Random&, OtherWay) {
   const auto world = std::make_shared<World>(run.scene.scenery, run.scene.character);
-  return {.step = [world](State& state, const Input& input, const Context& context, Report& report) {
-    State of_this = state;
-    Report report_of_this;
+  return {.step = [world](CharacterState& state, const Input& input, const StepContext& context, StepReport& report) {
+    CharacterState of_this = state;
+    StepReport report_of_this;
     Scratch scratch = world->controller.make_scratch();
     {
       const std::jthread thread([&] { world->controller.step(state, input, context, world->scratch, report); });
@@ -314,7 +312,8 @@ OtherWay one_of_many(const RandomRun& run, Random&, OtherWay other) {
   const auto scenery = std::make_shared<const Scenery>(run.scene.scenery);
   const auto crowd = std::make_shared<const Crowd>(*scenery, other.saying.of(run.scene.character));
   const auto scratch = std::make_shared<CrowdScratch>(crowd->make_scratch(1));
-  other.step = [scenery, crowd, scratch](State& state, const Input& input, const Context& context, Report& report) {
+  other.step = [scenery, crowd, scratch](CharacterState& state, const Input& input, const StepContext& context,
+                                         StepReport& report) {
     CrowdReport of_all(1);
     crowd->step({&state, 1}, {&input, 1}, context, *scratch, of_all);
     report = of_all.members[0].step;
@@ -365,16 +364,16 @@ class Twice {
 
   /// @return the first difference, or nothing.
   std::string go() {
-    State state;
+    CharacterState state;
     state.position = run_.scene.start.position;
     state.velocity = run_.scene.start.velocity;
-    State other_state = other_.saying.of(state);
+    CharacterState other_state = other_.saying.of(state);
     for (int step = 0; step < run_.scene.steps; ++step) {
       launch(step, state);
       launch(step, other_state, other_.saying);
       const compare::StepInput input = with_up(run_, step, cursor_.at(step));
-      Report report;
-      Report other_report;
+      StepReport report;
+      StepReport other_report;
       one_(state, input.players[0], context_of(input, {}, motions_), report);
       other_.step(other_state, other_.saying.of(input.players[0]), context_of(input, other_.saying, other_motions_),
                   other_report);
@@ -393,12 +392,13 @@ class Twice {
   }
 
  private:
-  void launch(int step, State& state, const Saying& saying = {}) const {
+  void launch(int step, CharacterState& state, const Saying& saying = {}) const {
     for (const compare::Launch& launch : run_.launches)
       if (launch.step == step) state.velocity = saying.of(launch.velocity);
   }
 
-  static Context context_of(const compare::StepInput& input, const Saying& saying, std::vector<MoverMotion>& motions) {
+  static StepContext context_of(const compare::StepInput& input, const Saying& saying,
+                                std::vector<MoverMotion>& motions) {
     motions.clear();
     for (const MoverMotion& motion : input.movers) motions.push_back({saying.of(motion.from), saying.of(motion.to)});
     return {saying.of(input.gravity), input.dt, motions, nullptr, saying.of(input.up)};

@@ -34,14 +34,15 @@ constexpr std::array all_stopping{
 
 class TechniqueIn : public testing::Test {
  protected:
-  static constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<double>::epsilon());
+  static constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
   static void expect_gap(double found, const Stopping& by) {
-    const double stop = by.is_a_stop ? static_cast<double>(Tolerances{}.stop) : 0;
+    const double stop = by.is_a_stop ? Tolerances{}.stop : 0;
     EXPECT_GE(found, stop - rounding);
     EXPECT_LE(found, by.most + stop + rounding);
   }
 };
+
 TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   struct Case {
     Side side;
@@ -68,7 +69,7 @@ TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
       EXPECT_EQ(result.grounded, each.side == Side::bottom);
       ASSERT_EQ(result.contacts.size(), 1U);
       EXPECT_EQ(result.contacts[0].side, each.side);
-      EXPECT_EQ(result.contacts[0].normal, (-each.out));
+      EXPECT_EQ(result.contacts[0].normal, -each.out);
       EXPECT_NEAR(result.contacts[0].fraction, by.knows_when ? (3 - by.most / px / 2) / 10.3 : 1,
                   by.most / px / 2 / 10.3 + 1e-6);
       EXPECT_NEAR(result.contacts[0].separation, left, this->rounding);

@@ -213,9 +213,8 @@ TEST(JumpingRules, refuse_a_jump_together_with_the_direction_after_standing_idle
 }
 
 TEST(Refusals, change_nothing_for_input_that_is_no_number) {
-  using State = CharacterState;
   struct Case {
-    State state = busy();
+    CharacterState state = busy();
     Input input{.move = 0.5};
     StepContext context{{0, -10}, 1.0 / 60};
   };
@@ -224,7 +223,8 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   const auto add = [&cases]() -> Case& { return cases.emplace_back(); };
   for (const double bad : {infinity - infinity, infinity, -infinity}) {
     for (const Eigen::Index axis : {0, 1}) {
-      for (Vec2d State::*field : {&State::position, &State::velocity, &State::technique_memory, &State::last_free})
+      for (Vec2d CharacterState::*field : {&CharacterState::position, &CharacterState::velocity,
+                                           &CharacterState::technique_memory, &CharacterState::last_free})
         (add().state.*field)[axis] = bad;
       for (Vec2d Ride::*field : {&Ride::place, &Ride::velocity}) (add().state.ride.*field)[axis] = bad;
       add().context.gravity[axis] = bad;
@@ -236,7 +236,7 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   for (const std::string_view kind : technique_names()) {
     Stepper stepper({box(-9, -9, 9, 0)}, {}, kind);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      State state = cases[i].state;
+      CharacterState state = cases[i].state;
       EXPECT_EQ(stepper.controller.step(state, cases[i].input, cases[i].context, stepper.scratch, stepper.report),
                 StepStatus::invalid_input)
           << kind << ", case " << i;

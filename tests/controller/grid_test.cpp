@@ -98,7 +98,7 @@ TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
   }
   for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
   for (int step = 0; step < 2; ++step) walk.move({0, 0});
-  EXPECT_EQ(walk.result.technique_memory.x(), (-0.3125 + 0.1875)) << "from the other side, too";
+  EXPECT_EQ(walk.result.technique_memory.x(), -0.3125 + 0.1875) << "from the other side, too";
 }
 
 TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {

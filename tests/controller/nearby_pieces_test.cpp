@@ -14,7 +14,6 @@
 namespace paperproof::test {
 namespace {
 
-using Event = SensorEvent;
 using Path = std::vector<PathPoint>;
 using Motions = std::vector<MoverMotion>;
 
@@ -75,8 +74,8 @@ Seen seen_by(const Sensors& sensors, const Path& path, const Motions& motions, C
 }
 
 /// Each in a scenery with nothing else in it, in order of time.
-std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, const Motions& motions) {
-  std::vector<Event> all;
+std::vector<SensorEvent> seen_one_by_one(const SceneryDef& def, const Path& path, const Motions& motions) {
+  std::vector<SensorEvent> all;
   for (ColliderIndex i = 0; i < def.colliders.size(); ++i) {
     SceneryDef alone{{def.colliders[i]}};
     MoverIndex& mover = alone.colliders[0].mover;
@@ -85,9 +84,10 @@ std::vector<Event> seen_one_by_one(const SceneryDef& def, const Path& path, cons
     const Scenery scenery(alone);
     const Sensors watch(scenery, CharacterShape::article());
     Candidates fresh = watch.make_candidates();
-    for (const Event& event : seen_by(watch, path, motion, fresh)) all.push_back({i, event.change, event.fraction});
+    for (const SensorEvent& event : seen_by(watch, path, motion, fresh))
+      all.push_back({i, event.change, event.fraction});
   }
-  std::ranges::stable_sort(all, {}, &Event::fraction);
+  std::ranges::stable_sort(all, {}, &SensorEvent::fraction);
   return all;
 }
 
@@ -135,7 +135,7 @@ TEST(SensorsNearby, are_those_of_a_look_at_each_alone) {
       at = path.back().position;
       quiet += candidates.quiet.contains(PieceFinder::positions_seen(path, {}));
       const Seen events = seen_by(watch, path, motions, candidates);
-      std::vector<Event> all = seen_one_by_one(def, path, motions);
+      std::vector<SensorEvent> all = seen_one_by_one(def, path, motions);
       ASSERT_EQ(events.overflowed(), all.size() > Seen::capacity()) << "seed " << seed << ", step " << step;
       all.resize(std::min(all.size(), Seen::capacity()));
       ASSERT_TRUE(all_same_bits(events, all)) << "seed " << seed << ", step " << step;

@@ -105,26 +105,25 @@ TEST(Replay, from_a_copied_state_gives_the_same_bits) {
 }
 
 TEST(SavedStates, are_restored_whole_and_have_the_bytes_of_equal_states_and_no_others) {
-  using State = CharacterState;
-  const auto same_bytes = [](const State& a, const State& b) {
+  const auto same_bytes = [](const CharacterState& a, const CharacterState& b) {
     const SavedState one = save(a);
     const SavedState other = save(b);
     return std::memcmp(&one, &other, sizeof one) == 0;
   };
-  const State state = busy();
-  State more_crushed = state;
+  const CharacterState state = busy();
+  CharacterState more_crushed = state;
   more_crushed.crushers[2].has_side = true;
-  State less_crushed = state;
+  CharacterState less_crushed = state;
   less_crushed.crushers.pop_back();
-  State free_on_the_left = state;
+  CharacterState free_on_the_left = state;
   free_on_the_left.wall_left = false;
-  for (const State& other : {state, State(), more_crushed, less_crushed, free_on_the_left}) {
+  for (const CharacterState& other : {state, CharacterState(), more_crushed, less_crushed, free_on_the_left}) {
     EXPECT_EQ(restored(save(other)), other);
     EXPECT_EQ(same_bytes(state, other), state == other);
   }
-  State negative_zero;
+  CharacterState negative_zero;
   negative_zero.velocity.x() = -0.0;
-  EXPECT_TRUE(same_bytes(State(), negative_zero));
+  EXPECT_TRUE(same_bytes(CharacterState(), negative_zero));
 }
 
 TEST(SavedBytes, of_any_kind_give_a_state_that_is_refused_or_stepped) {

@@ -8,8 +8,7 @@ using namespace paperproof;
 class Ghost final : public Technique {
  public:
   Ghost(const TechniqueDef& def, const Scenery&, const CharacterDef&) {
-    if (const auto turned = def.own.find("share"); turned != def.own.end())
-      share_ = static_cast<double>(real_in(turned->second));
+    if (const auto turned = def.own.find("share"); turned != def.own.end()) share_ = real_in(turned->second);
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "ghost"; }

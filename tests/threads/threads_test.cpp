@@ -15,8 +15,6 @@
 namespace paperproof::test {
 namespace {
 
-using State = CharacterState;
-
 constexpr int characters = 4;
 constexpr int steps = 300;
 constexpr double dt = 1.0 / 60;
@@ -38,8 +36,8 @@ class Keys {
 
 /// Every state of every character, each in a thread of its own or one after the other.
 /// @param make_stepper makes what steps one character; it is called for each where that walks.
-std::vector<std::vector<State>> all_states(const auto& make_stepper, bool in_threads) {
-  std::vector<std::vector<State>> all(characters);
+std::vector<std::vector<CharacterState>> all_states(const auto& make_stepper, bool in_threads) {
+  std::vector<std::vector<CharacterState>> all(characters);
   std::vector<std::jthread> threads;
   for (int k = 0; k < characters; ++k) {
     const auto walk = [&make_stepper, &states = all[static_cast<std::size_t>(k)], k] {
@@ -61,10 +59,11 @@ std::vector<std::vector<State>> all_states(const auto& make_stepper, bool in_thr
 }
 
 void expect_the_same_in_threads(const auto& make_stepper) {
-  const std::vector<std::vector<State>> alone = all_states(make_stepper, false);
+  const std::vector<std::vector<CharacterState>> alone = all_states(make_stepper, false);
   EXPECT_EQ(all_states(make_stepper, true), alone);
   int moved = 0;
-  for (const std::vector<State>& states : alone) moved += (states.back().position - states.front().position).norm() > 3;
+  for (const std::vector<CharacterState>& states : alone)
+    moved += (states.back().position - states.front().position).norm() > 3;
   EXPECT_EQ(moved, characters) << "who stays where it is shows nothing";
 }
 
@@ -75,10 +74,10 @@ TEST(SharedController, gives_each_thread_what_it_gives_one_alone) {
   character.step_height = 0.3;
   const Controller controller(scenery, character);
   expect_the_same_in_threads([&] {
-    return
-        [&, scratch = controller.make_scratch(), report = StepReport()](State& state, const Input& input, int) mutable {
-          controller.step(state, input, {gravity, dt}, scratch, report);
-        };
+    return [&, scratch = controller.make_scratch(), report = StepReport()](CharacterState& state, const Input& input,
+                                                                           int) mutable {
+      controller.step(state, input, {gravity, dt}, scratch, report);
+    };
   });
 }
 
@@ -101,7 +100,7 @@ TEST(SharedLevel, gives_each_thread_what_it_gives_one_alone) {
   for (MoverIndex mover = 0; mover < 4; ++mover) level.add(compare::box(-3, -0.1, 3, 0.1, mover));
   expect_the_same_in_threads([&] {
     return [controller = LevelController(level, CharacterDef{}), report = StepReport()](
-               State& state, const Input& input, int step) mutable {
+               CharacterState& state, const Input& input, int step) mutable {
       const std::vector<PoseMotion> poses = poses_in(step);
       controller.step(state, input, {gravity, dt, poses}, report);
     };

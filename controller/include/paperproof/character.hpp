@@ -8,7 +8,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 
 namespace paperproof {
 
@@ -185,7 +184,7 @@ struct CharacterState {
 /// and how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
 /// button. If the place is not free, the next step resolves that: see `Controller::overlaps`.
 /// @param position [m]
-inline void teleport(CharacterState& state, const std::type_identity_t<Vec2d>& position) noexcept {
+inline void teleport(CharacterState& state, const Vec2d& position) noexcept {
   CharacterState there;
   there.position = position;
   there.velocity = state.velocity;
@@ -201,7 +200,7 @@ inline void teleport(CharacterState& state, const std::type_identity_t<Vec2d>& p
 /// the coyote time is over; a press of the button stays pending. If it was jumping, the jump is over, too: to release
 /// the button does not cut the rise. Steering works as in the air. A crushed character stays in place.
 /// @param velocity [m/s]
-inline void knock_back(CharacterState& state, const std::type_identity_t<Vec2d>& velocity) noexcept {
+inline void knock_back(CharacterState& state, const Vec2d& velocity) noexcept {
   state.velocity += velocity;
   state.grounded = state.jumping = false;
   state.coyote_left = 0;

@@ -14,20 +14,20 @@ enum class ContactChange : std::uint8_t { added, persisted, removed };
 /// Calls `visit(change, contact)` for each surface of two steps once, with its first contact: those of this step in
 /// their order, then those that are `removed`, with their contact of the step before.
 /// @param same whether two contacts are with one surface.
-template <class Contact, class Same, class Visit>
-void for_each_change(std::span<const Contact> before, std::span<const Contact> now, const Same& same,
+template <class AnyContact, class Same, class Visit>
+void for_each_change(std::span<const AnyContact> before, std::span<const AnyContact> now, const Same& same,
                      const Visit& visit) {
-  const auto is_in = [&](std::span<const Contact> contacts, const Contact& contact) {
-    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& other) { return same(other, contact); });
+  const auto is_in = [&](std::span<const AnyContact> contacts, const AnyContact& contact) {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const AnyContact& other) { return same(other, contact); });
   };
-  const auto visit_first_of = [&](std::span<const Contact> contacts, const auto& change_of) {
+  const auto visit_first_of = [&](std::span<const AnyContact> contacts, const auto& change_of) {
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (!is_in(contacts.first(i), contacts[i])) change_of(contacts[i]);
   };
-  visit_first_of(now, [&](const Contact& contact) {
+  visit_first_of(now, [&](const AnyContact& contact) {
     visit(is_in(before, contact) ? ContactChange::persisted : ContactChange::added, contact);
   });
-  visit_first_of(before, [&](const Contact& contact) {
+  visit_first_of(before, [&](const AnyContact& contact) {
     if (!is_in(now, contact)) visit(ContactChange::removed, contact);
   });
 }

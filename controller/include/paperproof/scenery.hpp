@@ -137,8 +137,8 @@ struct PieceRange {
 /// Immutable after construction; may be shared between threads.
 class Scenery {
  public:
-  /// Rounds every vertex to `double` (and magnitudes below 1e-90 m to zero: their products would underflow), checks
-  /// every collider and cuts polygons into convex pieces.
+  /// Takes magnitudes below 1e-90 m for zero (their products would underflow), checks every collider and cuts polygons
+  /// into convex pieces.
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
   ///   polygon, a hole that is not inside, a `one_way` that is zero or not finite, a sensor that is one-way, a
@@ -183,8 +183,7 @@ class Scenery {
   /// The pieces of a collider are consecutive. A one-way chain may have none.
   [[nodiscard]] PieceRange pieces_of(ColliderIndex collider) const noexcept;
 
-  /// The definition as it runs: every coordinate rounded to `double`. An exact judge reads this definition. Each call
-  /// builds it anew from the stored data.
+  /// The definition as it runs, which an exact judge reads. Each call builds it anew from the stored data.
   [[nodiscard]] SceneryDef as_run() const;
   [[nodiscard]] ColliderDef as_run(ColliderIndex collider) const;
 

@@ -70,13 +70,13 @@ struct Member {
   Box2 box;             ///< Around the shape along the plan, and a little more.
   Obstacles obstacles;  ///< The characters that it avoids. The k-th of them takes the k-th slot of the scenery.
   int replans = 0;
-  bool holds_position = false;     ///< For the rest of the step. It has no obstacles, and is one.
-  bool follows_ground = false;     ///< It was on the ground and does not jump: its path follows the ground down.
-  bool ground_taken = false;       ///< Another character is where it would follow the ground down to: it does not.
-  double leaves_ground_above = 0;  ///< See `StepRequest`.
-  bool drops = false;              ///< One-way chains do not hold it in this step.
-  bool dropped = false;            ///< Its step was cut short.
-  bool starts_stuck = false;       ///< It began inside scenery, and there was no way out.
+  bool holds_position = false;  ///< For the rest of the step. It has no obstacles, and is one.
+  bool follows_ground = false;  ///< It was on the ground and does not jump: its path follows the ground down.
+  bool ground_taken = false;    ///< Another character is where it would follow the ground down to: it does not.
+  double next_dt = 0;           ///< See `StepRequest`.
+  bool drops = false;           ///< One-way chains do not hold it in this step.
+  bool dropped = false;         ///< Its step was cut short.
+  bool starts_stuck = false;    ///< It began inside scenery, and there was no way out.
   ReportMemory<ColliderIndex> crushed_memory;  ///< For movers that its report has no room for.
 };
 

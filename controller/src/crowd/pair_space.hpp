@@ -70,7 +70,6 @@ template <class Ring>
 class PairSpace {
  public:
   explicit PairSpace(const CharacterShape& shape) {
-    // Rounded to `double`, as the step uses it.
     for (const Vec2d& point : shape.hull()) hull_.push_back(point);
     box_ = {shape.box().lower, shape.box().upper};
     for (std::size_t i = 0; i < hull_.size(); ++i) {

@@ -162,7 +162,7 @@ class PathPlanner {
             .grounded = member.follows_ground && !member.ground_taken && end == 1,
             .crushed = at.state.crushed,
             .drop = member.drops,
-            .leaves_ground_above = member.leaves_ground_above,
+            .next_dt = member.next_dt,
             .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
             .movers = step_.memory.motions,
             .filter = step_.filter,

@@ -47,7 +47,7 @@ class SweepTogether {
     member.replans = 0;
     member.holds_position = member.ground_taken = member.dropped = false;
     member.follows_ground = request.grounded;
-    member.leaves_ground_above = request.leaves_ground_above;
+    member.next_dt = request.next_dt;
     member.drops = request.drop;
     Moment end = member.now;
     if (planner_.plan_until(i, 1, step_.memory.path, end))

@@ -55,16 +55,15 @@ std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& fr
 
 OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from,
                          const Vec2d& to) noexcept {
-  using Time = OverlapTime;
-  Time time;
+  OverlapTime time;
   if (!(near_circle(mover, from, standing).separation < 0)) {
     const auto enters = approach(mover, from, Vec2d(to - from), standing, 0.0);
-    if (!enters) return {.begin = Time::after, .end = Time::before};
+    if (!enters) return {.begin = OverlapTime::after, .end = OverlapTime::before};
     time.begin = enters->time;
   }
   if (!(near_circle(mover, to, standing).separation < 0)) {
     const auto leaves = approach(mover, to, Vec2d(from - to), standing, 0.0);
-    if (!leaves) return {.begin = Time::after, .end = Time::before};
+    if (!leaves) return {.begin = OverlapTime::after, .end = OverlapTime::before};
     time.end = 1 - leaves->time;
   }
   return time;

@@ -13,8 +13,8 @@ class ExactPosition {
   explicit ExactPosition(const Vec2& position) noexcept { add(position.cast<double>()); }
   /// Of a piece of a mover at a fraction of the step.
   ExactPosition(const Vec2& position, const MoverMotion& motion, Real time) noexcept : ExactPosition(position) {
-    const Vec2d from = motion.from.cast<double>();
-    const Vec2d to = motion.to.cast<double>();
+    const Vec2d from = motion.from;
+    const Vec2d to = motion.to;
     add(time < 1 ? -from : -to);
     if (time > 0 && time < 1)
       for (const Vec2d& part : geometry::part_of_way(from, to, static_cast<double>(time))) add(-part);

@@ -22,8 +22,7 @@ constexpr double hidden_enough = 2e-7;
 template <class Points>
 double least_along(const Points& points, const Vec2d& n) noexcept {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& q : points)
-    least = std::min(least, n.x() * static_cast<double>(q.x()) + n.y() * static_cast<double>(q.y()));
+  for (const auto& q : points) least = std::min(least, n.x() * q.x() + n.y() * q.y());
   return least;
 }
 
@@ -105,7 +104,7 @@ void ConfigurationSpace::build_shared_axes() {
   add({-1, 0});
   add({0, -1});
   for (std::size_t k = 0; k < hull_.size(); ++k) {
-    const Vec2d edge = (hull_[(k + 1) % hull_.size()] - hull_[k]).cast<double>();
+    const Vec2d edge = hull_[(k + 1) % hull_.size()] - hull_[k];
     add(-unit_normal_right_of(edge));
   }
   lanes_ = shared_count_ <= 8 ? 8 : max_shared;
@@ -141,7 +140,7 @@ OctagonFace ConfigurationSpace::face_along(const Vec2& n) const noexcept {
 }
 
 Real ConfigurationSpace::support_offset(PieceIndex piece, const Vec2d& normal) const noexcept {
-  const double radius = scenery_.pieces()[piece].is_circle() ? static_cast<double>(scenery_.circle(piece).radius) : 0;
+  const double radius = scenery_.pieces()[piece].is_circle() ? scenery_.circle(piece).radius : 0;
   return static_cast<Real>(radius - least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
 }
 
@@ -184,7 +183,7 @@ void ConfigurationSpace::build_own_axes(PieceIndex piece, ObstacleInfo& info) {
     return;
   }
   for (std::size_t j = 0; j < vertices.size(); ++j) {
-    const Vec2d edge = (vertices[(j + 1) % vertices.size()] - vertices[j]).cast<double>();
+    const Vec2d edge = vertices[(j + 1) % vertices.size()] - vertices[j];
     const std::size_t axis = axis_of(unit_normal_right_of(edge));
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) info.one_way_axis = static_cast<std::uint8_t>(axis);
@@ -208,8 +207,8 @@ ConfigurationSpace::Interval ConfigurationSpace::face_of(const Points& points, c
 /// The same for a rectangle, of which a normal alone tells the corner; both on a side that it is upright to.
 ConfigurationSpace::Interval ConfigurationSpace::face_of_rectangle(const Box2& box,
                                                                    const Vec2d& normal) const noexcept {
-  const Vec2d lower = box.lower.cast<double>();
-  const Vec2d upper = box.upper.cast<double>();
+  const Vec2d& lower = box.lower;
+  const Vec2d& upper = box.upper;
   const auto clear = [&](Eigen::Index i) { return std::abs(normal[i]) * (upper[i] - lower[i]) > facet_noise_; };
   const auto ends = [&](Eigen::Index i) -> std::pair<double, double> {
     if (!clear(i)) return {lower[i], upper[i]};

@@ -102,7 +102,7 @@ class ConfigurationSpace {
 
   [[nodiscard]] const Scenery& scenery() const noexcept { return scenery_; }
   [[nodiscard]] const OneWaySurfaces& surfaces() const noexcept { return surfaces_; }
-  /// Hull of the character, counter-clockwise, rounded to Real [m].
+  /// Hull of the character, counter-clockwise, of coordinates that a `Real` holds [m].
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
   /// Box of the hull, around position zero.
   [[nodiscard]] const Box2& hull_box() const noexcept { return hull_box_; }
@@ -162,7 +162,7 @@ class ConfigurationSpace {
     return geometry::near_circle(hull(), p, scenery_.circle(piece));
   }
   [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle& near) noexcept {
-    return axis_along(near.normal.cast<double>());
+    return axis_along(near.normal);
   }
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return lanes_ + info_[piece].own_count; }
   [[nodiscard, gnu::always_inline]] inline Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
@@ -318,7 +318,7 @@ class ConfigurationSpace {
   std::array<Pair, max_shared / 2> shared_low_{};  ///< and the least n·o over the octagon.
   std::array<OctagonFace, max_shared> shared_faces_{};
   std::array<Interval, max_shared> hull_faces_{};  ///< What of the octagon faces a piece, as `face_of` counts.
-  std::vector<Real> shared_offsets_;               ///< Of what is no rectangle, but for the box directions.
+  std::vector<Real> shared_offsets_;               ///< Of pieces that are no rectangles, without the box directions.
   std::vector<OwnAxis> own_axes_;
   std::vector<ObstacleInfo> info_;
 };

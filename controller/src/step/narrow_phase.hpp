@@ -23,7 +23,7 @@ using geometry::length_of;
 /// A straight motion of the reference point, with all that is the same for every piece.
 struct Motion {
   Vec2 from;
-  Vec2 displacement;  ///< What is to be travelled [m].
+  Vec2 displacement;  ///< The whole motion [m].
   Real length;        ///< Of `displacement` [m].
   Real reach;         ///< The sweep covers `displacement` times this: it looks a little beyond the end.
   Vec2 extended;      ///< That product [m].

@@ -24,9 +24,9 @@ struct StepRequest {
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
   bool drop = false;      ///< One-way chains do not block: see `Input::drop`.
-  /// A motion leaves ground that it touches if it goes away from it faster than this [m/s]: by more than
-  /// `Tolerances::touch` in one more step. Zero in a step that begins with a jump.
-  double leaves_ground_above = 0;
+  /// Duration of one more step [s]: a motion leaves ground if it goes away from it by more than `Tolerances::touch` in
+  /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
+  double next_dt = 0;
   std::span<const Crusher> crushers{};  ///< See `CharacterState::crushers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion> movers{};

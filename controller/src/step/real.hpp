@@ -1,5 +1,5 @@
-/// The number that a step computes with. The harness compiles the sources of this folder once more, in `float`, for its
-/// studies of rounding: controller/in_float then says first what is defined here.
+/// The number type of a step. The harness studies rounding with a second build of these sources, in `float`:
+/// controller/in_float defines `PAPERPROOF_REAL`, `Real` and `Vec2` first, and then includes them.
 #pragma once
 
 #include <paperproof/tolerances.hpp>

@@ -5,7 +5,8 @@
 ///   2. step_start.hpp: a start that overlaps something, or is nearer than it should be, is made free.
 ///   3. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
 ///      stands still has none.
-///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
+///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. The rest of it goes back
+///   to 3.
 ///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
 ///      free position; where there is none, the movers crush the character.
 ///   6. step_solve.hpp: does the character stand on ground?
@@ -132,8 +133,8 @@ struct Step {
   UpFrame up;
   MoveResult& result;
 
-  Motion motion;              ///< Of the last sweep,
-  SweepResult found;          ///< and what it met.
+  Motion motion;              ///< Of the last sweep.
+  SweepResult found;          ///< What the last sweep hit.
   Vec2 start{Vec2::Zero()};   ///< Where the step began, or the way out of a solid ended, before gaps were restored.
                               ///< Times of impact count from there.
   Vec2 wanted{Vec2::Zero()};  ///< Displacement in the step, that of the ground included, before anything was met [m].
@@ -144,7 +145,7 @@ struct Step {
   Real latest_impact = 0;  ///< See `Reported`.
   Real fall = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Real steered = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
-  Real leaves_ground_above = 0;  ///< See `StepRequest`.
+  Real leaves_ground_above = 0;  ///< A motion leaves ground that it goes away from faster than this [m/s].
   bool drops = false;            ///< One-way segments do not block in this step.
   bool certify = false;          ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs = false;           ///< The step began on ground, with no more upward speed than climbing gives.
@@ -164,7 +165,6 @@ struct Step {
 
 /// Displacement of a surface in the rest of the step [m].
 [[nodiscard]] inline Vec2 remaining_of(const Step& step, const TouchedSurface& surface) noexcept {
-  if (surface.mover == no_mover) return Vec2::Zero();
   return step.movers.remaining(surface.mover, step.time);
 }
 
@@ -175,8 +175,7 @@ struct Step {
 
 /// Displacement of the mover of a collider in the step [m].
 [[nodiscard]] inline Vec2 displacement_of(const Step& step, ColliderIndex collider) noexcept {
-  const MoverIndex mover = step.space.scenery().collider(collider).mover;
-  return mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.displacement(mover);
+  return step.movers.displacement(step.space.scenery().collider(collider).mover);
 }
 
 [[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) noexcept {
@@ -194,12 +193,6 @@ struct Step {
 /// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
 [[nodiscard]] inline bool ignored(const Step& step, PieceIndex piece) noexcept {
   return step.memory.is(collider_of(step, piece), step.moving.ignored);
-}
-
-/// Velocity of a surface [m/s].
-[[nodiscard]] inline Vec2 velocity_of(const Step& step, const TouchedSurface& surface) noexcept {
-  if (surface.mover == no_mover) return Vec2::Zero();
-  return step.movers.displacement(surface.mover) / step.movers.dt;
 }
 
 /// Ground that falls faster than the character may.
@@ -228,8 +221,7 @@ struct Step {
 inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
 
 [[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece, Real time) noexcept {
-  const MoverIndex mover = mover_of(step, piece);
-  return mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.offset(mover, time);
+  return step.movers.offset(mover_of(step, piece), time);
 }
 
 /// Offset of the mover of a piece now, at fraction `time`; zero for a piece that stands still.
@@ -250,7 +242,7 @@ inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
   return mover_of(step, piece) == no_mover ? p : Vec2(p - offset(step, piece));
 }
 
-/// Notes what was reported up to the last corner of the path.
+/// Stores for the last corner of the path how many contacts are reported, and the latest impact among them.
 inline void note_reported(Step& step) noexcept {
   step.memory.reported_at[step.result.path.size() - 1] = {step.result.contacts.size(), step.latest_impact};
 }

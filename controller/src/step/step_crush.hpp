@@ -20,7 +20,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   if (!step.result.crushed.empty()) return false;
   Real reach = 0;
   for (const TouchedSurface& surface : step.memory.surfaces)
-    if (surface.mover != no_mover) reach = std::max(reach, length_of(step.movers.displacement(surface.mover)));
+    reach = std::max(reach, length_of(step.movers.displacement(surface.mover)));
   if (!find_free_position(step, reach, {0, step.result.path.size()})) return false;
   step.memory.surfaces.clear();
   return true;
@@ -50,7 +50,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     if (!moves_in(step, surface)) continue;
     if (step.space.is_circle(surface.piece)) return true;
     way = std::max(way, length_of(remaining_of(step, surface)));
-    speed = std::max(speed, length_of(velocity_of(step, surface)));
+    speed = std::max(speed, length_of(step.movers.velocity(surface.mover)));
   }
   if (way == 0) return true;
   const Real own_way = length_of(wanted.displacement.wanted) + std::abs(step.steered) * step.dt;
@@ -116,8 +116,8 @@ inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
   return step.result.crushed.size() > before;
 }
 
-/// Movers that carry come first, as the others may be other characters of a crowd, which change from step to step. Of
-/// each kind those come first whose side is known.
+/// Hands the crushers to the next step. Movers that carry come first: the others may be other characters of a crowd,
+/// which change from step to step. Within each kind, those with a known side come first.
 inline void hand_on_crushers(Step& step) noexcept {
   const auto hand_on = [&](bool carries, bool has_side) {
     for (const Crusher& known : step.memory.crushers)

@@ -66,8 +66,7 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
 
 /// Whether a piece pushes or comes nearer, and is as near as a contact then.
 [[nodiscard]] inline bool is_contact(const Step& step, const Nearest& near) noexcept {
-  const MoverIndex mover = mover_of(step, near.piece);
-  const Vec2 motion_of_mover = mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.displacement(mover);
+  const Vec2 motion_of_mover = step.movers.displacement(mover_of(step, near.piece));
   const bool pushes = dot(motion_of_mover, step.space.normal(near.piece, near.axis)) > tolerances.certain;
   return (near.when > 0 || pushes) && near.separation <= 2 * tolerances.stop &&
          !step.space.covered(near.piece, near.axis);

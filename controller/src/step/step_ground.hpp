@@ -1,4 +1,4 @@
-/// What the character stands on at the end of a step.
+/// Ground that the character touches: does it stand on it, or leave it?
 #pragma once
 
 #include "step/step.hpp"
@@ -35,8 +35,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// than `touch`. Vertices that are rounded make seams of straight ground bend by 1e-12 or 1e-6: they are no crests. A
 /// jump leaves at any speed. Round ground falls away below a walk, which does not leave it.
 [[nodiscard, gnu::always_inline]] inline bool leaves(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
-  Vec2 ground = Vec2::Zero();
-  if (mover_of(step, piece) != no_mover) ground = step.movers.displacement(mover_of(step, piece)) / step.movers.dt;
+  const Vec2 ground = step.movers.velocity(mover_of(step, piece));
   const Real leaving = dot(Vec2(step.velocity - ground), normal);
   if (leaving <= step.leaves_ground_above) return false;
   if (step.leaves_ground_above == 0) return leaving > along_plane * (length_of(step.velocity) + length_of(ground));

@@ -131,7 +131,8 @@ struct StepMemory final : OwnMemory {
   }
 };
 
-/// The movers of one step.
+/// The movers of one step. Of `no_mover`, which is what stands still, each answer is zero, and `relative` the motion
+/// itself.
 struct MoversInStep {
   const MoverPhases& phases;
   std::span<const MoverMotion> motions;
@@ -145,15 +146,22 @@ struct MoversInStep {
   }
 
   /// Displacement of a mover in the step [m].
-  [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept { return motions[mover].to - motions[mover].from; }
+  [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept {
+    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(motions[mover].to - motions[mover].from);
+  }
+  /// [m/s]
+  [[nodiscard]] Vec2 velocity(MoverIndex mover) const noexcept { return displacement(mover) / dt; }
   /// Its offset at a fraction of the step [m].
-  [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const noexcept { return motions[mover].at(time); }
-  /// Its displacement after a fraction of the step [m].
+  [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const noexcept {
+    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(motions[mover].at(time));
+  }
+  /// What is left of its displacement after a fraction of the step [m].
   [[nodiscard]] Vec2 remaining(MoverIndex mover, Real time) const noexcept { return displacement(mover) * (1 - time); }
 
   /// A motion for the rest of the step, relative to a mover [m]. What is nothing but rounding becomes zero: a rider at
   /// rest rests, and a sweep that looks ahead does not take noise for a direction.
   [[nodiscard]] Vec2 relative(const Vec2& motion, MoverIndex mover, Real time) const noexcept {
+    if (mover == no_mover) return motion;
     constexpr Real noise = std::numeric_limits<Real>::epsilon() * 8;
     const Vec2 whole = displacement(mover);
     // Each offset is rounded: at a constant speed the displacement of a mover differs by an ulp from step to step.

@@ -29,7 +29,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 [[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired,
                                   const TouchedSurface& surface) noexcept {
   return half_plane_of(surface.normal, remaining_of(step, surface)).allows(desired.displacement.wanted) &&
-         half_plane_of(surface.normal, velocity_of(step, surface)).allows(desired.velocity.wanted);
+         half_plane_of(surface.normal, step.movers.velocity(surface.mover)).allows(desired.velocity.wanted);
 }
 
 [[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired) noexcept {
@@ -59,7 +59,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     return {result.wanted + frame, result.unsteered + frame};
   };
   return {response(desired.displacement, remaining_of(step, surface), step.steered * step.dt * (1 - step.time)),
-          response(desired.velocity, velocity_of(step, surface), step.steered)};
+          response(desired.velocity, step.movers.velocity(surface.mover), step.steered)};
 }
 
 /// Nothing if there is no motion that all surfaces allow.
@@ -71,7 +71,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   velocities.clear();
   for (const TouchedSurface& surface : step.memory.surfaces) {
     add_plane(half_plane_of(surface.normal, remaining_of(step, surface)), displacements);
-    add_plane(half_plane_of(surface.normal, velocity_of(step, surface)), velocities);
+    add_plane(half_plane_of(surface.normal, step.movers.velocity(surface.mover)), velocities);
   }
   const auto allowed_displacement = nearest_allowed(displacement, {displacements.begin(), displacements.end()});
   if (!allowed_displacement) return std::nullopt;
@@ -79,7 +79,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return DesiredMotion::plain(*allowed_displacement, allowed_velocity.value_or(Vec2::Zero()));
 }
 
-/// What was lost at both surfaces in turns must not hold up a fall between surfaces that part.
+/// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
 [[gnu::cold, gnu::noinline]] inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
   const auto falling = nearest_allowed_to(step, step.up.in_world({0, step.fall * step.dt * (1 - step.time)}),
                                           step.up.in_world({0, step.fall}));
@@ -156,7 +156,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   const DesiredMotion alone = response_to(step, first, desired, step.after_walk);
   for (const TouchedSurface& surface : step.memory.surfaces)
     if (!allowed(step, alone, surface) && remaining_of(step, surface) != remaining_of(step, first)) return false;
-  const Vec2 velocity = velocity_of(step, first);
+  const Vec2 velocity = step.movers.velocity(first.mover);
   const DesiredMotion with_body = DesiredMotion::plain(remaining_of(step, first), velocity);
   if (!allowed(step, with_body)) return false;
   const Real fall = step.fall - step.up.up_of(velocity);
@@ -236,7 +236,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     const Real across = step.up.across_of(surface.normal);
     left = std::min(left, across);
     right = std::max(right, across);
-    fastest = std::max(fastest, length_of(velocity_of(step, surface)));
+    fastest = std::max(fastest, length_of(step.movers.velocity(surface.mover)));
   }
   const bool holds = left < 0 && right > 0 && step.up.up_of(step.memory.surfaces[0].normal) > 0;
   const Real speed = length_of(desired.velocity.wanted);

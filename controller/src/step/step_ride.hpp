@@ -18,7 +18,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 [[nodiscard]] inline Vec2 velocity_with(const Step& step, MoverIndex mover, PieceIndex piece,
                                         const Vec2& normal) noexcept {
   Vec2 velocity = Vec2{normal.y(), -normal.x()} * surface_speed(step, piece);
-  if (mover != no_mover) velocity += step.movers.displacement(mover) / step.movers.dt;
+  if (mover != no_mover) velocity += step.movers.velocity(mover);
   return velocity;
 }
 

@@ -28,9 +28,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
     if (!touched_ground(step, piece) || step.space.covered(piece, best.axis)) return;
-    Vec2 displacement = step.motion.displacement;
-    if (mover_of(step, piece) != no_mover)
-      displacement = step.movers.relative(displacement, mover_of(step, piece), step.time);
+    const Vec2 displacement = step.movers.relative(step.motion.displacement, mover_of(step, piece), step.time);
     const Motion motion = make_motion(step.space, local(step, piece, step.position), displacement);
     if (!enters(displacement, step.space.normal(piece, best.axis)) || !in_way(step, motion, piece)) return;
     keep_stop(step, {piece, 0, 0, {best.axis, best.axis, false, false}}, motion.length);
@@ -52,7 +50,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 inline void begin_motion(Step& step, const StepRequest& request) noexcept {
   step.steered = request.steered;
   step.dt = request.dt;
-  step.leaves_ground_above = request.leaves_ground_above;
+  step.leaves_ground_above = request.next_dt > 0 ? tolerances.touch / static_cast<Real>(request.next_dt) : Real(0);
   // A rise that is steeper than any walkable ground is no climb.
   step.after_walk = step.climbs =
       request.grounded &&
@@ -196,8 +194,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
     if (!was_above || !stands_on(step, piece)) return;
     step.memory.surfaces.push_back(
         surface_at(step, piece, best_axis(step.space, piece, local(step, piece, step.position)).axis));
-    Vec2 displacement = wanted;
-    if (mover_of(step, piece) != no_mover) displacement = step.movers.relative(wanted, mover_of(step, piece), Real(0));
+    const Vec2 displacement = step.movers.relative(wanted, mover_of(step, piece), Real(0));
     if (enters(displacement, step.memory.surfaces.back().normal)) report_touched(step, piece);
   });
   if (step.memory.surfaces.empty()) return;

@@ -129,8 +129,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 /// carries the character.
 [[nodiscard, gnu::cold, gnu::noinline]] inline Real falls_away_below_rider(const Step& step) noexcept {
   if (step.moving.ride.ground == Ride::none || !step.space.is_circle(step.moving.ridden)) return 0;
-  Vec2 motion = step.velocity;
-  if (step.moving.carrier != no_mover) motion -= step.movers.displacement(step.moving.carrier) / step.movers.dt;
+  const Vec2 motion = step.velocity - step.movers.velocity(step.moving.carrier);
   const Real radius = step.space.scenery().circle(step.moving.ridden).radius;
   return std::min(falls_away_from_tangent(step, step.moving.ridden, motion) * step.dt, radius) + 2 * tolerances.touch;
 }
@@ -138,8 +137,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 /// Whether the motion leaves ground just below by no more than rounded vertices bend it, and gravity takes the motion
 /// there: see `leaves`.
 [[nodiscard]] inline bool hardly_leaves(const Step& step, const TouchedSurface& ground) noexcept {
-  const Vec2 wanted =
-      ground.mover == no_mover ? step.wanted : Vec2(step.wanted - step.movers.displacement(ground.mover));
+  const Vec2 wanted = step.wanted - step.movers.displacement(ground.mover);
   return enters(wanted, ground.normal) && !leaves(step, ground.piece, ground.normal);
 }
 

@@ -218,8 +218,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
   pushes.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(step, piece);
-    if (mover == no_mover || step.movers.displacement(mover) == Vec2::Zero() || !may_block(step, piece, step.position))
-      return;
+    if (step.movers.displacement(mover) == Vec2::Zero() || !may_block(step, piece, step.position)) return;
     const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
     if (best.separation < tolerances.hit)
       add_plane({step.space.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);

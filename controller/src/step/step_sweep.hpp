@@ -17,7 +17,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     const Real start = dot(surface.normal, motion.from) - surface.offset;
     const Real out = surface.normal.x() * motion.displacement.x() + surface.normal.y() * motion.displacement.y();
     Real size = std::abs(step.motion.displacement.x()) + std::abs(step.motion.displacement.y());
-    if (surface.mover != no_mover) size += step.movers.displacement(surface.mover).cwiseAbs().sum();
+    size += step.movers.displacement(surface.mover).cwiseAbs().sum();
     return start >= tolerances.certain && (out >= -noise * size || start + out >= tolerances.hit);
   }
   return false;
@@ -47,9 +47,7 @@ inline void update_surfaces(Step& step) noexcept {
 }
 
 [[gnu::cold, gnu::noinline]] inline void note_motion_on_ground(Step& step) noexcept {
-  Vec2 relative = step.motion.displacement;
-  if (step.moving.carrier != no_mover)
-    relative = step.movers.relative(step.motion.displacement, step.moving.carrier, step.time);
+  const Vec2 relative = step.movers.relative(step.motion.displacement, step.moving.carrier, step.time);
   step.moving.anchored = relative.x() == 0 && relative.y() == 0;
 }
 
@@ -82,7 +80,7 @@ template <class Condition>
   return any;
 }
 
-/// The same for one piece, and a motion from now to a fraction of the step.
+/// Whether a straight motion from now to a fraction of the step is clear of a piece, exactly.
 [[nodiscard]] inline bool exactly_clear(const Step& step, PieceIndex piece, const Vec2& begin, const Vec2& target,
                                         Real end) noexcept {
   const Vec2 from = local(step, piece, begin);
@@ -177,7 +175,7 @@ inline void sweep_movers(Step& step) noexcept {
                      [](const Stop& stop) { return stop.axes.covered; });
 }
 
-/// Puts the stop first whose normal points up most; of equals the one with the lowest index.
+/// Puts the stop with the most upward normal first. Of equal ones it is the one with the lowest index.
 inline void order_stops(Step& step) noexcept {
   if (step.found.stops.size() < 2) return;
   const auto less_up = [&](const Stop& a, const Stop& b) {
@@ -329,11 +327,10 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
                                                                             Real turned) noexcept {
   Real first = 1;
   for (const Contact& contact : step.result.contacts) first = std::min<Real>(first, contact.fraction);
-  const MoverIndex mover = mover_of(step, piece);
-  const Vec2 offset = mover == no_mover ? Vec2(Vec2::Zero()) : step.movers.offset(mover, 0);
-  const Vec2 way = mover == no_mover ? step.wanted : Vec2(step.wanted - step.movers.displacement(mover));
-  Motion motion = make_motion(step.space, Vec2(step.start - offset), way);
-  motion.lost = lost_by(step.start, offset);
+  const Vec2 at_first = offset(step, piece, 0);
+  const Vec2 way = step.wanted - step.movers.displacement(mover_of(step, piece));
+  Motion motion = make_motion(step.space, Vec2(step.start - at_first), way);
+  motion.lost = lost_by(step.start, at_first);
   if (in_way(step, motion, piece)) {
     const Clearance clear = clearance(step.space, motion, piece);
     const PieceHit hit = clear.clear() ? PieceHit{} : sweep_piece(step.space, motion, piece, clear, step.up);

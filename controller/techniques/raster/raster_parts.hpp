@@ -15,7 +15,7 @@ namespace paperproof::raster {
 /// A share of the way as a fraction of the step, in [0, 1]; a negative zero, as of no way at all to the left, is zero.
 [[nodiscard]] inline double fraction_of_step(double share) noexcept { return share > 0 ? std::min(share, 1.0) : 0.0; }
 
-/// @tparam double of the positions; pictures are drawn in double. Immutable; shareable between threads.
+/// Immutable; shareable between threads.
 class RasterParts {
  public:
   /// @param def its article knobs are valid. `scenery` must outlive the parts.

@@ -5,7 +5,7 @@
 
 namespace paperproof {
 
-/// A controller whose steps compute in `float`. What it wants, its sensors and its one-way chains stay in `double`.
+/// A controller that moves the character in `float`. The wanted velocity, sensors and one-way chains stay in `double`.
 /// @param scenery,character as of `Controller`; all coordinates are numbers that a `float` holds.
 /// @throws as `Controller`.
 [[nodiscard]] Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
