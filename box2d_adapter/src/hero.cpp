@@ -53,7 +53,6 @@ bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) cons
 /// After the shape has changed, or the way to move.
 void Hero::Impl::change(const CharacterDef& character) {
   const bool same_shape = std::ranges::equal(def.character.shape.hull(), character.shape.hull());
-  report.move.keep_own();
   def.character = character;
   controller = LocalController(character);
   other_controller = LocalController(character);

@@ -68,10 +68,10 @@ struct TraceState {
       return "one_by_one";
     case PieceSearch::none:
       return "none";
-    case PieceSearch::tree:
+    case PieceSearch::grid:
       break;
   }
-  return "tree";
+  return "grid";
 }
 
 /// Something that a level has no need of, and what follows from that. Both texts are static.
@@ -82,7 +82,7 @@ struct Omission {
 
 /// What a level has no need of. Each of it is left out, and the steps are the same bits.
 struct LevelPlan {
-  PieceSearch search = PieceSearch::tree;
+  PieceSearch search = PieceSearch::grid;
   std::vector<Omission> omitted{};
 };
 

@@ -1,4 +1,4 @@
-/// What a step costs among more and more pieces, with the tree that finds the near ones and without.
+/// What a step costs among more and more pieces, with the grid that finds the near ones and without.
 #pragma once
 
 #include <paperproof/octagon_sweep.hpp>
@@ -12,7 +12,7 @@ namespace paperproof::compare {
 
 /// One search among one number of pieces.
 struct ScalePoint {
-  PieceSearch search = PieceSearch::tree;
+  PieceSearch search = PieceSearch::grid;
   std::size_t pieces = 0;
   int steps = 0;               ///< Of one run.
   double build_ms = 0;         ///< Once per level, everything that the technique prepares included.
@@ -22,7 +22,7 @@ struct ScalePoint {
   bool same_bits = true;  ///< Every position is that of `one_by_one`, bit for bit.
 };
 
-inline constexpr std::array scale_searches{PieceSearch::one_by_one, PieceSearch::tree};
+inline constexpr std::array scale_searches{PieceSearch::one_by_one, PieceSearch::grid};
 inline constexpr std::size_t tiles_per_floor = 100;
 /// A million takes 0.8 GB, so that few machines have room for more; and a floor of these is within the range in which
 /// the controller keeps its promises.

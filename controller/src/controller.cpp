@@ -151,18 +151,23 @@ Controller::Controller(const Scenery& scenery, const CharacterDef& character,
       character_(character),
       sweep_(std::move(sweep)) {
   const bool asks_all = search == PieceSearch::none;
-  if (asks_all || scenery.sensor_pieces().size() > 0)
-    sensors_ = std::make_shared<Sensors>(scenery, character_.shape, search);
+  has_sensors_ = asks_all || scenery.sensor_pieces().size() > 0;
   if (asks_all || has_one_way_chains(scenery))
-    one_way_ = std::make_shared<OneWayChains>(scenery, character_.shape, search);
+    one_way_ = std::make_shared<OneWayChains>(scenery, character_.shape, sweep_->surfaces());
 }
 
 Scratch Controller::make_scratch() const {
   Scratch scratch = sweep_->make_scratch();
-  if (sensors_) scratch.sensors = sensors_->make_candidates();
-  if (one_way_) scratch.one_way = one_way_->make_candidates();
+  if (has_sensors_) scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, sweep_->finder().search());
   scratch.maker = sweep_;
   return scratch;
+}
+
+void Controller::reserve(const Box2& positions, Scratch& scratch) const {
+  if (!is_made_by(sweep_, scratch.maker)) return;
+  sweep_->reserve(positions, scratch);
+  if (has_sensors_) static_cast<Sensors&>(*scratch.sensors).reserve(positions);
+  if (one_way_) Nearby(sweep_->finder(), scratch.one_way, {}, nullptr).reserve(positions);
 }
 
 [[gnu::always_inline]] inline bool Controller::accepts(const CharacterState& state, const Input& input,
@@ -223,12 +228,20 @@ Scratch Controller::make_scratch() const {
   return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
 }
 
+/// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.
+[[gnu::noinline]] void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
+                                               StepReport& report) const noexcept {
+  const std::span<const PathPoint> path = report.move.path;
+  if (has_sensors_)
+    static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors, filter_of(context));
+  if (drop && one_way_)
+    one_way_->find_passed(path, context.movers, {sweep_->finder(), scratch.one_way, context.movers, filter_of(context)},
+                          report.dropped_through);
+}
+
 [[gnu::always_inline]] inline void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
                                                         CharacterState& state, StepReport& report) const noexcept {
-  const std::span<const PathPoint> path = report.move.path;
-  if (sensors_) sensors_->observe(path, context.movers, scratch.sensors, report.sensors, filter_of(context));
-  if (drop && one_way_)
-    one_way_->find_passed(path, context.movers, scratch.one_way, report.dropped_through, filter_of(context));
+  if (has_sensors_ || one_way_) note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
 }
 

@@ -13,19 +13,6 @@ struct Crowd::Rules {
   crowd::SweepRules sweep;
 };
 
-namespace {
-
-/// Any number of movers may crush one character.
-void make_room_for_movers(std::size_t count, crowd::CrowdMemory& memory) {
-  memory.path.crushed.reserve(count);
-  for (crowd::Member& member : memory.members) {
-    member.plan.crushed.reserve(count);
-    member.crushed_memory = ReportMemory<ColliderIndex>(count);
-  }
-}
-
-}  // namespace
-
 Crowd::Crowd(std::unique_ptr<const Rules> rules, Controller controller)
     : rules_(std::move(rules)), controller_(std::move(controller)) {}
 
@@ -52,7 +39,6 @@ CrowdScratch Crowd::make_scratch(std::size_t most_characters) const {
   memory->members.resize(most_characters);
   memory->impacts.resize(most_characters);
   memory->motions.resize(rules_->sweep.scenery.mover_count());
-  make_room_for_movers(count_moving_colliders(rules_->sweep.scenery), *memory);
   return {most_characters, std::move(memory), rules_};
 }
 
@@ -72,8 +58,7 @@ StepStatus Crowd::step(std::span<CharacterState> states, std::span<const Input> 
   }
   auto& memory = static_cast<crowd::CrowdMemory&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
-    report.members[i] = {};
-    report.members[i].island = static_cast<CharacterIndex>(i);
+    report.members[i].clear(static_cast<CharacterIndex>(i));
     const bool rides = states[i].ride.ground != Ride::none;
     if ((rides && !rules_->may_ride) || !controller_.begin_together(states[i], inputs[i], context, memory.states[i],
                                                                     memory.requests[i], report.members[i].step))

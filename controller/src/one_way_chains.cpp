@@ -18,24 +18,10 @@ constexpr double margin_share = 1e-6;
 /// Rounding error of the height over a segment, as a share of the coordinates.
 inline constexpr double height_rounding = std::numeric_limits<double>::epsilon() * 24;
 
-std::vector<PieceIndex> one_way_pieces(const Scenery& scenery) {
-  std::vector<PieceIndex> pieces;
-  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
-    if (scenery.pieces()[piece].one_way) pieces.push_back(piece);
-  return pieces;
-}
-
-/// Inserts in ascending order. A full vector keeps the lowest indices.
-template <std::size_t capacity>
-void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& chains) noexcept {
-  if (!chains.push_back(chain)) chains.back() = std::min(chain, chains.back());
-  for (std::size_t i = chains.size() - 1; i > 0 && chains[i] < chains[i - 1]; --i) std::swap(chains[i], chains[i - 1]);
-}
-
 }  // namespace
 
-OneWayChains::OneWayChains(const Scenery& scenery, const CharacterShape& shape, PieceSearch search)
-    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery), search), surfaces_(scenery, shape) {
+OneWayChains::OneWayChains(const Scenery& scenery, const CharacterShape& shape, const OneWaySurfaces& surfaces)
+    : scenery_(&scenery), surfaces_(&surfaces) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {
@@ -45,21 +31,23 @@ OneWayChains::OneWayChains(const Scenery& scenery, const CharacterShape& shape, 
   }
 }
 
-void OneWayChains::find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers,
-                               Candidates& candidates, Passed& passed, const ColliderFilter* filter) const noexcept {
+void OneWayChains::find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Nearby near,
+                               Passed& passed) const noexcept {
   passed.clear();
   const auto look_at = [&](PieceIndex piece, const MoverMotion& motion) {
     const ColliderIndex chain = scenery_->pieces()[piece].collider;
-    if (std::binary_search(passed.begin(), passed.end(), chain)) return;
-    if (filter != nullptr && !(*filter)(*scenery_, chain)) return;
+    const auto place = std::lower_bound(passed.begin(), passed.end(), chain);
+    if (place != passed.end() && *place == chain) return;
     for (std::size_t i = 1; i < path.size(); ++i) {
       const Vec2d from = path[i - 1].position - motion.at(path[i - 1].fraction);
       const Vec2d to = path[i].position - motion.at(path[i].fraction);
-      if (passes(piece, from, to)) return add_in_order(chain, passed);
+      if (from != to && passes(piece, from, to)) return void(passed.insert(place, chain));
     }
   };
-  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion& motion) {
-    for (const PieceIndex piece : near) look_at(piece, motion);
+  near.for_each_group(box_around(path, {}), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const MoverMotion motion = mover == no_mover ? MoverMotion{} : movers[mover];
+    for (const PieceIndex piece : pieces)
+      if (scenery_->pieces()[piece].one_way) look_at(piece, motion);
   });
 }
 
@@ -68,14 +56,14 @@ bool OneWayChains::passes(PieceIndex piece, const Vec2d& from, const Vec2d& to) 
   const PieceVertices ends = scenery_->vertices_of(piece);
   const Vec2d along = ends[1] - ends[0];
   const bool against = Vec2d(-along.y(), along.x()).dot(to - from) < 0;
-  const OneWaySurfaces::Index surface = surfaces_.of(piece);
+  const OneWaySurfaces::Index surface = surfaces_->of(piece);
   // A character above a straight surface does not pass it along the normal, but another part of a bent surface may be
   // in the way. A segment that is not met against its normal is tested without the margin.
-  if (!against && surfaces_.is_straight(surface)) return false;
+  if (!against && surfaces_->is_straight(surface)) return false;
   const auto& outline = against ? grown_ : outline_;
   if (!geometry::overlap_time({outline.begin(), outline.end()}, ends, from, to).any()) return false;
   const double size = from.cwiseAbs().maxCoeff() + ends[0].cwiseAbs().maxCoeff() + ends[1].cwiseAbs().maxCoeff();
-  return surfaces_.may_be_above(surface, from, height_rounding * size);
+  return surfaces_->may_be_above(surface, from, height_rounding * size);
 }
 
 }  // namespace paperproof

@@ -14,28 +14,24 @@ namespace paperproof {
 /// allocates.
 class OneWayChains {
  public:
-  using Passed = decltype(StepReport::dropped_through);
+  using Passed = std::vector<ColliderIndex>;
 
-  /// `scenery` must outlive the chains.
-  OneWayChains(const Scenery& scenery, const CharacterShape& shape, PieceSearch search);
-
-  [[nodiscard]] Candidates make_candidates() const { return finder_.make_candidates(); }
+  /// @param surfaces of the scenery, for the same shape. It must outlive the chains, as `scenery` must.
+  OneWayChains(const Scenery& scenery, const CharacterShape& shape, const OneWaySurfaces& surfaces);
 
   /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
-  /// finds is left out. If `passed` is full, it keeps the first chains and has overflowed.
+  /// finds is left out.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
-  /// @param candidates made by these chains, or by others of the same scenery and character.
-  /// @param filter null: all chains are there.
-  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Candidates& candidates,
-                   Passed& passed, const ColliderFilter* filter = nullptr) const noexcept;
+  /// @param near the solid pieces.
+  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Nearby near,
+                   Passed& passed) const noexcept;
 
  private:
   [[nodiscard]] bool passes(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept;
 
   const Scenery* scenery_;
-  PieceFinder finder_;
-  OneWaySurfaces surfaces_;
+  const OneWaySurfaces* surfaces_;
   FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
   FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
 };

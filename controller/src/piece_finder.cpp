@@ -1,57 +1,40 @@
 #include "piece_finder.hpp"
 
-#include <paperproof/tolerances.hpp>
+#include <algorithm>
+#include <limits>
 
 namespace paperproof {
 namespace {
 
-/// Margin around the character, as a share of its size, so that rounding hides no piece. It is far larger than the
-/// rounding error, and too small to find pieces beside the way.
-constexpr double reach_share = 1e-5;
+/// Candidates are collected at most this far ahead of a motion, in multiples of the character's larger extent. Zero:
+/// every step asks the grid. Large: a fast step tests pieces that it never meets.
+constexpr double look_ahead_share = 2;
+/// Number of further steps like the present one for which they are collected. None: every step asks the grid. Many:
+/// every step tests pieces that it never meets.
+constexpr double steps_ahead = 6;
+/// Their box also grows on every side, by this share of the distance ahead: for small turns.
+constexpr double sides = 1.0 / 32;
 
 }  // namespace
 
-PieceFinder::PieceFinder(const Scenery& scenery, const CharacterShape& shape, std::span<const PieceIndex> pieces,
-                         PieceSearch search)
-    : asks_all_(search == PieceSearch::none) {
-  const Box2& box = shape.box();
-  const double size = (box.upper - box.lower).maxCoeff();
-  look_ahead_ = look_ahead_share * size;
-  reach_ = box.inflated(Tolerances{}.look + reach_share * size);
-  std::vector<Group> of_mover(scenery.mover_count());
-  for (const PieceIndex piece : pieces) {
-    const MoverIndex mover = scenery.pieces()[piece].mover;
-    (mover == no_mover ? standing_ : of_mover[mover]).pieces.push_back(piece);
-  }
-  const auto prepare = [&](Group& group) {
-    group.boxes.reserve(group.pieces.size());
-    for (const PieceIndex piece : group.pieces) group.boxes.push_back(scenery.box(piece));
-    group.tree.emplace(group.boxes, search);
-  };
-  prepare(standing_);
-  for (MoverIndex mover = 0; mover < of_mover.size(); ++mover) {
-    if (of_mover[mover].pieces.empty()) continue;
-    of_mover[mover].mover = mover;
-    prepare(of_mover[mover]);
-    moving_.push_back(std::move(of_mover[mover]));
+PieceFinder::PieceFinder(const Scenery& scenery, Kind kind, const Box2& reach, PieceSearch search)
+    : scenery_(&scenery),
+      kind_(kind),
+      search_(search),
+      reach_(reach),
+      look_ahead_(look_ahead_share * (reach.upper - reach.lower).maxCoeff()) {}
+
+void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const {
+  if (mover != no_mover && !box.overlaps(whole(mover))) return;
+  if (search_ == PieceSearch::grid) return grid_of(mover).find(box, scenery_->boxes(), found);
+  const PieceIndex first_sensor = scenery_->sensor_pieces().first;
+  for (PieceIndex piece = 0; piece < scenery_->pieces().size(); ++piece) {
+    const bool is_one = scenery_->pieces()[piece].mover == mover && (piece < first_sensor) == (kind_ == Kind::solids);
+    if (is_one && (search_ == PieceSearch::none || scenery_->box(piece).overlaps(box))) found.push_back(piece);
   }
 }
 
-Candidates PieceFinder::make_candidates() const {
-  std::size_t most_of_a_mover = 0;
-  for (const Group& group : moving_) most_of_a_mover = std::max(most_of_a_mover, group.pieces.size());
-  Candidates candidates;
-  candidates.pieces = PieceBuffer(standing_.pieces.size() + most_of_a_mover);
-  return candidates;
-}
-
-std::span<const PieceIndex> PieceFinder::Group::query(const Box2& box, std::span<PieceIndex> found) const noexcept {
-  const std::size_t count = tree->query(box, found);
-  for (PieceIndex& piece : found.first(count)) piece = pieces[piece];
-  return found.first(count);
-}
-
-Box2 PieceFinder::positions_seen(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
+Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
   const Vec2d first = path.front().position - motion.at(path.front().fraction);
   Box2 positions{first, first};
   for (const PathPoint& corner : path.subspan(1)) {
@@ -61,18 +44,74 @@ Box2 PieceFinder::positions_seen(std::span<const PathPoint> path, const MoverMot
   return positions;
 }
 
-std::span<const PieceIndex> PieceFinder::near_standing(std::span<const PathPoint> path,
-                                                       Candidates& candidates) const noexcept {
-  Box2 positions{path.front().position, path.front().position};
-  for (const PathPoint& corner : path.subspan(1)) positions = positions.merged({corner.position, corner.position});
-  if (!asks_all_ && (positions.lower == positions.upper || candidates.quiet.contains(positions))) return {};
-  if (!candidates.valid || !candidates.box.contains(positions)) {
-    const Vec2d way = path.back().position - path.front().position;
-    candidates.box = positions_ahead(positions, way, look_ahead_);
-    candidates.count = standing_.query(touched_from(candidates.box), candidates.pieces).size();
-    candidates.valid = true;
+/// Appends those that are there, by the names that their user has for them.
+void Nearby::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const noexcept {
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
+  finder_.find(mover, box, found);
+  if (filter_ != nullptr) {
+    const Scenery& scenery = finder_.scenery();
+    const auto is_absent = [&](PieceIndex piece) { return !(*filter_)(scenery, scenery.pieces()[piece].collider); };
+    found.erase(std::remove_if(found.begin() + before, found.end(), is_absent), found.end());
   }
-  return std::span<const PieceIndex>(candidates.pieces).first(candidates.count);
+  if (user_ != nullptr) user_->prepare({found.begin() + before, found.end()});
+}
+
+void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
+  // A step that begins elsewhere is one of another character, and the next step will be, too: pieces ahead of this
+  // one are not needed.
+  const bool goes_on = !known_.valid || known_.box.overlaps(positions);
+  const Vec2d most = Vec2d::Constant(goes_on ? finder_.look_ahead() : 0);
+  const Vec2d ahead = (way * steps_ahead).cwiseMin(most).cwiseMax(-most);
+  known_.box =
+      positions.merged({positions.lower + ahead, positions.upper + ahead}).inflated(finder_.look_ahead() * sides);
+  known_.pieces.clear();
+  find(no_mover, finder_.touched_from(known_.box), known_.pieces);
+  known_.valid = true;
+}
+
+void Nearby::find_moving(const Box2& positions) noexcept {
+  const Box2 wanted = positions.inflated(finder_.look_ahead() * sides);
+  known_.moving_box = known_.moving_valid ? known_.moving_box.merged(wanted) : wanted;
+  const Box2 touched = finder_.touched_from(known_.moving_box);
+  known_.moving.clear();
+  known_.of_movers.clear();
+  for (MoverIndex mover = 0; mover < movers_.size(); ++mover) {
+    const std::size_t first = known_.of_movers.size();
+    find(mover, PieceFinder::seen_by(touched, movers_[mover]), known_.of_movers);
+    if (known_.of_movers.size() > first) known_.moving.push_back({mover, first, known_.of_movers.size()});
+  }
+  known_.moving_valid = true;
+}
+
+std::span<PieceIndex> Nearby::take(const Box2& positions) noexcept {
+  forget();
+  find_standing(positions, Vec2d::Zero());
+  for_each_moving(positions, [&](std::span<const PieceIndex> pieces, MoverIndex) {
+    known_.pieces.insert(known_.pieces.end(), pieces.begin(), pieces.end());
+  });
+  forget();
+  return known_.pieces;
+}
+
+void Nearby::reserve(const Box2& positions) {
+  known_.moving.reserve(finder_.scenery().mover_count());
+  known_.of_movers.clear();
+  for (MoverIndex mover = 0; mover < finder_.scenery().mover_count(); ++mover)
+    find(mover, finder_.whole(mover), known_.of_movers);
+  known_.pieces.clear();
+  find(no_mover, finder_.touched_from(positions.inflated(2 * finder_.look_ahead())), known_.pieces);
+  known_.pieces.reserve(known_.pieces.size() + known_.of_movers.size());
+  forget();
+}
+
+/// Forgets the pieces that were collected with another filter.
+void Nearby::forget_others() noexcept {
+  const ColliderFilter filter = filter_ != nullptr ? *filter_ : ColliderFilter{};
+  const bool by_predicate = filter.is_there != nullptr || known_.filter.is_there != nullptr;  // may say otherwise now
+  const bool same = Filter(filter) == Filter(known_.filter) && filter.end == known_.filter.end;
+  if ((filter_ != nullptr) != known_.filtered || by_predicate || !same) forget();
+  known_.filtered = filter_ != nullptr;
+  known_.filter = filter;
 }
 
 }  // namespace paperproof

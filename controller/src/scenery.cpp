@@ -234,7 +234,7 @@ Scenery::Scenery(const SceneryDef& def) {
     }
     return static_cast<PieceIndex>(pieces_.size());
   };
-  // Order: standing colliders, moving colliders by mover, sensors; colliders of one kind keep their order.
+  // Order: standing colliders, moving colliders by mover, sensors likewise; colliders of one kind keep their order.
   std::vector<ColliderIndex> others;
   for (ColliderIndex i = 0; i < colliders_.size(); ++i) {
     const ColliderDef& given = def.colliders[i];
@@ -245,7 +245,7 @@ Scenery::Scenery(const SceneryDef& def) {
   }
   const auto role = [&](ColliderIndex i) {
     const ColliderDef& given = def.colliders[i];
-    return std::pair(given.sensor, given.sensor ? 0 : given.mover);
+    return std::pair(given.sensor, given.mover);
   };
   std::stable_sort(others.begin(), others.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
   mover_begin_.assign(1, static_count_);
@@ -260,6 +260,11 @@ Scenery::Scenery(const SceneryDef& def) {
   pieces_.shrink_to_fit();
   boxes_.shrink_to_fit();
   vertices_.shrink_to_fit();
+  moving_.resize(mover_count());
+  for (PieceIndex piece = 0; piece < pieces_.size(); ++piece) {
+    Group& group = pieces_[piece].mover == no_mover ? standing_ : moving_[pieces_[piece].mover];
+    (piece < sensor_pieces().first ? group.solids : group.sensors).add(piece, boxes_[piece]);
+  }
 }
 
 void Scenery::add(ColliderIndex collider, const ColliderDef& def) {

@@ -25,18 +25,12 @@ double beyond_rounding(double furthest) {
   return Tolerances{}.look + 64 * std::numeric_limits<double>::epsilon() * furthest;
 }
 
-/// Inserts in order of time, in whichever order the sensors are tested. A full vector keeps the earliest events.
-template <std::size_t capacity>
-void add_in_order(const SensorEvent& event, FixedVector<SensorEvent, capacity>& events) noexcept {
-  const auto comes_before = [&event](const SensorEvent& other) {
-    return event.fraction < other.fraction || (event.fraction == other.fraction && event.sensor < other.sensor);
+/// Inserts in order of time, in whichever order the sensors are tested.
+void add_in_order(const SensorEvent& event, std::vector<SensorEvent>& events) {
+  const auto comes_before = [](const SensorEvent& a, const SensorEvent& b) {
+    return a.fraction < b.fraction || (a.fraction == b.fraction && a.sensor < b.sensor);
   };
-  if (!events.push_back(event)) {
-    if (!comes_before(events.back())) return;
-    events.back() = event;
-  }
-  for (std::size_t i = events.size() - 1; i > 0 && comes_before(events[i - 1]); --i)
-    std::swap(events[i], events[i - 1]);
+  events.insert(std::upper_bound(events.begin(), events.end(), event, comes_before), event);
 }
 
 /// The stays of a character in the pieces of one sensor during one segment, joined where they overlap. Each call
@@ -75,33 +69,32 @@ class Stays {
   const StayIn& stay_in_;
 };
 
-std::vector<PieceIndex> all_of(PieceRange range) {
-  std::vector<PieceIndex> pieces(range.size());
-  std::iota(pieces.begin(), pieces.end(), range.first);
-  return pieces;
-}
-
 }  // namespace
 
 Sensors::Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search)
-    : scenery_(&scenery), finder_(scenery, shape, all_of(scenery.sensor_pieces()), search) {
-  const Vec2d lower = shape.box().lower;
-  const Vec2d upper = shape.box().upper;
-  for (const Vec2d& corner : shape.hull()) outline_.push_back(corner);
-  const std::span<const Vec2d> outline = outline_;
-  overlaps_.reserve(scenery.sensor_pieces().size());
-  for (const PieceIndex piece : all_of(scenery.sensor_pieces())) {
-    const PieceVertices vertices = scenery.vertices_of(piece);
-    const Box2& box = scenery.box(piece);
-    const double furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    // A little larger, so that rounding here cannot hide an overlap that the separations show.
-    const Box2 any = Box2{box.lower - upper, box.upper - lower}.inflated(Tolerances{}.look);
-    if (scenery.pieces()[piece].is_circle())
-      overlaps_.push_back({any, {upper - lower, lower - upper}, {}});
-    else
-      overlaps_.push_back({any, geometry::deep_overlap(outline, vertices, beyond_rounding(furthest)),
-                           geometry::separating_axes(outline, vertices)});
+    : finder_(scenery, PieceFinder::Kind::sensors, shape.box().inflated(Tolerances{}.look), search),
+      outline_(shape.hull().begin(), shape.hull().end()) {}
+
+void Sensors::prepare(std::span<PieceIndex> pieces) {
+  for (PieceIndex& piece : pieces) {
+    const auto [known, is_new] = known_.try_emplace(piece, static_cast<PieceIndex>(overlaps_.size()));
+    if (is_new) overlaps_.push_back(overlap_with(piece));
+    piece = known->second;
   }
+}
+
+Sensors::Overlap Sensors::overlap_with(PieceIndex piece) const {
+  const Scenery& scenery = finder_.scenery();
+  const PieceVertices vertices = scenery.vertices_of(piece);
+  const Box2 shape = Box2::around(outline_);
+  const Box2& box = scenery.box(piece);
+  const double furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  // A little larger, so that rounding here cannot hide an overlap that the separations show.
+  const Box2 any = Box2{box.lower - shape.upper, box.upper - shape.lower}.inflated(Tolerances{}.look);
+  const ColliderIndex sensor = scenery.pieces()[piece].collider;
+  if (scenery.pieces()[piece].is_circle()) return {sensor, piece, any, nowhere(), {}};
+  return {sensor, piece, any, geometry::deep_overlap(outline_, vertices, beyond_rounding(furthest)),
+          geometry::separating_axes(outline_, vertices)};
 }
 
 typename Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin,
@@ -115,41 +108,46 @@ typename Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const Path
   return segment;
 }
 
-void Sensors::observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Candidates& candidates,
-                      Events& events, const ColliderFilter* filter) const noexcept {
-  if (const std::span<const PieceIndex> near = finder_.near_standing(path, candidates); !near.empty())
-    candidates.quiet = observe(near, path, {}, candidates.box, filter, events);
-  finder_.along_movers(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion& motion) {
-    observe(near, path, motion, {}, filter, events);
+void Sensors::observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Events& events,
+                      const ColliderFilter* filter) noexcept {
+  Nearby near(finder_, near_, movers, filter, this);
+  if (!near_.valid) quiet_ = nowhere();
+  const Box2 positions = box_around(path, {});
+  const bool may_change = positions.lower != positions.upper && !is_quiet(positions);
+  if (may_change || finder_.search() == PieceSearch::none) {
+    const std::span<const PieceIndex> standing = near.standing(positions, path.back().position - path.front().position);
+    quiet_ = observe(standing, path, {}, near_.box, events);
+  }
+  near.for_each_moving(positions, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    observe(pieces, path, movers[mover], {}, events);
   });
 }
 
 /// The pieces of one sensor are consecutive.
 Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-                      Box2 quiet, const ColliderFilter* filter, Events& events) const noexcept {
-  const Box2 way = PieceFinder::positions_seen(path, motion);
+                      Box2 quiet, Events& events) const noexcept {
+  const Box2 way = box_around(path, motion);
   bool all_quiet = true;
   for (std::size_t i = 0; i < near.size(); ++i) {
     const std::size_t first = i;
-    const ColliderIndex sensor = scenery_->pieces()[near[i]].collider;
+    const ColliderIndex sensor = overlaps_[near[i]].sensor;
     bool is_quiet = keep_quiet(near[i], way, quiet);
-    while (i + 1 < near.size() && scenery_->pieces()[near[i + 1]].collider == sensor)
+    while (i + 1 < near.size() && overlaps_[near[i + 1]].sensor == sensor)
       is_quiet = keep_quiet(near[++i], way, quiet) && is_quiet;
     if (is_quiet) continue;
     all_quiet = false;
-    if (filter != nullptr && !(*filter)(*scenery_, sensor)) continue;
     for (std::size_t corner = 1; corner < path.size(); ++corner) {
       const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
       // A character that does not move relative to the sensor neither enters nor leaves it.
       if (segment.from != segment.to) observe(sensor, near.subspan(first, i + 1 - first), segment, events);
     }
   }
-  return all_quiet ? quiet : Candidates{}.quiet;
+  return all_quiet ? quiet : nowhere();
 }
 
 bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept {
-  const Box2& any = overlap_with(piece).any;
-  const Box2& well_inside = overlap_with(piece).well_inside;
+  const Box2& any = overlaps_[piece].any;
+  const Box2& well_inside = overlaps_[piece].well_inside;
   if (way.upper.x() < any.lower.x()) {
     quiet.upper.x() = std::min(quiet.upper.x(), any.lower.x());
   } else if (way.lower.x() > any.upper.x()) {
@@ -170,13 +168,13 @@ void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, 
   using Change = SensorEvent::Change;
   // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)
-    if (overlap_with(piece).well_inside.contains(segment.positions)) return;
+    if (overlaps_[piece].well_inside.contains(segment.positions)) return;
   const auto stay_in = [&](PieceIndex piece) -> OverlapTime {
-    if (!overlap_with(piece).any.overlaps(segment.positions))
-      return {.begin = OverlapTime::after, .end = OverlapTime::before};
-    if (scenery_->pieces()[piece].is_circle())
-      return geometry::overlap_time(outline_, scenery_->circle(piece), segment.from, segment.to);
-    return geometry::overlap_time(overlap_with(piece).axes, segment.from, segment.to);
+    const Overlap& overlap = overlaps_[piece];
+    if (!overlap.any.overlaps(segment.positions)) return {.begin = OverlapTime::after, .end = OverlapTime::before};
+    if (overlap.axes.empty())
+      return geometry::overlap_time(outline_, finder_.scenery().circle(overlap.piece), segment.from, segment.to);
+    return geometry::overlap_time(overlap.axes, segment.from, segment.to);
   };
   const Stays<decltype(stay_in)> stays(pieces, stay_in);
   for (OverlapTime stay = stays.after(OverlapTime::before - 1); stay.any(); stay = stays.after(stay.end)) {

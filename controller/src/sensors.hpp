@@ -7,12 +7,13 @@
 #include <paperproof/controller.hpp>
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace paperproof {
 
-/// The sensors of one scenery, for one character. Immutable; shareable between threads; never allocates while
-/// observing.
+/// The sensors near a character, or near several of one shape. Not thread-safe: each thread has its own. It allocates
+/// where a sensor comes near for the first time.
 ///
 /// The character is in a sensor while its open interior meets the sensor's interior, or the line of a sensor that is a
 /// chain: passing a chain of zero thickness takes an interval of time as well. A sensor of several convex pieces is one
@@ -20,25 +21,27 @@ namespace paperproof {
 /// end of a path depends on the bits of its position and of the sensor's offset there, and on nothing else. A path that
 /// begins where the last path ended therefore begins in the same sensors: nothing has to be remembered, and no event is
 /// lost or doubled between steps. A path that begins in a sensor does not enter it, not even after a teleport.
-class Sensors {
+class Sensors final : public OwnMemory, private PieceUser {
  public:
-  using Events = decltype(StepReport::sensors);
+  using Events = std::vector<SensorEvent>;
 
   /// `scenery` must outlive the sensors.
-  Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::tree);
+  Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::grid);
 
-  [[nodiscard]] Candidates make_candidates() const { return finder_.make_candidates(); }
+  /// Makes ready all sensors around positions in a box.
+  void reserve(const Box2& positions) { Nearby(finder_, near_, {}, nullptr, this).reserve(positions); }
 
-  /// Every event on the way, in order of time (ties: the lower sensor first). If `events` is full, it keeps the
-  /// earliest events and has overflowed.
+  /// Every event on the way, in order of time (ties: the lower sensor first).
   ///
   /// A fraction is exact but for a few ulp of the distance over the length of the segment; regions of one sensor that
   /// are left and entered within 1e-12 (`float`: 1e-5) of a segment count as one.
   /// @param path straight between its corners, fractions ascending.
   /// @param movers one for each mover of the scenery. @param filter null: all sensors are there.
-  /// @param candidates made by these sensors, or by others of the same scenery and character.
-  void observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Candidates& candidates,
-               Events& events, const ColliderFilter* filter = nullptr) const noexcept;
+  void observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Events& events,
+               const ColliderFilter* filter = nullptr) noexcept;
+  /// Whether it is known from the steps before that nothing happens between the character and any sensor that stands
+  /// still, while it goes among positions in a box.
+  [[nodiscard]] bool is_quiet(const Box2& positions) const noexcept { return quiet_.contains(positions); }
 
  private:
   /// A straight motion as seen from a sensor that stands still.
@@ -59,27 +62,34 @@ class Sensors {
   /// @param near pieces that stand still, or go along with `motion`, ascending.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
   Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
-               const ColliderFilter* filter, Events& events) const noexcept;
+               Events& events) const noexcept;
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
                Events& events) const noexcept;
   /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.
   /// Returns false if this may change on the way.
   [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
 
-  const Scenery* scenery_;
-  PieceFinder finder_;
+  void prepare(std::span<PieceIndex> pieces) override;
+
   /// How a sensor's piece and the character overlap.
   struct Overlap {
+    ColliderIndex sensor;
+    PieceIndex piece;
     Box2 any;          ///< Positions at which they may overlap; at all others they do not [m].
     Box2 well_inside;  ///< Positions at which they certainly overlap [m]. Of a circle none are known.
     std::vector<geometry::SeparatingAxis> axes;  ///< None for a circle.
   };
-  [[nodiscard]] const Overlap& overlap_with(PieceIndex piece) const noexcept {
-    return overlaps_[piece - scenery_->sensor_pieces().first];
-  }
+  [[nodiscard]] Overlap overlap_with(PieceIndex piece) const;
 
-  std::vector<Overlap> overlaps_;  ///< By piece.
-  std::vector<Vec2d> outline_;     ///< Of the character.
+  static Box2 nowhere() noexcept { return {Vec2d::Constant(1), Vec2d::Constant(-1)}; }
+
+  PieceFinder finder_;
+  std::vector<Vec2d> outline_;  ///< Of the character.
+  Candidates near_;             ///< Of `overlaps_`.
+  std::vector<Overlap> overlaps_;
+  std::unordered_map<PieceIndex, PieceIndex> known_;  ///< By piece, in `overlaps_`.
+  /// While the character moves among these positions, nothing happens between it and any piece that stands still.
+  Box2 quiet_ = nowhere();
 };
 
 }  // namespace paperproof

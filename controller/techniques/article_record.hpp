@@ -9,7 +9,7 @@ namespace paperproof::article {
 /// in which the character was moved say which pairs are tested.
 class FrameRecord {
  public:
-  using Colliders = FixedVector<ColliderIndex, MoveResult::max_crushed>;
+  using Colliders = FixedVector<ColliderIndex, 64>;
 
   /// Begins `result`: its velocity, and the start of its path.
   FrameRecord(const Parts& parts, const MoveRequest& request, MoveResult& result) noexcept;

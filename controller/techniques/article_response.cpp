@@ -48,7 +48,7 @@ Parts::Parts(const TechniqueDef& def, const Scenery& where, const CharacterDef& 
 
 Scratch Parts::make_scratch() const {
   Scratch scratch;
-  scratch.solids.pieces = PieceBuffer(scenery->pieces().size());
+  scratch.solids.pieces.resize(scenery->pieces().size());
   auto groups = std::make_unique<Groups>();
   groups->all.reserve(scenery->mover_count() + 1);
   scratch.own = std::move(groups);
@@ -183,7 +183,9 @@ bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double 
   for (const Contact& known : result.contacts) {
     if (known.collider == collider && known.side == side) return false;
   }
-  return result.contacts.push_back({collider, hit.point, hit.normal, fraction, 0, side});
+  if (result.contacts.size() == MoveResult::max_contacts) return false;
+  result.contacts.push_back({collider, hit.point, hit.normal, fraction, 0, side});
+  return true;
 }
 
 }  // namespace paperproof::article

@@ -68,7 +68,7 @@ class BoundingBox final : public Technique {
   [[nodiscard]] std::string_view name() const noexcept override { return "bounding_box"; }
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
-    scratch.solids.pieces = PieceBuffer(grown_.size());
+    scratch.solids.pieces.resize(grown_.size());
     return scratch;
   }
   void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;

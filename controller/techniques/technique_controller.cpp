@@ -2,6 +2,7 @@
 #include <paperproof/technique_controller.hpp>
 
 #include "one_way_chains.hpp"
+#include "piece_finder.hpp"
 #include "sensors.hpp"
 #include "step_parts.hpp"
 
@@ -27,15 +28,17 @@ struct TechniqueController::Driver {
   const Scenery& scenery;
   CharacterDef character;
   std::unique_ptr<const Technique> technique;
-  Sensors sensors;
+  PieceFinder solids;
+  OneWaySurfaces surfaces;
   OneWayChains one_way;
 
   Driver(const Scenery& where, const CharacterDef& who, std::unique_ptr<const Technique> how, PieceSearch search)
       : scenery(where),
         character(who),
         technique(std::move(how)),
-        sensors(where, who.shape, search),
-        one_way(where, who.shape, search) {
+        solids(where, PieceFinder::Kind::solids, who.shape.box().inflated(Tolerances{}.look), search),
+        surfaces(where, who.shape),
+        one_way(where, who.shape, surfaces) {
     character.validate();
     if (has_filters(scenery))
       throw std::invalid_argument("the technique " + std::string(technique->name()) +
@@ -44,8 +47,7 @@ struct TechniqueController::Driver {
 
   /// @param scratch of the technique.
   [[nodiscard]] Scratch completed(Scratch scratch) const {
-    scratch.sensors = sensors.make_candidates();
-    scratch.one_way = one_way.make_candidates();
+    scratch.sensors = std::make_unique<Sensors>(scenery, character.shape, solids.search());
     return scratch;
   }
 
@@ -91,8 +93,10 @@ struct TechniqueController::Driver {
   void end(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
            StepReport& report) const noexcept {
     const std::span<const PathPoint> path = report.move.path;
-    sensors.observe(path, context.movers, scratch.sensors, report.sensors);
-    if (drop) one_way.find_passed(path, context.movers, scratch.one_way, report.dropped_through);
+    static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors);
+    if (drop)
+      one_way.find_passed(path, context.movers, {solids, scratch.one_way, context.movers, nullptr},
+                          report.dropped_through);
     adopt(character, context.up, report.move, state);
   }
 };
@@ -159,8 +163,7 @@ StepStatus TechniqueCrowd::step(std::span<CharacterState> states, std::span<cons
     return report.status = StepStatus::invalid_input;
   auto& memory = static_cast<JointMemory&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
-    report.members[i] = {};
-    report.members[i].island = static_cast<CharacterIndex>(i);
+    report.members[i].clear(static_cast<CharacterIndex>(i));
     if (!driver_->accepts(states[i], inputs[i], context)) return report.status = StepStatus::invalid_input;
     memory.states[i] = states[i];
     memory.requests[i] = driver_->begin(inputs[i], context, false, memory.states[i], report.members[i].step);

@@ -4,10 +4,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report|report_vector|scratch|step_context|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
+set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report|scratch|step_context|octagon_sweep|controller|contact_changes|local_controller|level|saved_state|crowd|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
 # The techniques use the core as anybody would, but for its search of boxes, and what surrounds a move in each step.
-set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|broad_phase/tree|one_way_chains|sensors|step_parts)[.]hpp\"")
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|one_way_chains|piece_finder|sensors|step_parts)[.]hpp\"")
 # The twin's headers have the adapter's folder in their names, and are not the adapter's.
 file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
 list(JOIN adapter_headers ">|<" adapter_headers)

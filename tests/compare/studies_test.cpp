@@ -165,11 +165,11 @@ TEST(StudyScale, tells_times_that_another_clock_has_seen_pass_with_a_tree_and_wi
 }
 
 TEST(StudyScale, growth_is_from_the_fewest_pieces_to_the_most) {
-  const std::vector<ScalePoint> points{{.search = PieceSearch::tree, .pieces = 1000, .ns_per_step_min = 60},
-                                       {.search = PieceSearch::tree, .pieces = 100, .ns_per_step_min = 50},
+  const std::vector<ScalePoint> points{{.search = PieceSearch::grid, .pieces = 1000, .ns_per_step_min = 60},
+                                       {.search = PieceSearch::grid, .pieces = 100, .ns_per_step_min = 50},
                                        {.search = PieceSearch::one_by_one, .pieces = 10000, .ns_per_step_min = 9},
-                                       {.search = PieceSearch::tree, .pieces = 500, .ns_per_step_min = 900}};
-  EXPECT_DOUBLE_EQ(growth(points, PieceSearch::tree), 60.0 / 50);
+                                       {.search = PieceSearch::grid, .pieces = 500, .ns_per_step_min = 900}};
+  EXPECT_DOUBLE_EQ(growth(points, PieceSearch::grid), 60.0 / 50);
   EXPECT_DOUBLE_EQ(growth(points, PieceSearch::one_by_one), 1);
 }
 

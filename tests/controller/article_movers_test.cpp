@@ -118,6 +118,7 @@ TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on
       passenger.result.position = {0.3, half_height + gap_of(kind)};
       Vec2d place{Vec2d::Zero()};
       Motions motions(1);
+      passenger.result.reserve(8);
       const std::size_t before = tests::allocations();
       for (int step = 0; step < test::sampled(20000); ++step) {
         const MoverMotion& motion = motions[0] = {swing(reach, step), swing(reach, step + 1)};
@@ -146,6 +147,7 @@ TEST(ClosingWalls, crush_at_the_step_that_the_gap_gives) {
     passenger.result.position = {0, half_height + gap_of(kind)};
     int crushed_at = 0;
     Motions motions(1);
+    passenger.result.reserve(8);
     const std::size_t before = tests::allocations();
     for (int step = 1; step <= 30; ++step) {
       motions[0] = {{0, -(step - 1) / 64.0}, {0, -step / 64.0}};

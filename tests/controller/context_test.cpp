@@ -75,7 +75,6 @@ TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
   light.mask = 1;
   flyer.sweep().move(flyer.state, {6, 0}, {{}, 1, {}, &light}, flyer.scratch, flyer.report);
   EXPECT_EQ(flyer.report.sensors.size(), 2U);
-  EXPECT_FALSE(flyer.report.sensors.overflowed());
 }
 
 TEST(Filter, that_a_technique_does_not_have_is_refused) {

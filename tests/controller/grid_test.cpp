@@ -140,6 +140,7 @@ TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
   int moves = 0;
   int contacts = 0;
   Vec2d wanted{0, 0};
+  walk.result.reserve(16);
   const std::size_t before_all = tests::allocations();
   for (int step = 0; step < 100'000; ++step) {
     if (step % 20 == 0) wanted = random.point(1.5);

@@ -122,6 +122,8 @@ TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
   Stepper stepper(colliders);
   stepper.gravity = {0, 0};
   stepper.at(0.1, 0.3);
+  stepper.sweep().reserve({{-5, -5}, {5, 5}}, stepper.scratch);
+  stepper.report.reserve(400);
   const std::size_t before = tests::allocations();
   EXPECT_EQ(stepper.step(), StepStatus::moved);
   EXPECT_EQ(tests::allocations(), before);

@@ -37,7 +37,6 @@ namespace octagon_sweep {
 class SweepInParts;
 struct StepRequest;
 }  // namespace octagon_sweep
-class Sensors;
 class OneWayChains;
 class Crowd;
 
@@ -49,7 +48,7 @@ class Controller {
   Controller(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep = {});
 
   /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
-  /// nothing else carries over. Never allocates, never throws.
+  /// nothing else carries over. Allocates as `reserve` says, never throws.
   /// @param scratch made by this controller; any other is invalid input.
   StepStatus step(CharacterState& state, const Input& input, const StepContext& context, Scratch& scratch,
                   StepReport& report) const noexcept;
@@ -65,7 +64,7 @@ class Controller {
   StepStatus move(CharacterState& state, const Vec2d& displacement, const StepContext& context, Scratch& scratch,
                   StepReport& report) const noexcept;
 
-  // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
+  // Questions about the surroundings of a character of this kind. They move nothing. They read
   // only the movers, the filter and up of the context. No question is answered with a scratch of another controller,
   // with another number of movers than the scenery's, or about numbers that are out of range.
 
@@ -101,6 +100,9 @@ class Controller {
   }
 
   [[nodiscard]] Scratch make_scratch() const;
+  /// Makes a scratch ready for positions in a box: then steps and questions there allocate nothing. Else they allocate
+  /// where a piece of the scenery comes near for the first time.
+  void reserve(const Box2& positions, Scratch& scratch) const;
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
 
  private:
@@ -124,6 +126,7 @@ class Controller {
   /// Begins an accepted step: turns the intent into a request.
   [[nodiscard]] StepRequest begin_step(const Crushers& crushers, const Input& input, const StepContext& context,
                                        bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
+  void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
                 StepReport& report) const noexcept;
@@ -148,11 +151,11 @@ class Controller {
 
   const Scenery* scenery_;
   bool has_filters_;  ///< Some collider is not there for every character, or all are asked anyway.
+  bool has_sensors_;  ///< Likewise.
   CharacterDef character_;
   /// Scratch memory refers to it.
   std::shared_ptr<const octagon_sweep::SweepInParts> sweep_;
-  std::shared_ptr<const Sensors> sensors_;       ///< Null where the scenery has none,
-  std::shared_ptr<const OneWayChains> one_way_;  ///< and is not asked all the same.
+  std::shared_ptr<const OneWayChains> one_way_;  ///< Null where the scenery has none, and is not asked all the same.
 };
 
 }  // namespace paperproof

@@ -33,6 +33,14 @@ struct CrowdMember {
   /// character's own index.
   CharacterIndex island = 0;
 
+  /// Of the character `index`, before its step.
+  void clear(CharacterIndex index) noexcept {
+    step.clear();
+    met.clear();
+    started_overlapping.clear();
+    stayed = false;
+    island = index;
+  }
   /// Adds a contact with another, seen with this up, unless there is one on the same side.
   void add_contact(CharacterIndex other, const Vec2d& normal, double fraction, const UpFrame& up) noexcept {
     const CrowdContact contact{other, normal, fraction, up.side_of(normal)};
@@ -111,7 +119,7 @@ class Crowd {
 
   [[nodiscard]] CrowdScratch make_scratch(std::size_t most_characters) const;
 
-  /// One step for all characters. Never allocates, never throws.
+  /// One step for all characters. Allocates where a piece comes near for the first time, never throws.
   /// @param states read and written; nothing else carries over.
   /// @param inputs one per state. @param context its filter is not for the characters themselves, which block each
   ///   other always.

@@ -8,15 +8,15 @@ namespace paperproof {
 
 /// How a step finds the pieces that it looks at. It changes the cost of a step, and never its bits.
 enum class PieceSearch : std::uint8_t {
-  tree,        ///< A packed tree of boxes finds those that are near.
-  one_by_one,  ///< The box of each is compared. There is nothing to build: for scenery that is made for a few steps.
+  grid,        ///< The grid of the scenery finds those that are near.
+  one_by_one,  ///< The box of each is compared.
   /// The slow, honest twin of the others. Each step looks at every piece that stands and of each mover that it comes
   /// near to, and asks for sensors, one-way chains and filters, whether the scenery has any or not.
   none,
 };
 
 struct SweepDef {
-  PieceSearch search = PieceSearch::tree;
+  PieceSearch search = PieceSearch::grid;
   int iterations = 12;  ///< Impacts per step before the rest of the displacement is dropped; from 1 to 60.
 };
 

@@ -10,7 +10,6 @@
 #include <paperproof/local_controller.hpp>
 #include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
-#include <paperproof/report_vector.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/scratch.hpp>

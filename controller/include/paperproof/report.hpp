@@ -2,9 +2,9 @@
 #pragma once
 
 #include <paperproof/character.hpp>
-#include <paperproof/report_vector.hpp>
 
 #include <string_view>
+#include <vector>
 
 namespace paperproof {
 
@@ -43,13 +43,12 @@ enum class MoveStatus : std::uint8_t {
   refused,       ///< Refused for a reason of the technique's own: see `refusal`. Nothing moved.
 };
 
-/// The report of one move. `octagon_sweep` reports everything: elements beyond the inline storage go to memory of its
-/// scratch, which is sized by the scenery (see `ReportVector`). Other techniques, and a `Crowd`, leave out the elements
-/// beyond the inline storage, and the vector has `overflowed()`. A crowd's `crushed` alone is always complete.
+/// The report of one move. Its vectors grow: a report that is used again allocates no more once it has had the longest.
+/// `octagon_sweep` reports everything. Other techniques leave out contacts and corners beyond these numbers, and a
+/// crowd drops a path with more corners.
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
   static constexpr std::size_t max_contacts = 32;
-  static constexpr std::size_t max_crushed = 64;
 
   MoveStatus status = MoveStatus::moved;
   Vec2d position{Vec2d::Zero()};
@@ -62,19 +61,19 @@ struct MoveResult {
   /// move has just these two corners. Impacts bound the number of corners. The character's own motion has at most
   /// `SweepDef::iterations` impacts. Movers may add any number: `octagon_sweep` has room for 4 more corners per moving
   /// piece, and a step that needs more is `dropped`.
-  ReportVector<PathPoint, max_corners> path;
+  std::vector<PathPoint> path;
   /// Bounded by the facets of all pieces that block.
-  ReportVector<Contact, max_contacts> contacts;
+  std::vector<Contact> contacts;
   Ride ride;  ///< For the next step. `velocity` above is in the world, the ride included.
   /// Colliders of movers that ran into the character when it had no room to give way; each once.
-  ReportVector<ColliderIndex, max_crushed> crushed;
+  std::vector<ColliderIndex> crushed;
   Crushers crushers;  ///< See `CharacterState::crushers`.
 
-  /// Gives up what is in borrowed memory, of a scratch for example: its owner uses it again, or goes.
-  void keep_own() noexcept {
-    path.keep_own();
-    contacts.keep_own();
-    crushed.keep_own();
+  /// Makes room for so many corners, contacts and crushers.
+  void reserve(std::size_t count) {
+    path.reserve(count);
+    contacts.reserve(count);
+    crushed.reserve(count);
   }
   [[gnu::always_inline]] void clear() noexcept {
     status = MoveStatus::moved;
@@ -124,12 +123,26 @@ struct StepReport {
   Vec2d requested{Vec2d::Zero()};  ///< Wanted displacement [m].
   double steered = 0;              ///< The part of `requested` across up that this step's steering added [m].
   MoveResult move;
-  /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
-  /// `overflowed()`.
-  FixedVector<SensorEvent, 32> sensors;
+  std::vector<SensorEvent> sensors;  ///< In order of time: see `SensorEvent`.
   /// One-way chains that the character passed against their normal, or missed by less than a micrometre, in a step
   /// whose input asked to drop. Each chain is listed once, in the order of the indices.
-  FixedVector<ColliderIndex, 32> dropped_through;
+  std::vector<ColliderIndex> dropped_through;
+
+  /// Keeps its memory.
+  void clear() noexcept {
+    status = StepStatus::moved;
+    requested.setZero();
+    steered = 0;
+    move.clear();
+    sensors.clear();
+    dropped_through.clear();
+  }
+  /// Makes room for so many of each.
+  void reserve(std::size_t count) {
+    move.reserve(count);
+    sensors.reserve(count);
+    dropped_through.reserve(count);
+  }
 };
 
 }  // namespace paperproof

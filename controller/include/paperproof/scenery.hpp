@@ -5,10 +5,13 @@
 #include <paperproof/types.hpp>
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace paperproof {
@@ -134,6 +137,52 @@ struct PieceRange {
   [[nodiscard]] std::size_t size() const noexcept { return end - first; }
 };
 
+/// Finds pieces by boxes: a grid of squares of 1 m, and others of 2 m, 4 m, 0.5 m and so on. A piece lies in the
+/// squares of the finest grid whose squares are larger than the piece, hence in four at most.
+class PieceGrid {
+ public:
+  void add(PieceIndex piece, const Box2& box);
+  /// Appends the pieces whose boxes meet `box`, ascending. @param boxes of all pieces.
+  void find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const;
+  /// Around all pieces; where there are none it meets no box [m].
+  [[nodiscard]] const Box2& whole() const noexcept { return whole_; }
+  [[nodiscard]] bool empty() const noexcept { return links_.empty(); }
+
+ private:
+  static constexpr std::uint32_t no_link = ~std::uint32_t{0};
+  struct Link {
+    PieceIndex piece;
+    std::uint32_t next;
+  };
+  struct Cell {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    std::uint32_t first = no_link;  ///< Of its pieces, in `links_`.
+    bool is_used = false;
+  };
+  /// One grid. Its cells are in a hash table.
+  struct Layer {
+    Layer(double scale, std::size_t count, std::vector<Cell> free)
+        : cells_per_metre(scale), used(count), cells(std::move(free)) {}
+
+    [[nodiscard]] std::size_t index_of(std::int32_t x, std::int32_t y) const noexcept;
+    template <class Visit>
+    void for_each_place(const Box2& box, const Visit& visit) const;
+    void grow();
+
+    double cells_per_metre;
+    std::size_t used;
+    std::vector<Cell> cells;
+  };
+
+  Layer& layer_for(const Box2& box);
+
+  std::vector<Layer> layers_;
+  std::vector<Link> links_;
+  Box2 whole_{Vec2d::Constant(std::numeric_limits<double>::infinity()),
+              Vec2d::Constant(-std::numeric_limits<double>::infinity())};
+};
+
 /// Immutable after construction; may be shared between threads.
 class Scenery {
  public:
@@ -158,7 +207,8 @@ class Scenery {
     const Vec2d* stored = vertices_.data() + pieces_[piece].first_vertex;
     return {stored[0], stored[1].x()};
   }
-  /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …, sensors.
+  /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …; then the
+  /// sensors, by mover, and last those that do not move.
   [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
   [[nodiscard]] PieceRange pieces_of_mover(MoverIndex mover) const noexcept {
     return {mover_begin_[mover], mover_begin_[mover + 1]};
@@ -168,6 +218,16 @@ class Scenery {
   }
   /// One more than the highest index of a mover that moves a collider.
   [[nodiscard]] std::size_t mover_count() const noexcept { return mover_begin_.size() - 1; }
+
+  /// Solid pieces and sensors, apart, of one mover or of what stands still.
+  struct Group {
+    PieceGrid solids;
+    PieceGrid sensors;
+  };
+  /// @param mover below `mover_count()`, or `no_mover`.
+  [[nodiscard]] const Group& group_of(MoverIndex mover) const noexcept {
+    return mover == no_mover ? standing_ : moving_[mover];
+  }
 
   /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
   [[nodiscard]] const Box2& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
@@ -211,6 +271,8 @@ class Scenery {
   std::vector<PieceInfo> pieces_;
   std::vector<Vec2d> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
   std::vector<Box2> boxes_;
+  Group standing_;
+  std::vector<Group> moving_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.
 };

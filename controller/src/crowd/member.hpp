@@ -77,7 +77,6 @@ struct Member {
   bool drops = false;           ///< One-way chains do not hold it in this step.
   bool dropped = false;         ///< Its step was cut short.
   bool starts_stuck = false;    ///< It began inside scenery, and there was no way out.
-  ReportMemory<ColliderIndex> crushed_memory;  ///< For movers that its report has no room for.
 };
 
 /// Memory for a step of a crowd.

@@ -28,6 +28,10 @@ inline void add_contact(MoveResult& move, const Contact& contact) noexcept {
   if (!known) move.contacts.push_back(contact);
 }
 
+[[nodiscard]] inline bool is_too_long(const MoveResult& move) noexcept {
+  return move.path.size() > MoveResult::max_corners;
+}
+
 /// Appends the path of `next` to that of `move`, which then ends as `next` does.
 inline void append_path(const MoveResult& next, MoveResult& move) noexcept {
   for (const PathPoint& corner : next.path) add_corner(move, corner);
@@ -62,7 +66,7 @@ class PathPlanner {
       set_motions(member.obstacles, at.time, end);
       if (!plan_part(member, end, path, at)) return false;
     }
-    return !path.path.overflowed() && !path.path.empty();
+    return !is_too_long(path) && !path.path.empty();
   }
 
   /// The same until the end of the step, past obstacles that move straight.
@@ -74,7 +78,7 @@ class PathPlanner {
     set_motions(member.obstacles, at.time, 1);
     for (std::size_t k = 0; k < legs.size(); ++k)
       step_.memory.motions[step_.movers.size() + k] = leg_of(member.obstacles[k], legs[k], at.time);
-    return plan_part(member, 1, path, at) && !path.path.overflowed();
+    return plan_part(member, 1, path, at) && !is_too_long(path);
   }
 
   /// The same for a character that keeps its position in the world.
@@ -194,8 +198,6 @@ class PathPlanner {
     };
     for (PathPoint& corner : part.path) corner.fraction = time_of(corner.fraction);
     append_path(part, path);
-    if (part.path.overflowed())
-      while (!path.path.overflowed()) path.path.push_back(part.path.back());
     for (Contact& contact : part.contacts) {
       contact.fraction = time_of(contact.fraction);
       add_contact(path, contact);

@@ -119,7 +119,7 @@ class Paths {
     }
     for (const ColliderIndex collider : path.crushed)
       if (!step_.rules.is_character(collider) && !contains(step_.made(i).crushed, collider))
-        step_.made(i).crushed.push_back(collider, member.crushed_memory);
+        step_.made(i).crushed.push_back(collider);
     member.dropped = member.dropped || path.status == MoveStatus::dropped;
     step_.made(i).status = path.status;
   }

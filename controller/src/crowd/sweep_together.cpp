@@ -52,7 +52,7 @@ class SweepTogether {
     Moment end = member.now;
     if (planner_.plan_until(i, 1, step_.memory.path, end))
       paths_.follow(i, end);
-    else if (step_.memory.path.path.overflowed())
+    else if (is_too_long(step_.memory.path))
       paths_.hold_position(i);
     else
       return false;
@@ -246,7 +246,7 @@ class SweepTogether {
   void check_paths(std::span<const CharacterState> before) noexcept {
     const auto& members = step_.report.members;
     for (CharacterIndex i = 0; i < step_.members.size(); ++i)
-      if (step_.made(i).path.overflowed()) return_to_start(i, before[i]);
+      if (is_too_long(step_.made(i))) return_to_start(i, before[i]);
     bool changed = true;
     while (changed) {
       changed = false;

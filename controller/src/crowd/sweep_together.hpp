@@ -5,7 +5,7 @@
 
 namespace paperproof::crowd {
 
-/// Moves all characters that have a request in `step.memory`. Never allocates, never throws.
+/// Moves all characters that have a request in `step.memory`. Never throws.
 /// @param step its members are overwritten; of each member of the report `step.move`, `met`, `started_overlapping` and
 ///   `stayed` are filled in, and of the report its `impacts`. `memory.states` become those after the move, but for what
 ///   the controller makes of it.

@@ -39,20 +39,6 @@ void for_each_axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing
     if (!visit(axis_of_mover(mover, standing, i))) return;
 }
 
-/// Narrows `time`, in which all separations so far are negative, by one more separation that changes linearly.
-void narrow(OverlapTime& time, double at_start, double at_end) noexcept {
-  const bool apart_at_start = !(at_start < 0);
-  const bool apart_at_end = !(at_end < 0);
-  if (!apart_at_start && !apart_at_end) return;
-  if (apart_at_start && apart_at_end) {
-    time = {.begin = OverlapTime::after, .end = OverlapTime::before};
-  } else if (apart_at_start) {
-    time.begin = std::max(time.begin, at_start / (at_start - at_end));
-  } else {
-    time.end = std::min(time.end, at_start / (at_start - at_end));
-  }
-}
-
 }  // namespace
 
 std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing) {
@@ -68,7 +54,7 @@ std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::s
 OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to) noexcept {
   OverlapTime time;
   for (const SeparatingAxis& axis : axes) {
-    narrow(time, axis.separation(from), axis.separation(to));
+    time.narrow(axis.separation(from), axis.separation(to), 0);
     if (!time.any()) break;
   }
   return time;
@@ -78,7 +64,7 @@ OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> st
                          const Vec2d& to) noexcept {
   OverlapTime time;
   for_each_axis(mover, standing, [&](const SeparatingAxis& axis) noexcept {
-    narrow(time, axis.separation(from), axis.separation(to));
+    time.narrow(axis.separation(from), axis.separation(to), 0);
     return time.any();
   });
   return time;

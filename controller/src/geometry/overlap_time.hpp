@@ -1,6 +1,8 @@
 /// The time during which two convex outlines overlap while one of them moves straight.
 #pragma once
 
+#include "geometry/time_below.hpp"
+
 #include <paperproof/types.hpp>
 
 #include <span>
@@ -8,17 +10,8 @@
 
 namespace paperproof::geometry {
 
-/// The open interval of a straight motion, whose fractions run from 0 to 1, in which two outlines overlap. Empty where
-/// `begin >= end`. If they overlap at the start already, `begin` is `before`. If they still overlap at the end, `end`
-/// is `after`. The other values are fractions in [0, 1].
-struct OverlapTime {
-  static constexpr double before = -1;
-  static constexpr double after = 2;
-  double begin = before;
-  double end = after;
-
-  [[nodiscard]] bool any() const noexcept { return begin < end; }
-};
+/// When two outlines overlap during a straight motion: their separations are below zero.
+using OverlapTime = TimeBelow<double>;
 
 /// Finds when the open interior of the convex `mover` meets the interior of the convex `standing`, or a segment if
 /// `standing` has two points. The position of `mover` goes straight from `from` to `to`.

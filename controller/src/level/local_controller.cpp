@@ -91,7 +91,7 @@ StepStatus LocalController::Impl::refuse(const CharacterState& state, StepReport
 StepStatus LocalController::Impl::stay(MoveStatus why, const CharacterState& state, StepReport& report) {
   const auto words = report.move.refusal;
   turned_.clear();
-  clear(report);
+  report.clear();
   report.move.refusal = words;
   report.move.status = why;
   report.move.position = state.position;
@@ -132,7 +132,7 @@ template <class Go>
 std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, CharacterState& state,
                                                                const StepContext& context, StepReport& report,
                                                                const Go& go) {
-  clear(report);
+  report.clear();
   const CharacterState before = state;
   StepContext shorter = context;
   shorter.dt = context.dt / parts;

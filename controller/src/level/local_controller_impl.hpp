@@ -67,16 +67,6 @@ inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fracti
   return {sensor, enters ? Change::enter : Change::exit, fraction};
 }
 
-/// Before the first part.
-inline void clear(StepReport& report) {
-  report.status = StepStatus::moved;
-  report.requested.setZero();
-  report.steered = 0;
-  report.move.clear();
-  report.sensors.clear();
-  report.dropped_through.clear();
-}
-
 }  // namespace level
 
 struct LocalController::Impl {
@@ -145,9 +135,6 @@ struct LocalController::Impl {
   std::vector<MoverMotion> motions;
   std::vector<TurnedCollider> turned_;
   std::unique_ptr<StepReport> of_part = std::make_unique<StepReport>();
-  ReportMemory<PathPoint> more_corners{level::most_parts * MoveResult::max_corners};
-  ReportMemory<Contact> more_contacts{level::most_parts * MoveResult::max_contacts};
-  ReportMemory<ColliderIndex> more_crushed{level::most_parts * MoveResult::max_crushed};
   std::vector<KnownPieces> known_pieces;
 };
 

@@ -34,8 +34,8 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
   move.ride = {};
   move.crushers.clear();
   if (move.path.empty()) move.path.push_back({state.position, 0});
-  if (departure > begin) move.path.push_back({state.position, departure}, more_corners);
-  move.path.push_back({to, 1}, more_corners);
+  if (departure > begin) move.path.push_back({state.position, departure});
+  move.path.push_back({to, 1});
   if (begin == 0) note_begin();
   std::vector<double> ends;
   for (int part = 1; part < most_parts; ++part) ends.push_back(begin + (1 - begin) * part / most_parts);
@@ -70,7 +70,7 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
     if (known != state.crushers.end()) crusher = *known;
     carry(crusher, middle(), from, collider.motion.to);
     const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
-    if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id, more_crushed);
+    if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id);
     if (overlaps(collider, collider.motion.to, to)) move.crushers.push_back(crusher);
   }
 }
@@ -100,7 +100,7 @@ StepStatus LocalController::Impl::go_straight_or_stay(CharacterState& state, con
   const std::optional<Vec2d> out = way_out_at_end(state, context);
   MoveResult& move = report.move;
   const auto goes_out = [&](double departure) {
-    clear(report);
+    report.clear();
     go_straight(0, departure, *out, state, context, report);
     return move.crushed.empty() && move.crushers.empty();
   };
@@ -112,7 +112,7 @@ StepStatus LocalController::Impl::go_straight_or_stay(CharacterState& state, con
 /// A step in which the character stays in place, and what reaches it crushes it.
 StepStatus LocalController::Impl::wait(CharacterState& state, const StepContext& context, StepReport& report) {
   MoveResult& move = report.move;
-  clear(report);
+  report.clear();
   go_straight(0, 0, state.position, state, context, report);
   const auto holds = [&](const NearCollider& collider) {
     return collider.mover == no_mover && blocks(collider, context) && overlaps(collider, {}, state.position);

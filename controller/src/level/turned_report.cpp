@@ -33,8 +33,7 @@ void LocalController::Impl::note_pushes(const StepPart& part, const StepContext&
     if (!scenery.turns(collider)) continue;
     if (std::any_of(move.contacts.begin(), move.contacts.end(), is_known)) continue;
     // They come first: nothing else is met before any time has passed.
-    if (move.contacts.push_back(touched[i], more_contacts))
-      std::rotate(move.contacts.begin() + pushes++, move.contacts.end() - 1, move.contacts.end());
+    move.contacts.insert(move.contacts.begin() + pushes++, touched[i]);
   }
 }
 
@@ -54,7 +53,6 @@ void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2
     if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
   }
   for (const SensorEvent& event : later) report.sensors.push_back(event);
-  report.sensors.note_overflow(later.overflowed());
 }
 
 /// Where everything that moves is when the step begins.
@@ -86,30 +84,27 @@ void LocalController::Impl::append(const StepReport& added, const StepPart& part
   for (const PathPoint& corner : part.way) {
     const double fraction = part.begin + (part.turned() - part.begin) * corner.fraction;
     if (corner.fraction > 0 || to.path.empty())
-      to.path.push_back({corner.position, corner.fraction < 1 ? fraction : part.turned()}, more_corners);
+      to.path.push_back({corner.position, corner.fraction < 1 ? fraction : part.turned()});
   }
   for (const PathPoint& corner : from.path)
-    if (corner.fraction > 0) to.path.push_back({corner.position, when(corner.fraction)}, more_corners);
+    if (corner.fraction > 0) to.path.push_back({corner.position, when(corner.fraction)});
   for (Contact contact : from.contacts) {
     contact.fraction = when(contact.fraction);
     const auto is_it = [&](const Contact& other) {
       return other.collider == contact.collider && other.normal == contact.normal;
     };
-    if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact, more_contacts);
+    if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact);
   }
   for (const ColliderIndex collider : from.crushed)
-    if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end())
-      to.crushed.push_back(collider, more_crushed);
+    if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end()) to.crushed.push_back(collider);
   for (SensorEvent event : added.sensors) {
     event.fraction = when(event.fraction);
     report.sensors.push_back(event);
   }
-  report.sensors.note_overflow(added.sensors.overflowed());
   for (const ColliderIndex collider : added.dropped_through)
     if (std::find(report.dropped_through.begin(), report.dropped_through.end(), collider) ==
         report.dropped_through.end())
       report.dropped_through.push_back(collider);
-  report.dropped_through.note_overflow(added.dropped_through.overflowed());
   if (part.begin == 0) {
     report.requested = added.requested / part.end;
     report.steered = added.steered / part.end;

@@ -68,7 +68,7 @@ Vec2d rounded(const Position& p) noexcept {
 class BesideCircle {
  public:
   BesideCircle(const ConfigurationSpace& space, PieceIndex piece) noexcept
-      : circle_{space.scenery().circle(piece).centre, space.scenery().circle(piece).radius} {
+      : circle_{space.circle(piece).centre, space.circle(piece).radius} {
     for (const Vec2d& point : space.hull()) octagon_.push_back(point);
   }
 
@@ -155,7 +155,7 @@ template <class Position>
 bool some_line_separates(const ConfigurationSpace& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {
   if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(from, to);
-  const PieceVertices vertices = space.scenery().vertices_of(piece);
+  const PieceVertices vertices = space.vertices_of(piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d a = vertices[j];
     const Vec2d b = vertices[(j + 1) % vertices.size()];
@@ -189,7 +189,7 @@ bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, const E
 
 bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
                       const Vec2& from, Real begin, const Vec2& to, Real end) noexcept {
-  const MoverIndex mover = space.scenery().pieces()[piece].mover;
+  const MoverIndex mover = space.info(piece).source.mover;
   if (mover == no_mover) return clear_of_exactly(space, piece, from, to);
   return some_line_separates(space, piece, ExactPosition(from, movers[mover], begin),
                              ExactPosition(to, movers[mover], end));

@@ -29,10 +29,9 @@ struct PieceFace {
 [[nodiscard, gnu::always_inline]] inline PieceFace piece_face(const ConfigurationSpace& space, PieceIndex piece,
                                                               std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
   constexpr Real flat = tolerances.hit;  // points this close to the highest belong to the face
-  const Scenery& scenery = space.scenery();
-  if (axis < 4 && scenery.pieces()[piece].is_rectangle()) return rectangle_face(scenery.box(piece), n, p);
+  if (axis < 4 && space.info(piece).source.is_rectangle()) return rectangle_face(space.info(piece).box, n, p);
   PieceFace face{-std::numeric_limits<Real>::infinity(), 0, 0};
-  for (const Vec2d& v : scenery.vertices_of(piece)) {
+  for (const Vec2d& v : space.vertices_of(piece)) {
     const Real x = v.x() - p.x();
     const Real y = v.y() - p.y();
     const Real height = n.x() * x + n.y() * y;
@@ -47,7 +46,7 @@ struct PieceFace {
 /// Separation from a circle along a direction, from differences of coordinates.
 [[nodiscard]] inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece, const Vec2& n,
                                            const Vec2& p) noexcept {
-  const Circle circle = space.scenery().circle(circle_piece);
+  const Circle circle = space.circle(circle_piece);
   const Vec2 centre = circle.centre - p;
   return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
 }
@@ -84,7 +83,7 @@ struct ContactPlace {
 /// The point of a circle's arc that faces the octagon.
 [[nodiscard, gnu::cold, gnu::noinline]] inline ContactPlace place_on_arc(const ConfigurationSpace& space,
                                                                          PieceIndex piece, Vec2 n, Vec2 p) noexcept {
-  const Circle circle = space.scenery().circle(piece);
+  const Circle circle = space.circle(piece);
   return {circle.centre + n * circle.radius, separation_along(space, piece, n, p)};
 }
 

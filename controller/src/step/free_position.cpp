@@ -156,19 +156,17 @@ class Search {
 
   /// Offset of the mover of a piece at a fraction of the step; zero for a piece that stands still.
   [[nodiscard]] Vec2 offset(PieceIndex piece, Real time) const noexcept {
-    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
+    const MoverIndex mover = space_.info(piece).source.mover;
     return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(query_.movers[mover].at(time));
   }
   /// A position relative to the mover of a piece.
   [[nodiscard]] Vec2 seen(PieceIndex piece, const Vec2& p, Real time) const noexcept { return p - offset(piece, time); }
   [[nodiscard]] Vec2 seen_at_end(PieceIndex piece, const Vec2& p) const noexcept { return seen(piece, p, query_.end); }
-  [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
-    return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
-  }
+  [[nodiscard]] bool solid(PieceIndex piece) const noexcept { return !space_.info(piece).is_one_way(); }
   [[nodiscard]] BestAxis best(PieceIndex piece, const Vec2& at) const noexcept { return best_axis(space_, piece, at); }
   /// Where the character was before it overlapped a piece that may be passed, as the piece sees it.
   [[nodiscard]] std::optional<Vec2> side_of(PieceIndex piece) const noexcept {
-    const PieceInfo& info = space_.scenery().pieces()[piece];
+    const PieceInfo& info = space_.info(piece).source;
     for (const Crusher& crusher : query_.crushers)
       if (crusher.collider == info.collider)
         return Vec2(crusher.last_free + (crusher.displacement - query_.movers[info.mover].to));
@@ -252,7 +250,7 @@ class Search {
 
   /// The arcs on which a corner of the hull touches a circle, with the gap.
   void search_arcs(PieceIndex piece) noexcept {
-    const Circle& circle = space_.scenery().circle(piece);
+    const Circle& circle = space_.circle(piece);
     const Vec2 centre = circle.centre - seen_at_end(piece, query_.near);
     const Real radius = circle.radius + query_.gap;
     const std::span<const Vec2d> hull = space_.hull();

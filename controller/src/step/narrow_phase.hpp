@@ -4,6 +4,7 @@
 /// (a pair that is written as two numbers and read as one waits for the memory).
 #pragma once
 
+#include "geometry/time_below.hpp"
 #include "geometry/vectors.hpp"
 #include "step/configuration_space.hpp"
 
@@ -40,13 +41,12 @@ struct Motion {
   }
 };
 
+/// In place: a motion is large.
 /// @param look how far beyond the end of the motion the sweep looks [m].
-[[nodiscard, gnu::always_inline]] inline Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
-                                                            const Vec2& displacement,
-                                                            Real look = tolerances.look) noexcept {
+[[gnu::always_inline]] inline void set_motion(Motion& motion, const ConfigurationSpace& space, const Vec2& from,
+                                              const Vec2& displacement, Real look = tolerances.look) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Real shortest = std::numeric_limits<Real>::min() * Real(1e8);
-  Motion motion;
   motion.from = from;
   motion.displacement = displacement;
   motion.length = length_of(displacement);
@@ -60,6 +60,13 @@ struct Motion {
   });
   motion.lost = Vec2::Zero();
   motion.known_surface = OneWaySurfaces::none;
+}
+
+[[nodiscard, gnu::always_inline]] inline Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
+                                                            const Vec2& displacement,
+                                                            Real look = tolerances.look) noexcept {
+  Motion motion;
+  set_motion(motion, space, from, displacement, look);
   return motion;
 }
 
@@ -100,7 +107,7 @@ struct AxisRanges {
 /// [m]. With most pieces that is further than `hit`: looking at these axes first saves half of a sweep.
 [[nodiscard, gnu::always_inline]] inline Real kept_by_box(const ConfigurationSpace& space, const Motion& motion,
                                                           PieceIndex piece) noexcept {
-  const Four start = motion.at.group(0) - space.box_offsets(piece);
+  const Four start = motion.at.group(0) - space.offsets(piece, 0);
   const Four least = start.min(start + motion.along.group(0));
   return least.maxCoeff();
 }
@@ -202,18 +209,9 @@ inline constexpr Real covered_share = Real(0.5);
 
 /// When all separations are below a level for the first time; nothing where they never are together.
 [[nodiscard]] inline std::optional<Real> entry_below(const AxisRanges& f, Real level) noexcept {
-  Real entry = 0;
-  Real exit = 1;
-  for (std::size_t axis = 0; axis < f.count; ++axis) {
-    const Real start = f.start[axis];
-    const Real end = f.end[axis];
-    if (start >= level && end >= level) return std::nullopt;
-    if (start >= level)
-      entry = std::max(entry, (start - level) / (start - end));
-    else if (end > level)
-      exit = std::min(exit, (level - start) / (end - start));
-  }
-  return entry < exit ? std::optional(entry) : std::nullopt;
+  geometry::TimeBelow<Real> time{0, 1};
+  for (std::size_t axis = 0; axis < f.count; ++axis) time.narrow(f.start[axis], f.end[axis], level);
+  return time.any() ? std::optional(time.begin) : std::nullopt;
 }
 
 /// Where a motion is stopped that enters by a hidden facet alone; nothing where it passes.
@@ -239,7 +237,7 @@ inline constexpr Real covered_share = Real(0.5);
                                                                      const Motion& motion, PieceIndex piece,
                                                                      Real start) noexcept {
   const auto approach = [&](Real level) {
-    return geometry::approach(space.hull(), motion.from, motion.extended, space.scenery().circle(piece), level);
+    return geometry::approach(space.hull(), motion.from, motion.extended, space.circle(piece), level);
   };
   const auto near = approach(std::min(tolerances.hit, start));
   if (!near) return {false, 0, {}};

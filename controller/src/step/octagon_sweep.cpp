@@ -1,6 +1,5 @@
 #include "step/octagon_sweep.hpp"
 
-#include "broad_phase/most_at_once.hpp"
 #include "step/query.hpp"
 #include "step/step_solve.hpp"
 
@@ -20,56 +19,65 @@ constexpr int most_iterations = static_cast<int>(MoveResult::max_corners) - 4;
 
 Settings settings_for(const SweepDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
-  const Vec2d extent = character.shape.box().upper - character.shape.box().lower;
   return {
       .walkable_cosine = static_cast<Real>(character.walkable_cosine(given_tolerances.climb)),
       .walkable_tangent = static_cast<Real>(std::tan(limit)),
       .snap = static_cast<Real>(character.snap),
       .step_height = static_cast<Real>(character.step_height),
       .max_fall_speed = static_cast<Real>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
-      .look_ahead = static_cast<Real>(look_ahead_share * std::max(extent.x(), extent.y())),
       .iterations = def.iterations};
+}
+
+PieceFinder find_solids(const Scenery& scenery, const CharacterShape& shape, PieceSearch search) {
+  // A sweep looks beyond the end of a motion, and the rounding of an offset moves a piece.
+  constexpr double more = 2 * given_tolerances.look + given_tolerances.touch;
+  return {scenery, PieceFinder::Kind::solids, shape.box().inflated(more), search};
 }
 
 class OctagonSweep final : public SweepInParts {
  public:
   OctagonSweep(const SweepDef& def, const Scenery& scenery, const CharacterDef& character)
-      : tree_(scenery.static_boxes(), def.search),
-        mover_phases_(def.search, scenery),
-        // Every piece asks for its neighbours once: without a tree that takes the square of their number.
-        space_(scenery, character.shape,
-               def.search == PieceSearch::tree ? tree_ : *std::make_unique<broad_phase::Tree>(scenery.static_boxes()),
-               mover_phases_),
+      : finder_(find_solids(scenery, character.shape, def.search)),
+        surfaces_(scenery, character.shape),
+        shape_(character.shape),
         settings_(settings_for(def, character)),
-        touched_at_once_(broad_phase::most_at_once(scenery.static_boxes(), space_.touched_size())),
         has_conveyors_(has_conveyors(scenery)) {}
+
+  [[nodiscard]] const PieceFinder& finder() const noexcept override { return finder_; }
+  [[nodiscard]] const OneWaySurfaces& surfaces() const noexcept override { return surfaces_; }
 
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
-    scratch.solids.pieces = PieceBuffer(space_.scenery().sensor_pieces().first);
-    scratch.own = std::make_unique<StepMemory>(space_, touched_at_once_, settings_.iterations);
+    scratch.own = std::make_unique<StepMemory>(shape_, finder_, surfaces_);
     return scratch;
+  }
+
+  void reserve(const Box2& positions, Scratch& scratch) const override {
+    Nearby(finder_, scratch.solids, {}, nullptr, &static_cast<StepMemory&>(*scratch.own).space).reserve(positions);
   }
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
-    if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
+    if (!in_range(request) || request.movers.size() != finder_.scenery().mover_count() ||
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
-    const Neighbourhood neighbourhood(space_, tree_, settings_.look_ahead, request.filter, scratch);
+    auto& memory = static_cast<StepMemory&>(*scratch.own);
+    const bool looks_at_movers =
+        !request.movers.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
     const bool rides = request.ride.ground != Ride::none;
-    MoversInStep movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
-    if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();
-    Step step(space_, settings_, neighbourhood, movers, request.up, result);
+    Step step(settings_,
+              {finder_, scratch.solids, looks_at_movers ? request.movers : std::span<const MoverMotion>{},
+               request.filter, &memory.space},
+              {request.movers, request.dt, has_conveyors_ || rides || looks_at_movers}, memory, request.up, result);
     solve(step, part, request);
   }
 
   template <class Question>
   [[nodiscard]] auto ask(const StepRequest& at, Scratch& scratch, const Question& question) const noexcept {
-    Surroundings around{
-        space_, {space_, tree_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter, at.up};
+    ConfigurationSpace& space = static_cast<StepMemory&>(*scratch.own).space;
+    Surroundings around{space, {finder_, scratch.solids, at.movers, at.filter, &space}, at.movers, at.up};
     const auto answer = question(around);
-    around.neighbourhood.forget();  // a wide question would make the next steps slow
+    around.near.forget();  // a wide question would make the next steps slow
     return answer;
   }
 
@@ -108,27 +116,21 @@ class OctagonSweep final : public SweepInParts {
 
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
   /// its displacement is long, and the snap.
-  [[nodiscard]] bool comes_near_a_mover(const StepRequest& request) const noexcept {
+  [[nodiscard]] bool comes_near_a_mover(const StepRequest& request, const ConfigurationSpace& space) const noexcept {
     if (request.ride.ground != Ride::none || request.crushed) return true;
     const Vec2& at = request.position;
     const Real reach =
         request.displacement.cwiseAbs().sum() + settings_.snap + settings_.step_height + 2 * tolerances.look;
-    const Box2 touched = space_.touched_from(Box2{at, at}.inflated(reach));
-    for (MoverIndex mover = 0; mover < mover_phases_.size(); ++mover) {
-      const Box2& whole = mover_phases_.whole(mover);
-      const MoverMotion& motion = request.movers[mover];
-      if (touched.overlaps(
-              {whole.lower + motion.from.cwiseMin(motion.to), whole.upper + motion.from.cwiseMax(motion.to)}))
-        return true;
-    }
+    const Box2 touched = space.touched_from(Box2{at, at}.inflated(reach));
+    for (MoverIndex mover = 0; mover < request.movers.size(); ++mover)
+      if (PieceFinder::seen_by(touched, request.movers[mover]).overlaps(finder_.whole(mover))) return true;
     return false;
   }
 
-  broad_phase::Tree tree_;
-  MoverPhases mover_phases_;
-  ConfigurationSpace space_;
+  PieceFinder finder_;
+  OneWaySurfaces surfaces_;
+  CharacterShape shape_;
   Settings settings_;
-  std::size_t touched_at_once_;
   bool has_conveyors_;
 };
 

@@ -6,6 +6,9 @@
 #include <paperproof/scratch.hpp>
 #include <paperproof/up_frame.hpp>
 
+#include "one_way_surfaces.hpp"
+#include "piece_finder.hpp"
+
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,12 +48,17 @@ enum class Part : std::uint8_t {
   stay,   ///< The character keeps its position in the world. Every mover that runs into it crushes it.
 };
 
-/// Const and shareable between threads; each thread brings its scratch. No call allocates or throws.
+/// Const and shareable between threads; each thread brings its scratch. No call throws, and each allocates as `Controller::reserve` says.
 class SweepInParts {
  public:
   virtual ~SweepInParts() = default;
 
   [[nodiscard]] virtual Scratch make_scratch() const = 0;
+  /// See `Controller::reserve`.
+  virtual void reserve(const Box2& positions, Scratch& scratch) const = 0;
+  /// Of solid pieces.
+  [[nodiscard]] virtual const PieceFinder& finder() const noexcept = 0;
+  [[nodiscard]] virtual const OneWaySurfaces& surfaces() const noexcept = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
   virtual void move_part(Part part, const StepRequest& request, Scratch& scratch,

@@ -10,7 +10,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 [[nodiscard, gnu::always_inline]] inline bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
                                                        const Vec2& rest) noexcept {
   constexpr Real certain = tolerances.certain;
-  const ObstacleInfo& info = space.info(piece);
+  const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Real apart = space.separation(piece, info.one_way_axis, p);
     if (apart >= certain) return true;
@@ -24,7 +24,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// its separation counts.
 [[nodiscard, gnu::noinline]] inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
                                                         PieceIndex piece) noexcept {
-  const ObstacleInfo& info = space.info(piece);
+  const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Vec2 n = space.normal(piece, info.one_way_axis);
     if (space.separation(piece, info.one_way_axis, motion.from) >= tolerances.hit)
@@ -41,7 +41,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether a piece can stop a motion at all. A solid always can.
 [[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace& space, const Motion& motion,
                                                      PieceIndex piece) noexcept {
-  return space.info(piece).one_way_axis == ObstacleInfo::not_one_way || one_way_blocks(space, motion, piece);
+  return !space.info(piece).is_one_way() || one_way_blocks(space, motion, piece);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -3,8 +3,9 @@
 
 #include "step/certificate.hpp"
 #include "step/contact_geometry.hpp"
-#include "step/neighbourhood.hpp"
 #include "step/one_way.hpp"
+
+#include "piece_finder.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -12,14 +13,16 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// The colliders around one character. Movers that a filter leaves out are left out here.
+/// The colliders around one character.
 struct Surroundings {
   const ConfigurationSpace& space;
-  Neighbourhood neighbourhood;
-  const MoverPhases& phases;
+  Nearby near;
   std::span<const MoverMotion> movers;  ///< One for each mover.
-  const ColliderFilter* filter;         ///< Null: all colliders are there.
   UpFrame up;                           ///< See `StepContext::up`.
+
+  [[nodiscard]] MoverMotion motion_of(MoverIndex mover) const noexcept {
+    return mover == no_mover ? MoverMotion{} : movers[mover];
+  }
 };
 
 [[nodiscard]] inline Contact contact_with(const Surroundings& around, PieceIndex piece, std::size_t axis,
@@ -27,7 +30,7 @@ struct Surroundings {
   const ConfigurationSpace& space = around.space;
   const Vec2 normal = space.normal(piece, axis);
   const ContactPlace place = contact_place(space, piece, axis, normal, Vec2(position - offset));
-  return {.collider = space.scenery().pieces()[piece].collider,
+  return {.collider = space.info(piece).source.collider,
           .point = place.point + offset,
           .normal = normal,
           .fraction = fraction,
@@ -36,19 +39,12 @@ struct Surroundings {
 }
 
 /// Calls `look(piece, motion)` for the pieces that may be touched from positions in a box, with the motion of each.
-/// @param box_of is asked before the pieces of one motion are looked at: for the positions relative to them.
-template <class BoxOf, class Look>
-void for_each_around(Surroundings& around, const BoxOf& box_of, const Look& look) noexcept {
-  const MoverMotion stands{};
-  for (const PieceIndex piece : around.neighbourhood.around(box_of(stands))) look(piece, stands);
-  const Scenery& scenery = around.space.scenery();
-  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
-    const MoverMotion& motion = around.movers[mover];
-    const Box2 box = around.space.touched_from(box_of(motion));
-    if (!box.overlaps(around.phases.whole(mover))) continue;
-    for (const PieceIndex piece : around.phases.query(mover, box, around.neighbourhood.memory().of_mover))
-      if (around.filter == nullptr || (*around.filter)(scenery, scenery.pieces()[piece].collider)) look(piece, motion);
-  }
+template <class Look>
+void for_each_around(Surroundings& around, const Box2& box, const Look& look) noexcept {
+  around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const MoverMotion motion = around.motion_of(mover);
+    for (const PieceIndex piece : pieces) look(piece, motion);
+  });
 }
 
 /// See `Controller::cast`.
@@ -61,27 +57,25 @@ void for_each_around(Surroundings& around, const BoxOf& box_of, const Look& look
     return seen;
   };
   std::optional<Contact> first;
-  Motion motion;
-  for_each_around(
-      around,
-      [&](const MoverMotion& mover) {
-        motion = motion_seen_by(mover);
-        return motion.box();
-      },
-      [&](PieceIndex piece, const MoverMotion& mover) {
-        if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) return;
-        const Clearance clear = clearance(space, motion, piece);
-        if (clear.clear()) return;
-        const PieceHit hit = sweep_piece(space, motion, piece, clear, around.up);
-        if (!hit.hit) return;
-        const Real fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
-        const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
-        if (first &&
-            (fraction > first->fraction || (fraction == first->fraction && up <= around.up.up_of(first->normal))))
-          return;
-        first = contact_with(around, piece, hit.axes.normal, Vec2(position + displacement * fraction),
-                             mover.at(fraction), fraction);
-      });
+  const auto look_at = [&](PieceIndex piece, const Motion& motion, const MoverMotion& mover) {
+    if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) return;
+    const Clearance clear = clearance(space, motion, piece);
+    if (clear.clear()) return;
+    const PieceHit hit = sweep_piece(space, motion, piece, clear, around.up);
+    if (!hit.hit) return;
+    const Real fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
+    const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
+    if (first && (fraction > first->fraction || (fraction == first->fraction && up <= around.up.up_of(first->normal))))
+      return;
+    first = contact_with(around, piece, hit.axes.normal, Vec2(position + displacement * fraction), mover.at(fraction),
+                         fraction);
+  };
+  const Box2 box = make_motion(space, position, displacement).box();
+  around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const MoverMotion motion_of_mover = around.motion_of(mover);
+    const Motion motion = motion_seen_by(motion_of_mover);
+    for (const PieceIndex piece : pieces) look_at(piece, motion, motion_of_mover);
+  });
   return first;
 }
 
@@ -91,25 +85,19 @@ void for_each_around(Surroundings& around, const BoxOf& box_of, const Look& look
   const ConfigurationSpace& space = around.space;
   std::size_t count = 0;
   ColliderIndex last = no_collider;
-  for_each_around(
-      around,
-      [&](const MoverMotion& mover) {
-        const Vec2 at = position - mover.from;
-        return Box2{at, at};
-      },
-      [&](PieceIndex piece, const MoverMotion& mover) {
-        const PieceInfo& info = space.scenery().pieces()[piece];
-        if (info.collider == last || info.one_way) return;  // the pieces of a collider are consecutive
-        const Vec2 at = position - mover.from;
-        if (best_axis(space, piece, at).separation >= tolerances.certain) return;
-        const bool inside = info.mover == no_mover
-                                ? overlaps_exactly(space, piece, at)
-                                : overlaps_exactly(space, piece, ExactPosition(position, mover, Real(0)));
-        if (!inside) return;
-        last = info.collider;
-        if (count < found.size()) found[count] = last;
-        ++count;
-      });
+  for_each_around(around, {position, position}, [&](PieceIndex piece, const MoverMotion& mover) {
+    const PieceInfo& info = space.info(piece).source;
+    if (info.collider == last || info.one_way) return;  // the pieces of a collider are consecutive
+    const Vec2 at = position - mover.from;
+    if (best_axis(space, piece, at).separation >= tolerances.certain) return;
+    const bool inside = info.mover == no_mover
+                            ? overlaps_exactly(space, piece, at)
+                            : overlaps_exactly(space, piece, ExactPosition(position, mover, Real(0)));
+    if (!inside) return;
+    last = info.collider;
+    if (count < found.size()) found[count] = last;
+    ++count;
+  });
   return count;
 }
 
@@ -133,23 +121,17 @@ void for_each_around(Surroundings& around, const BoxOf& box_of, const Look& look
   const ConfigurationSpace& space = around.space;
   if (found.empty()) return 0;
   std::size_t count = 0;
-  for_each_around(
-      around,
-      [&](const MoverMotion& mover) {
-        const Vec2 at = position - mover.from;
-        return Box2{at, at}.inflated(within);
-      },
-      [&](PieceIndex piece, const MoverMotion& mover) {
-        const Vec2 at = position - mover.from;
-        const BestAxis best = best_axis(space, piece, at);
-        if (best.separation > within) return;
-        // No contact has the normal of a seam. From further away the side of one piece may hide that of another.
-        if (std::abs(best.separation) <= tolerances.touch && space.covered(piece, best.axis)) return;
-        if (space.scenery().pieces()[piece].one_way && !is_above(space, piece, at, lost_by(position, mover.from)))
-          return;
-        const Contact contact = contact_with(around, piece, best.axis, position, mover.from, Real(0));
-        count = insert_contact(contact, found, count);
-      });
+  const Box2 box = Box2{position, position}.inflated(within);
+  for_each_around(around, box, [&](PieceIndex piece, const MoverMotion& mover) {
+    const Vec2 at = position - mover.from;
+    const BestAxis best = best_axis(space, piece, at);
+    if (best.separation > within) return;
+    // No contact has the normal of a seam. From further away the side of one piece may hide that of another.
+    if (std::abs(best.separation) <= tolerances.touch && space.covered(piece, best.axis)) return;
+    if (space.info(piece).source.one_way && !is_above(space, piece, at, lost_by(position, mover.from))) return;
+    const Contact contact = contact_with(around, piece, best.axis, position, mover.from, Real(0));
+    count = insert_contact(contact, found, count);
+  });
   return count;
 }
 

@@ -37,8 +37,8 @@ struct Tangents {
   Real leftmost = -2;
   Real rightmost = 2;
   const bool is_circle = space.is_circle(piece);
-  if (is_circle) width += space.scenery().circle(piece).radius;
-  for (const Vec2d& v : space.scenery().vertices_of(piece)) {
+  if (is_circle) width += space.circle(piece).radius;
+  for (const Vec2d& v : space.vertices_of(piece)) {
     for (const Vec2d& o : space.hull()) {
       const Vec2 to = Vec2(v) - from - Vec2(o);
       const Real length = length_of(to);

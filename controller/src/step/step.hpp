@@ -20,10 +20,10 @@
 
 #include "step/free_position.hpp"
 #include "step/narrow_phase.hpp"
-#include "step/neighbourhood.hpp"
 #include "step/octagon_sweep.hpp"
 #include "step/one_way.hpp"
 #include "step/response.hpp"
+#include "step/step_memory.hpp"
 
 #include <paperproof/tolerances.hpp>
 
@@ -40,7 +40,6 @@ struct Settings {
   Real snap;              ///< How far down ground is followed [m].
   Real step_height;       ///< How high a walker climbs [m].
   Real max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
-  Real look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
 };
 
@@ -87,7 +86,7 @@ struct MoverState {
   PieceIndex ridden = 0;                  ///< The piece of that.
   bool anchored = false;                  ///< The character has not moved relative to what carries it.
   bool waits = false;                     ///< See `wait`.
-  std::uint8_t ignored = does_not_block;  ///< Colliders with one of these roles do not block.
+  std::uint8_t ignored = passes_through;  ///< Colliders with one of these roles do not block.
   std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
   bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2> last_free{};        ///< The last free position before the step, if there was one.
@@ -111,24 +110,16 @@ struct Corners {
 /// All that a step knows.
 struct Step {
   // As an aggregate, all of it would be zero first: an eighth of a step.
-  Step(const ConfigurationSpace& of_space, const Settings& by, Neighbourhood around, MoversInStep& among,
-       const UpFrame& frame, MoveResult& into) noexcept
-      : space(of_space),
-        pieces(of_space.scenery().pieces().data()),
-        settings(by),
-        neighbourhood(around),
-        movers(among),
-        memory(around.memory()),
-        up(frame),
-        result(into) {
+  Step(const Settings& by, const Nearby& around, const MoversInStep& among, StepMemory& kept, const UpFrame& frame,
+       MoveResult& into) noexcept
+      : space(kept.space), settings(by), near(around), movers(among), memory(kept), up(frame), result(into) {
     memory.clear();
   }
 
   const ConfigurationSpace& space;
-  const PieceInfo* pieces;
   const Settings& settings;
-  Neighbourhood neighbourhood;
-  MoversInStep& movers;
+  Nearby near;
+  MoversInStep movers;
   StepMemory& memory;
   UpFrame up;
   MoveResult& result;
@@ -179,7 +170,7 @@ struct Step {
 }
 
 [[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) noexcept {
-  return step.pieces[piece].mover;
+  return step.space.info(piece).source.mover;
 }
 
 [[nodiscard]] inline TouchedSurface surface_at(const Step& step, PieceIndex piece, std::size_t axis) noexcept {
@@ -187,7 +178,7 @@ struct Step {
 }
 
 [[nodiscard]] inline ColliderIndex collider_of(const Step& step, PieceIndex piece) noexcept {
-  return step.pieces[piece].collider;
+  return step.space.info(piece).source.collider;
 }
 
 /// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
@@ -201,13 +192,12 @@ struct Step {
 }
 
 [[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) noexcept {
-  const Scenery& scenery = step.space.scenery();
-  return static_cast<Real>(scenery.collider(scenery.pieces()[piece].collider).surface_speed);
+  return static_cast<Real>(step.space.info(piece).collider->surface_speed);
 }
 
 /// The mover that takes along what stands on a piece, if one does.
 [[nodiscard]] inline MoverIndex carrier_of(const Step& step, PieceIndex piece) noexcept {
-  return step.space.scenery().collider(collider_of(step, piece)).carries ? mover_of(step, piece) : no_mover;
+  return step.space.info(piece).collider->carries ? mover_of(step, piece) : no_mover;
 }
 
 [[nodiscard]] inline bool carries(const Step& step, PieceIndex piece) noexcept {
@@ -229,7 +219,7 @@ inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
 
 /// A one-way segment in a step that drops through them.
 [[nodiscard]] inline bool passes_one_way(const Step& step, PieceIndex piece) noexcept {
-  return step.drops && step.space.info(piece).one_way_axis != ObstacleInfo::not_one_way;
+  return step.drops && step.space.info(piece).is_one_way();
 }
 
 /// Whether a piece can stop a motion at all.
@@ -251,7 +241,7 @@ inline void note_reported(Step& step) noexcept {
   if (!step.result.path.empty() && step.result.path.back().fraction == fraction &&
       step.result.path.back().position == step.position)
     return;
-  step.result.path.push_back({step.position, fraction}, step.memory.corners);
+  step.result.path.push_back({step.position, fraction});
   note_reported(step);
 }
 

@@ -89,7 +89,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     step.result.status =
         step.moving.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
   }
-  step.moving.ignored = does_not_block;
+  step.moving.ignored = passes_through;
 }
 
 /// Notes that the mover of a piece crushes the character.
@@ -103,7 +103,7 @@ inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
   }
   const ColliderIndex collider = collider_of(step, piece);
   step.memory.mark(collider, crushes);
-  step.result.crushed.push_back(collider, step.memory.crushed);
+  step.result.crushed.push_back(collider);
   step.result.status = MoveStatus::crushed;
   remember(step, {collider, step.position, step.movers.remaining(mover, since)});
 }

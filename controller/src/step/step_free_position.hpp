@@ -104,8 +104,8 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
                                                       const std::optional<Nearest>& last) noexcept {
   const PathPoint from = step.result.path[corner];
   std::optional<Nearest> next;
-  const auto before = [](const Nearest& a, const Nearest& b) {
-    return a.when != b.when ? a.when < b.when : a.piece < b.piece;
+  const auto before = [&](const Nearest& a, const Nearest& b) {
+    return a.when != b.when ? a.when < b.when : step.space.info(a.piece).piece < step.space.info(b.piece).piece;
   };
   const auto look_at = [&](const Vec2& begin, const Vec2& end, std::span<const PieceIndex> pieces) {
     const Motion motion = make_motion(step.space, begin, Vec2(end - begin), Real(0));
@@ -115,17 +115,12 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
       if (is_contact(step, near) && (!last || before(*last, near)) && (!next || before(near, *next))) next = near;
     }
   };
-  const auto box_of = [&](const Vec2& begin, const Vec2& end) {
-    return Box2{begin.cwiseMin(end), begin.cwiseMax(end)}.inflated(tolerances.look);
-  };
-  look_at(from.position, to.position, step.neighbourhood.around(box_of(from.position, to.position)));
-  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
-    const Vec2 begin = from.position - step.movers.offset(mover, from.fraction);
-    const Vec2 end = to.position - step.movers.offset(mover, to.fraction);
-    const Box2 box = step.space.touched_from(box_of(begin, end));
-    if (box.overlaps(step.movers.phases.whole(mover)))
-      look_at(begin, end, step.movers.phases.query(mover, box, step.memory.of_mover));
-  }
+  const Box2 box{from.position.cwiseMin(to.position), from.position.cwiseMax(to.position)};
+  step.near.for_each_group(box.inflated(tolerances.look), Vec2d::Zero(),
+                           [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+                             look_at(from.position - step.movers.offset(mover, from.fraction),
+                                     to.position - step.movers.offset(mover, to.fraction), pieces);
+                           });
   return next;
 }
 
@@ -181,7 +176,7 @@ inline void report_free_position(Step& step, std::size_t corner) noexcept {
     const Nearest near = *next;
     const bool within = near.when < 1;
     // No corner within a motion that needs an exact certificate: its position could not be rounded.
-    if (within && (step.certify || step.result.path.size() + 1 >= step.memory.corners.capacity())) continue;
+    if (within && (step.certify || step.result.path.size() + 1 >= step.memory.most_corners)) continue;
     const Vec2 there =
         within ? Vec2(Vec2(from.position) + Vec2(to.position - from.position) * near.when) : Vec2(to.position);
     const Real then = within ? from.fraction + (1 - from.fraction) * near.when : Real(1);

@@ -45,11 +45,9 @@ enum Role : std::uint8_t {
   crushes = 2,               ///< It crushed the character in this step, and is ignored since.
   leaving = 4,               ///< The step began inside it, and left it.
   overlaps_at_end = 8,       ///< It was ignored, and overlaps the character at the end of the step.
-  filtered = 16,             ///< It is not there for this character.
-  known = 32,                ///< It has or had one of these.
+  known = 16,                ///< It has or had one of these.
 };
 inline constexpr std::uint8_t passes_through = overlaps_since_start | crushes;
-inline constexpr std::uint8_t does_not_block = passes_through | filtered;
 
 /// Stairs that a walker climbs in one step, at most.
 inline constexpr int most_stairs = 4;
@@ -62,21 +60,12 @@ struct Reported {
 
 /// One per thread; a step leaves nothing in it that the next one uses.
 struct StepMemory final : OwnMemory {
-  /// @param touched_at_once how many pieces that stand still can be touched in one place, at most.
-  /// @param iterations of the sweep.
-  StepMemory(const ConfigurationSpace& space, std::size_t touched_at_once, int iterations)
-      : corners(2 * MoveResult::max_corners + 4 * moving_pieces(space)),
-        contacts(most_contacts(space, touched_at_once + moving_pieces(space), iterations)),
-        crushed(count_moving_colliders(space.scenery())),
-        reported_at(corners.capacity()),
-        of_mover(moving_pieces(space)) {
-    const std::size_t touched = touched_at_once + of_mover.size();
-    for (auto* each : {&surfaces, &surfaces_before}) each->reserve(touched);
-    for (auto* each : {&displacement_planes, &velocity_planes}) each->reserve(touched);
-    if (of_mover.empty() && !has_conveyors(space.scenery())) return;
-    roles.resize(space.scenery().collider_count());
-    marked.reserve(touched);
-    crushers.reserve(crushed.capacity());
+  StepMemory(const CharacterShape& shape, const PieceFinder& solids, const OneWaySurfaces& one_way)
+      : space(shape, solids, one_way),
+        most_corners(2 * MoveResult::max_corners + 4 * moving_pieces(solids.scenery())),
+        reported_at(most_corners) {
+    if (moving_pieces(solids.scenery()) == 0 && !has_conveyors(solids.scenery())) return;
+    roles.resize(solids.scenery().collider_count());
   }
 
   /// Forgets the last step.
@@ -99,14 +88,12 @@ struct StepMemory final : OwnMemory {
     return !marked.empty() && (roles[collider] & any_of) != 0;
   }
 
-  ReportMemory<PathPoint> corners;  ///< Of the path.
-  ReportMemory<Contact> contacts;   ///< Of one step, which reports each facet once at most.
-  ReportMemory<ColliderIndex> crushed;
-  std::vector<Reported> reported_at;            ///< At each corner of the path.
-  std::vector<PieceIndex> of_mover;             ///< Result of a query of one mover's broad phase.
-  std::vector<std::uint8_t> roles;              ///< Of each collider, where anything moves: bits of `Role`.
-  std::vector<ColliderIndex> marked;            ///< Colliders with a role, in the order in which they got one.
-  std::vector<TouchedSurface> surfaces;         ///< Those that are touched now, one per piece,
+  ConfigurationSpace space;
+  std::size_t most_corners;              ///< Of the path: movers may add any number. A step that needs more is dropped.
+  std::vector<Reported> reported_at;     ///< At each corner of the path.
+  std::vector<std::uint8_t> roles;       ///< Of each collider, where anything moves: bits of `Role`.
+  std::vector<ColliderIndex> marked;     ///< Colliders with a role, in the order in which they got one.
+  std::vector<TouchedSurface> surfaces;  ///< Those that are touched now, one per piece,
   std::vector<TouchedSurface> surfaces_before;  ///< and before the last sweep.
   std::vector<HalfPlane> displacement_planes;   ///< What the touched surfaces allow.
   std::vector<HalfPlane> velocity_planes;
@@ -114,36 +101,17 @@ struct StepMemory final : OwnMemory {
   std::vector<Crusher> crushers;
 
  private:
-  [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace& space) {
-    const std::span<const PieceInfo> all = space.scenery().pieces();
-    const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
-    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
-  }
-  /// Each impact reports each touched piece at most once. So do the ground at the end of the step, each
-  /// stair, and the snap.
-  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace& space, std::size_t touched, int iterations) const {
-    const std::size_t impacts = moving_pieces(space) > 0 ? corners.capacity() : static_cast<std::size_t>(iterations);
-    const std::size_t moments = impacts + 3 + most_stairs;
-    std::size_t axes = 0;
-    for (PieceIndex piece = 0; piece < space.scenery().sensor_pieces().first; ++piece)
-      axes += space.is_circle(piece) ? moments : space.axis_count(piece);
-    return std::min(axes, touched * moments);
+  [[nodiscard]] static std::size_t moving_pieces(const Scenery& scenery) noexcept {
+    return scenery.sensor_pieces().first - scenery.static_pieces().end;
   }
 };
 
 /// The movers of one step. Of `no_mover`, which is what stands still, each answer is zero, and `relative` the motion
 /// itself.
 struct MoversInStep {
-  const MoverPhases& phases;
   std::span<const MoverMotion> motions;
-  Real dt;           ///< [s]
-  MoverIndex count;  ///< How many are looked at: all, or none where none comes near the character.
-  bool active;       ///< A mover comes near the step, or there may be a conveyor.
-
-  void look_at_all() noexcept {
-    count = phases.size();
-    active = active || count > 0;
-  }
+  Real dt;      ///< [s]
+  bool active;  ///< A mover comes near the step, or there may be a conveyor.
 
   /// Displacement of a mover in the step [m].
   [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept {

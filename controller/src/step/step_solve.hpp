@@ -36,16 +36,6 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   order_stops(step);
 }
 
-/// Of movers. What stands still is left out of the candidates.
-[[gnu::cold, gnu::noinline]] inline void ignore_filtered(Step& step, const ColliderFilter& filter) noexcept {
-  const Scenery& scenery = step.space.scenery();
-  for (MoverIndex mover = 0; mover < step.movers.phases.size(); ++mover) {
-    const PieceRange pieces = scenery.pieces_of_mover(mover);
-    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-      if (!filter(scenery, collider_of(step, piece))) step.memory.mark(collider_of(step, piece), filtered);
-  }
-}
-
 /// Reads this step's steering, its length, and whether it begins as a walk on the ground.
 inline void begin_motion(Step& step, const StepRequest& request) noexcept {
   step.steered = request.steered;
@@ -96,7 +86,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 /// Advances to the earliest impact, responds to all touched surfaces, and sweeps again with what is left of the
 /// displacement.
 [[gnu::flatten]] inline void travel(Step& step) noexcept {
-  const std::size_t most_corners = step.memory.corners.capacity() - 3;
+  const std::size_t most_corners = step.memory.most_corners - 3;
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion desired = desired_motion(step);
   step.fall = step.up.up_of(desired.velocity.unsteered);
@@ -189,7 +179,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const Vec2 before = step.start - offset(step, piece, 0);
-    const bool was_above = step.space.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
+    const bool was_above = !step.space.info(piece).is_one_way() ||
                            is_above(step.space, piece, before, lost_by(step.start, offset(step, piece, 0)));
     if (!was_above || !stands_on(step, piece)) return;
     step.memory.surfaces.push_back(
@@ -202,14 +192,17 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
   end_at_surfaces(step, desired);
 }
 
+inline void look_at_movers(Step& step) noexcept {
+  step.near.look_at(step.movers.motions);
+  step.movers.active = step.movers.active || !step.movers.motions.empty();
+}
+
 inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
   step.position = request.position;
   step.velocity = request.velocity;
   step.start = step.position;
   step.drops = request.drop;
   begin_motion(step, request);
-  if (request.filter != nullptr && step.movers.phases.size() > 0) [[unlikely]]
-    ignore_filtered(step, *request.filter);
   Vec2 wanted = request.displacement;
   if (part == Part::stay) return stay_in_place(step, request);
   if (step.movers.active) wanted = begin_ride(step, request);
@@ -219,7 +212,7 @@ inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
   step.result.path.push_back({step.position, 0});
   sweep_along(step, wanted);
   const bool near = step.found.least_separation < tolerances.hit;
-  if (near) step.movers.look_at_all();  // the way out of a solid may be longer than the step
+  if (near) look_at_movers(step);  // the way out of a solid may be longer than the step
   if (near && !prepare_start(step, part, request)) {
     step.result.status = MoveStatus::stuck;
     halt(step);

@@ -110,7 +110,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
           return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&
                  !walkable(step, contact.normal);
         });
-    if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.corners.capacity()) return;
+    if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
     push_corner(step, step.time);
     const std::size_t corner = step.result.path.size() - 1;
     note_reported(step);
@@ -130,7 +130,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 [[nodiscard, gnu::cold, gnu::noinline]] inline Real falls_away_below_rider(const Step& step) noexcept {
   if (step.moving.ride.ground == Ride::none || !step.space.is_circle(step.moving.ridden)) return 0;
   const Vec2 motion = step.velocity - step.movers.velocity(step.moving.carrier);
-  const Real radius = step.space.scenery().circle(step.moving.ridden).radius;
+  const Real radius = step.space.circle(step.moving.ridden).radius;
   return std::min(falls_away_from_tangent(step, step.moving.ridden, motion) * step.dt, radius) + 2 * tolerances.touch;
 }
 

@@ -24,8 +24,7 @@ inline void remember(Step& step, const Crusher& now) noexcept {
 
 [[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
   const Vec2 at = local(step, piece, position);
-  if (step.space.info(piece).one_way_axis != ObstacleInfo::not_one_way ||
-      best_axis(step.space, piece, at).separation >= tolerances.certain)
+  if (step.space.info(piece).is_one_way() || best_axis(step.space, piece, at).separation >= tolerances.certain)
     return false;
   const MoverIndex mover = mover_of(step, piece);
   if (mover != no_mover)
@@ -100,17 +99,16 @@ inline void note_colliders_left(Step& step) noexcept {
   if (query.last_free) add(*query.last_free);
   if (query.entered_from) add(*query.entered_from);
   for (const Crusher& crusher : query.crushers) add(crusher.last_free + crusher.displacement);
-  auto [storage, count] = step.neighbourhood.take(box);
+  const std::span<PieceIndex> pieces = step.near.take(box);
   const Box2 touched = step.space.touched_from(box);
-  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
-    const Vec2 begin = step.movers.offset(mover, query.begin);
-    const Vec2 end = step.movers.offset(mover, query.end);
+  const auto is_out_of_way = [&](PieceIndex piece) {
+    if (mover_of(step, piece) == no_mover) return false;
+    const Vec2 begin = offset(step, piece, query.begin);
+    const Vec2 end = offset(step, piece, query.end);
     const Box2 seen{touched.lower - begin.cwiseMax(end), touched.upper - begin.cwiseMin(end)};
-    if (!seen.overlaps(step.movers.phases.whole(mover))) continue;
-    for (const PieceIndex piece : step.movers.phases.query(mover, seen, step.memory.of_mover))
-      if (!ignored(step, piece)) storage[count++] = piece;
-  }
-  return storage.first(count);
+    return ignored(step, piece) || !seen.overlaps(step.space.info(piece).box);
+  };
+  return {pieces.begin(), std::remove_if(pieces.begin(), pieces.end(), is_out_of_way)};
 }
 
 /// Puts all pieces of those colliders first that have a piece for which the condition holds.
@@ -176,14 +174,14 @@ template <class Condition>
     step.start = step.position = *out;
     push_corner(step, 0);
   }
-  step.moving.ignored = does_not_block;
+  step.moving.ignored = passes_through;
   return out.has_value();
 }
 
 /// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
 [[nodiscard, gnu::always_inline]] inline bool may_block(const Step& step, PieceIndex piece,
                                                         const Vec2& position) noexcept {
-  if (step.space.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
+  if (!step.space.info(piece).is_one_way()) return true;
   if (step.drops) return false;
   return is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece)));
 }
@@ -262,7 +260,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
   }
   if (!is_passed_through(step)) {
     restore_gap(step);
-    if (step.movers.count > 0) restore_gaps_to_movers(step);
+    restore_gaps_to_movers(step);
   }
   sweep_along(step, Vec2::Zero());
   step.certify = step.found.least_separation < tolerances.certain;

@@ -57,19 +57,13 @@ inline void update_surfaces(Step& step) noexcept {
   return step.movers.offset(step.moving.carrier, time) + step.moving.ride.place;
 }
 
-/// Calls `visit(piece)` for every piece that may be touched from positions in a box, now. `visit` must not query the
-/// pieces of movers.
+/// Calls `visit(piece)` for every piece that may be touched from positions in a box, at any time of the step.
 template <class Visit>
 inline void for_each_near(Step& step, const Box2& box, const Visit& visit) noexcept {
-  for (const PieceIndex piece : step.neighbourhood.around(box)) visit(piece);
-  const Box2 world = step.space.touched_from(box);
-  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
-    const Vec2 shift = step.movers.offset(mover, step.time);
-    const Box2 shifted{world.lower - shift, world.upper - shift};
-    if (!shifted.overlaps(step.movers.phases.whole(mover))) continue;
-    for (const PieceIndex piece : step.movers.phases.query(mover, shifted, step.memory.of_mover))
+  step.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex) {
+    for (const PieceIndex piece : pieces)
       if (!ignored(step, piece)) visit(piece);
-  }
+  });
 }
 
 /// Whether `condition(piece)` holds for one of them.
@@ -98,18 +92,15 @@ template <class Condition>
                    [&](PieceIndex piece) { return !exactly_clear(step, piece, from, to, step.time); });
 }
 
-/// The motion of the last sweep, relative to a mover.
-/// @param offset of the mover when the motion began. @param displacement relative to it.
-[[nodiscard]] inline Motion motion_relative_to(const Step& step, const Vec2& offset,
-                                               const Vec2& displacement) noexcept {
-  Motion seen = make_motion(step.space, Vec2(step.motion.from - offset), displacement);
+/// The motion of the last sweep, relative to a mover; for `no_mover` it is that motion itself.
+/// @param begin when it began.
+[[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) noexcept {
+  if (mover == no_mover) return step.motion;
+  const Vec2 offset = step.movers.offset(mover, begin);
+  Motion seen = make_motion(step.space, Vec2(step.motion.from - offset),
+                            step.movers.relative(step.motion.displacement, mover, begin));
   seen.lost = lost_by(step.motion.from, offset);
   return seen;
-}
-
-[[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) noexcept {
-  return motion_relative_to(step, step.movers.offset(mover, begin),
-                            step.movers.relative(step.motion.displacement, mover, begin));
 }
 
 /// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
@@ -128,44 +119,32 @@ inline void keep_stop(Step& step, Stop stop, Real length) noexcept {
   step.found.stops.push_back(stop);
 }
 
+/// Sweeps the last motion against what may be in its way, relative to each mover. `found` keeps the first stops.
 template <Covered covered>
-inline void sweep(Step& step, const Motion& motion, std::span<const PieceIndex> pieces) noexcept {
-  for (const PieceIndex piece : pieces) {
-    const Real kept = kept_by_box(step.space, motion, piece);
-    step.found.least_kept = std::min(step.found.least_kept, kept);
-    if (kept >= tolerances.hit || !in_way(step, motion, piece)) continue;
-    if (ignored(step, piece) || slides_along_touched(step, motion, piece)) continue;
-    const Clearance clear = clearance(step.space, motion, piece);
-    step.found.least_separation = std::min(step.found.least_separation, clear.start);
-    if (clear.clear()) continue;
-    const PieceHit hit = sweep_piece<covered>(step.space, motion, piece, clear, step.up);
-    if (hit.hit) keep_stop(step, {piece, hit.stop, 0, hit.axes}, motion.length);
-  }
-}
-
-/// Sweeps the last motion against every mover, relative to it.
-template <Covered covered>
-inline void sweep_movers(Step& step) noexcept {
-  // A sweep looks this far beyond the end of a motion, at most (it measures by the larger component).
-  constexpr Real look = 2 * tolerances.look;
-  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
-    const Vec2 offset = step.movers.offset(mover, step.time);
-    const Vec2 from = step.motion.from - offset;
-    const Vec2 displacement = step.movers.relative(step.motion.displacement, mover, step.time);
-    const Vec2 to = from + displacement;
-    const Box2 box = step.space.touched_from(Box2{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
-    if (!box.overlaps(step.movers.phases.whole(mover))) continue;
-    sweep<covered>(step, motion_relative_to(step, offset, displacement),
-                   step.movers.phases.query(mover, box, step.memory.of_mover));
-  }
+[[gnu::always_inline]] inline void sweep(Step& step) noexcept {
+  const auto against = [&](const Motion& motion, std::span<const PieceIndex> pieces) {
+    for (const PieceIndex piece : pieces) {
+      const Real kept = kept_by_box(step.space, motion, piece);
+      step.found.least_kept = std::min(step.found.least_kept, kept);
+      if (kept >= tolerances.hit || !in_way(step, motion, piece)) continue;
+      if (ignored(step, piece) || slides_along_touched(step, motion, piece)) continue;
+      const Clearance clear = clearance(step.space, motion, piece);
+      step.found.least_separation = std::min(step.found.least_separation, clear.start);
+      if (clear.clear()) continue;
+      const PieceHit hit = sweep_piece<covered>(step.space, motion, piece, clear, step.up);
+      if (hit.hit) keep_stop(step, {piece, hit.stop, 0, hit.axes}, motion.length);
+    }
+  };
+  step.found.clear();
+  const Box2 box = step.motion.box();
+  against(step.motion, step.near.standing(box, step.motion.displacement));
+  step.near.for_each_moving(box, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    against(motion_seen_by(step, mover, step.time), pieces);
+  });
 }
 
 /// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
-[[gnu::cold, gnu::noinline]] inline void sweep_again(Step& step) noexcept {
-  step.found.clear();
-  sweep<Covered::yields>(step, step.motion, step.neighbourhood.around(step.motion.box(), step.motion.displacement));
-  sweep_movers<Covered::yields>(step);
-}
+[[gnu::cold, gnu::noinline]] inline void sweep_again(Step& step) noexcept { sweep<Covered::yields>(step); }
 
 /// Whether a covered facet stopped the last sweep.
 [[nodiscard]] inline bool stops_at_covered(const Step& step) noexcept {
@@ -187,10 +166,8 @@ inline void order_stops(Step& step) noexcept {
 
 /// Sweeps from the present position. Motion and result are in `motion` and `found`.
 [[gnu::flatten]] inline void sweep_along(Step& step, const Vec2& displacement) noexcept {
-  step.motion = make_motion(step.space, step.position, displacement);
-  step.found.clear();
-  sweep<Covered::as_any>(step, step.motion, step.neighbourhood.around(step.motion.box(), displacement));
-  sweep_movers<Covered::as_any>(step);
+  set_motion(step.motion, step.space, step.position, displacement);
+  sweep<Covered::as_any>(step);
   if (stops_at_covered(step)) [[unlikely]]
     sweep_again(step);
   order_stops(step);
@@ -236,10 +213,10 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   fraction = std::max(fraction, step.latest_impact);
   const ColliderIndex collider = collider_of(step, piece);
   const Vec2 normal = step.space.normal(piece, axis);
-  Contact* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& other) {
+  const auto known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& other) {
     return other.collider == collider && dot(other.normal, normal) > 1 - same_plane;
   });
-  if (known != contacts.end() && (known < contacts.begin() + this_moment || known->fraction <= fraction)) return;
+  if (known != contacts.end() && (known < contacts.begin() + static_cast<std::ptrdiff_t>(this_moment) || known->fraction <= fraction)) return;
   const ContactPlace place = contact_place(step.space, piece, axis, normal, local(step, piece, step.position));
   const Contact contact{.collider = collider,
                         .point = place.point + offset(step, piece),
@@ -250,30 +227,22 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   if (known != contacts.end())
     *known = contact;
   else
-    contacts.push_back(contact, step.memory.contacts);
-}
-
-/// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
-[[nodiscard]] inline std::span<const PieceIndex> pieces_along(Step& step, const Motion& motion,
-                                                              MoverIndex mover) noexcept {
-  if (mover != no_mover)
-    return step.movers.phases.query(mover, step.space.touched_from(motion.box()), step.memory.of_mover);
-  return step.neighbourhood.around(motion.box(), motion.displacement);
+    contacts.push_back(contact);
 }
 
 /// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
 [[nodiscard, gnu::noinline]] inline Real impact_with_another_piece(Step& step, const Stop& stop, const Motion& motion,
                                                                    const Vec2& from) noexcept {
   Real earliest = std::numeric_limits<Real>::infinity();
-  const std::span<const PieceInfo> pieces = step.space.scenery().pieces();
-  for (const PieceIndex other : pieces_along(step, motion, pieces[stop.piece].mover)) {
-    if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
-    if (!in_way(step, motion, other)) continue;
+  const auto look_at = [&](PieceIndex other) {
+    if (other == stop.piece || collider_of(step, other) != collider_of(step, stop.piece)) return;
+    if (!in_way(step, motion, other)) return;
     const Clearance clear = clearance(step.space, motion, other);
-    if (clear.clear()) continue;
+    if (clear.clear()) return;
     const PieceHit hit = sweep_piece(step.space, motion, other, clear, step.up);
     if (hit.hit) earliest = std::min(earliest, time_of_impact(step.space, from, motion.displacement, other, hit.axes));
-  }
+  };
+  for_each_near(step, step.motion.box(), look_at);
   return earliest;
 }
 
@@ -292,11 +261,9 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 [[nodiscard]] inline Real fraction_of(Step& step, const Stop& stop, Real begin) noexcept {
   const Vec2& from = begin == 0 ? step.start : step.motion.from;
   const MoverIndex mover = mover_of(step, stop.piece);
-  if (mover != no_mover) {
-    const Vec2 shift = step.movers.offset(mover, begin);
-    return begin + (1 - begin) * impact_of(step, stop, motion_seen_by(step, mover, begin), Vec2(from - shift));
-  }
-  return begin + (1 - begin) * impact_of(step, stop, step.motion, from);
+  if (mover == no_mover) return begin + (1 - begin) * impact_of(step, stop, step.motion, from);
+  const Vec2 shift = step.movers.offset(mover, begin);
+  return begin + (1 - begin) * impact_of(step, stop, motion_seen_by(step, mover, begin), Vec2(from - shift));
 }
 
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
@@ -311,13 +278,10 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
       report_contact(step, piece, hit.axes.normal, fraction_of(step, {piece, hit.stop, together, hit.axes}, begin),
                      this_moment);
   };
-  for (const PieceIndex piece : step.neighbourhood.around(step.motion.box(), step.motion.displacement))
-    report_hit(step.motion, piece);
-  for (MoverIndex mover = 0; mover < step.movers.count; ++mover) {
+  step.near.for_each_group(step.motion.box(), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const Motion motion = motion_seen_by(step, mover, begin);
-    const PieceRange pieces = step.space.scenery().pieces_of_mover(mover);
-    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
-  }
+    for (const PieceIndex piece : pieces) report_hit(motion, piece);
+  });
 }
 
 /// The fraction of a contact that is met before any time has passed, by a motion that other contacts have turned.

@@ -1,15 +1,15 @@
 #include <paperproof/broad_phase.hpp>
 
-#include "broad_phase/tree.hpp"
 #include "techniques/broad_phase/buckets.hpp"
+#include "techniques/broad_phase/tree.hpp"
 
 namespace paperproof {
 namespace {
 
-/// The search of the core, with its tree or without.
-class CoreSearch final : public BroadPhase {
+/// A tree, or all boxes one by one.
+class TreeSearch final : public BroadPhase {
  public:
-  CoreSearch(std::span<const Box2> boxes, PieceSearch search) : tree_(boxes, search) {}
+  TreeSearch(std::span<const Box2> boxes, bool one_by_one) : tree_(boxes, one_by_one) {}
 
   [[nodiscard]] std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept override {
     return tree_.query(query, found);
@@ -35,8 +35,7 @@ std::string_view name_of(BroadPhaseKind kind) noexcept {
 
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, std::span<const Box2> boxes) {
   if (kind == BroadPhaseKind::buckets) return std::make_unique<broad_phase::Buckets>(boxes);
-  const bool all_pairs = kind == BroadPhaseKind::all_pairs;
-  return std::make_unique<CoreSearch>(boxes, all_pairs ? PieceSearch::one_by_one : PieceSearch::tree);
+  return std::make_unique<TreeSearch>(boxes, kind == BroadPhaseKind::all_pairs);
 }
 
 }  // namespace paperproof

@@ -67,7 +67,7 @@ class Discrete final : public JointTechnique {
   struct Inside {
     bool anything = false;
     bool what_stands_still = false;          ///< By however little: a push must not lead into it.
-    decltype(MoveResult::crushed) movers{};  ///< Colliders of those that move in this step.
+    FixedVector<ColliderIndex, 64> movers{};  ///< Colliders of those that move in this step.
   };
 
   void add_frame(const MoveRequest& request, MoveResult& result, CrowdMember* member,
@@ -101,7 +101,7 @@ Workplace& workplace_of(Scratch& scratch) noexcept { return static_cast<Workplac
 Scratch Discrete::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
   Scratch scratch;
-  scratch.solids.pieces = PieceBuffer(pieces);
+  scratch.solids.pieces.resize(pieces);
   auto own = std::make_unique<Workplace>();
   own->frames.reserve(most_characters);
   own->bodies.reserve(pieces + most_characters);
@@ -342,7 +342,7 @@ typename Discrete::Inside Discrete::find_inside(const Frame& frame, bool at_end,
 
 /// Nothing is pushed into what stands still, or through it. For others it is in the way there, and nothing moves it.
 void Discrete::stay(Frame& frame) const noexcept {
-  frame.result.crushed = frame.pushers;
+  frame.result.crushed.assign(frame.pushers.begin(), frame.pushers.end());
   article::stay_crushed(frame.request, frame.result);
   frame.stays = true;
   frame.left_over = false;
@@ -360,7 +360,7 @@ void Discrete::finish(Frame& frame, Scratch& scratch) const noexcept {
     const Inside begin = find_inside(frame, false, scratch);
     const Inside end = find_inside(frame, true, scratch);
     if (end.what_stands_still && !begin.what_stands_still && !frame.pushers.empty()) return stay(frame);
-    frame.result.crushed = end.movers;
+    frame.result.crushed.assign(end.movers.begin(), end.movers.end());
     if (frame.left_over && begin.anything && end.anything) frame.result.status = MoveStatus::stuck;
     if (!frame.result.crushed.empty()) frame.result.status = MoveStatus::crushed;
   }

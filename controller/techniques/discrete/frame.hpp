@@ -24,7 +24,7 @@ struct Frame {
   CrowdMember* member;  ///< Null for one that is alone.
   Body character{};
   Vec2d expected{Vec2d::Zero()};            ///< Where it was expected before the last round [m].
-  decltype(MoveResult::crushed) pushers{};  ///< Colliders of movers that pushed the character.
+  FixedVector<ColliderIndex, 64> pushers{};  ///< Colliders of movers that pushed the character.
   bool left_over = true;                    ///< The last round changed something.
   bool stays = false;                       ///< It was crushed, and is where the step began.
 };

@@ -12,7 +12,7 @@ RasterParts::RasterParts(const TechniqueDef& def, const Scenery& scenery, const 
 
 Scratch RasterParts::make_scratch() const {
   Scratch scratch;
-  scratch.solids.pieces = PieceBuffer(scenery_->pieces().size());
+  scratch.solids.pieces.resize(scenery_->pieces().size());
   return scratch;
 }
 

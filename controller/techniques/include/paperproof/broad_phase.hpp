@@ -31,7 +31,7 @@ enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
 /// - `all_pairs` looks at every box: the slow, honest twin.
 /// - `buckets` is a grid of uniform squares, kept in a hash table: constant cost where boxes are alike and queries are
 ///   small.
-/// - `tree` is the core's packed tree of boxes, sixteen to a node: the cost is logarithmic in the number of boxes.
+/// - `tree` is a packed tree of boxes, sixteen to a node: the cost is logarithmic in the number of boxes.
 [[nodiscard]] std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, std::span<const Box2> boxes);
 
 }  // namespace paperproof

@@ -20,7 +20,7 @@ class TechniqueController {
   /// @param search of what belongs to the controller: sensors, and the one-way chains that are dropped through.
   /// @throws InvalidCharacter for an impossible character; std::invalid_argument where a collider has a filter.
   TechniqueController(const Scenery& scenery, const CharacterDef& character, std::unique_ptr<const Technique> technique,
-                      PieceSearch search = PieceSearch::tree);
+                      PieceSearch search = PieceSearch::grid);
 
   /// See `Controller::step`. With another technique than `octagon_sweep`, a filter is invalid input, and any other up
   /// than (0, 1).
@@ -50,7 +50,7 @@ class TechniqueCrowd {
   explicit TechniqueCrowd(Crowd sweep);
   /// @throws as `TechniqueController`.
   TechniqueCrowd(const Scenery& scenery, const CharacterDef& character, std::unique_ptr<const JointTechnique> technique,
-                 PieceSearch search = PieceSearch::tree);
+                 PieceSearch search = PieceSearch::grid);
 
   [[nodiscard]] CrowdScratch make_scratch(std::size_t most_characters) const;
   /// See `Crowd::step`.

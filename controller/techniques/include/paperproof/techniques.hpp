@@ -54,7 +54,7 @@ struct PixelTileSet;
 struct TechniqueDef {
   std::string_view name = "octagon_sweep";
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
-  PieceSearch search = PieceSearch::tree;  ///< Of `octagon_sweep`, and of what belongs to the controller.
+  PieceSearch search = PieceSearch::grid;  ///< Of `octagon_sweep`, and of what belongs to the controller.
   ArticleKnobs article{};
   int sweep_iterations = SweepDef{}.iterations;  ///< `octagon_sweep`: see `SweepDef::iterations`.
   /// `pixel_tile`: the level as tiles (pixel_tiles.hpp), `article.raster_pixels_per_metre` fine. None: they are made

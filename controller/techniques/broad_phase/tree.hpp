@@ -1,7 +1,6 @@
 /// Which boxes meet a box.
 #pragma once
 
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/types.hpp>
 
 #include <array>
@@ -28,9 +27,8 @@ struct RoundedBox {
 class Tree {
  public:
   /// @param boxes finite; they must outlive the tree and stay as they are.
-  /// @param search `one_by_one`: nothing is built, as for boxes so few that a tree costs more than it saves. `none`: a
-  ///   query gives all boxes, wherever they are.
-  explicit Tree(std::span<const Box2> boxes, PieceSearch search = PieceSearch::tree);
+  /// @param one_by_one nothing is built, as for boxes so few that a tree costs more than it saves.
+  explicit Tree(std::span<const Box2> boxes, bool one_by_one = false);
 
   /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
   /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
@@ -56,7 +54,6 @@ class Tree {
   void add_level(std::vector<RoundedBox>& boxes);
 
   std::span<const Box2> boxes_;
-  bool finds_all_;
   std::vector<PieceIndex> order_;  ///< Along the curve.
   std::vector<Node> nodes_;        ///< Level by level: nodes of boxes, nodes of these nodes, …, the root.
   FixedVector<std::uint32_t, most_levels> levels_;  ///< The first node of each.

@@ -1,4 +1,4 @@
-#include "broad_phase/hilbert_order.hpp"
+#include "techniques/broad_phase/hilbert_order.hpp"
 
 #include <algorithm>
 #include <array>

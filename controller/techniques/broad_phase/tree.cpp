@@ -1,4 +1,4 @@
-#include "broad_phase/tree.hpp"
+#include "techniques/broad_phase/tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "broad_phase/hilbert_order.hpp"
+#include "techniques/broad_phase/hilbert_order.hpp"
 
 namespace paperproof::broad_phase {
 namespace {
@@ -46,8 +46,8 @@ void sort_few(std::span<PieceIndex> pieces) noexcept {
 
 }  // namespace
 
-Tree::Tree(std::span<const Box2> boxes, PieceSearch search) : boxes_(boxes), finds_all_(search == PieceSearch::none) {
-  if (search != PieceSearch::tree || boxes.size() <= few) return;
+Tree::Tree(std::span<const Box2> boxes, bool one_by_one) : boxes_(boxes) {
+  if (one_by_one || boxes.size() <= few) return;
   order_ = hilbert_order(boxes);
   std::vector<RoundedBox> below;
   below.reserve(boxes.size());
@@ -97,7 +97,7 @@ void Tree::add_level(std::vector<RoundedBox>& boxes) {
 std::size_t Tree::query_each(const Box2& query, std::span<PieceIndex> found) const noexcept {
   std::size_t count = 0;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (!finds_all_ && !boxes_[i].overlaps(query)) continue;
+    if (!boxes_[i].overlaps(query)) continue;
     if (count < found.size()) found[count] = static_cast<PieceIndex>(i);
     ++count;
   }

@@ -1,0 +1,106 @@
+#include <paperproof/scenery.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof {
+namespace {
+
+/// Cells of 4 mm are the smallest. Larger: small pieces crowd a cell. Smaller: a cell for each point of a dense chain.
+constexpr int finest = -8;
+
+/// No piece lies there, but a box that is searched may.
+constexpr double furthest = 2e9;
+
+std::int32_t cell_at(double coordinate, double cells_per_metre) noexcept {
+  const double place = std::clamp(coordinate * cells_per_metre, -furthest, furthest);
+  const auto cell = static_cast<std::int32_t>(place);
+  return cell - (place < cell ? 1 : 0);
+}
+
+}  // namespace
+
+/// Where the cell of a place is, or would be: cells of one hash follow each other.
+std::size_t PieceGrid::Layer::index_of(std::int32_t x, std::int32_t y) const noexcept {
+  const auto word = [](std::int32_t value) { return std::uint64_t{static_cast<std::uint32_t>(value)}; };
+  const std::uint64_t hash = (word(x) << 32U | word(y)) * 0x9e3779b97f4a7c15;
+  const std::size_t mask = cells.size() - 1;
+  std::size_t index = static_cast<std::size_t>(hash ^ hash >> 32U) & mask;
+  while (cells[index].is_used && !(cells[index].x == x && cells[index].y == y)) index = (index + 1) & mask;
+  return index;
+}
+
+template <class Visit>
+void PieceGrid::Layer::for_each_place(const Box2& box, const Visit& visit) const {
+  const std::int32_t right = cell_at(box.upper.x(), cells_per_metre);
+  const std::int32_t top = cell_at(box.upper.y(), cells_per_metre);
+  for (std::int32_t x = cell_at(box.lower.x(), cells_per_metre); x <= right; ++x)
+    for (std::int32_t y = cell_at(box.lower.y(), cells_per_metre); y <= top; ++y) visit(x, y);
+}
+
+/// Half of the cells are free, so that a search for one ends soon.
+void PieceGrid::Layer::grow() {
+  std::vector<Cell> before(2 * cells.size());
+  before.swap(cells);
+  for (const Cell& cell : before)
+    if (cell.is_used) cells[index_of(cell.x, cell.y)] = cell;
+}
+
+/// The finest whose cells are larger than a box: it meets four of them at most.
+PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
+  int exponent = 0;
+  std::frexp((box.upper - box.lower).maxCoeff(), &exponent);  // the size is less than 2^exponent
+  const double cells_per_metre = std::ldexp(1.0, -std::max(exponent, finest));
+  const auto same = [&](const Layer& layer) { return layer.cells_per_metre == cells_per_metre; };
+  const auto known = std::find_if(layers_.begin(), layers_.end(), same);
+  if (known != layers_.end()) return *known;
+  return layers_.emplace_back(cells_per_metre, 0, std::vector<Cell>(8));
+}
+
+void PieceGrid::add(PieceIndex piece, const Box2& box) {
+  whole_ = whole_.merged(box);
+  Layer& layer = layer_for(box);
+  layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
+    if (2 * layer.used >= layer.cells.size()) layer.grow();
+    Cell& cell = layer.cells[layer.index_of(x, y)];
+    if (!cell.is_used) {
+      cell = {x, y, no_link, true};
+      ++layer.used;
+    }
+    links_.push_back({piece, cell.first});
+    cell.first = static_cast<std::uint32_t>(links_.size() - 1);
+  });
+}
+
+void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const {
+  const std::size_t before = found.size();
+  for (const Layer& layer : layers_) {
+    const double scale = layer.cells_per_metre;
+    const std::int32_t left = cell_at(box.lower.x(), scale);
+    const std::int32_t bottom = cell_at(box.lower.y(), scale);
+    // A piece that is in several cells is found in the first of them that the box meets.
+    const auto look_into = [&](const Cell& cell) {
+      if (cell.x < left || cell.y < bottom) return;
+      const double least_x = cell.x == left ? -furthest : cell.x / scale;
+      const double least_y = cell.y == bottom ? -furthest : cell.y / scale;
+      for (std::uint32_t link = cell.first; link != no_link; link = links_[link].next) {
+        const Box2& here = boxes[links_[link].piece];
+        if (here.overlaps(box) && here.lower.x() >= least_x && here.lower.y() >= least_y)
+          found.push_back(links_[link].piece);
+      }
+    };
+    const Vec2d places = (box.upper - box.lower) * scale + Vec2d(2, 2);
+    if (places.x() * places.y() < static_cast<double>(layer.cells.size())) {
+      layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
+        const Cell& cell = layer.cells[layer.index_of(x, y)];
+        if (cell.is_used) look_into(cell);
+      });
+    } else {
+      for (const Cell& cell : layer.cells)
+        if (cell.is_used) look_into(cell);
+    }
+  }
+  std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
+}
+
+}  // namespace paperproof
