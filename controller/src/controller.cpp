@@ -147,18 +147,14 @@ Controller::Controller(const Scenery& scenery, const CharacterDef& character, co
 Controller::Controller(const Scenery& scenery, const CharacterDef& character,
                        std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search)
     : scenery_(&scenery),
-      has_filters_(search == PieceSearch::none || has_filters(scenery)),
+      asks_all_(search == PieceSearch::none),
       character_(character),
-      sweep_(std::move(sweep)) {
-  const bool asks_all = search == PieceSearch::none;
-  has_sensors_ = asks_all || scenery.sensor_pieces().size() > 0;
-  if (asks_all || has_one_way_chains(scenery))
-    one_way_ = std::make_shared<OneWayChains>(scenery, character_.shape, sweep_->surfaces());
-}
+      sweep_(std::move(sweep)),
+      one_way_(std::make_shared<OneWayChains>(scenery, character_.shape)) {}
 
 Scratch Controller::make_scratch() const {
   Scratch scratch = sweep_->make_scratch();
-  if (has_sensors_) scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, sweep_->finder().search());
+  scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, sweep_->finder().search());
   scratch.maker = sweep_;
   return scratch;
 }
@@ -166,8 +162,8 @@ Scratch Controller::make_scratch() const {
 void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   if (!is_made_by(sweep_, scratch.maker)) return;
   sweep_->reserve(positions, scratch);
-  if (has_sensors_) static_cast<Sensors&>(*scratch.sensors).reserve(positions);
-  if (one_way_) Nearby(sweep_->finder(), scratch.one_way, {}, nullptr).reserve(positions);
+  static_cast<Sensors&>(*scratch.sensors).reserve(positions);
+  if (has_one_way_chains(*scenery_)) Nearby(sweep_->finder(), scratch.one_way, {}, nullptr).reserve(positions);
 }
 
 [[gnu::always_inline]] inline bool Controller::accepts(const CharacterState& state, const Input& input,
@@ -207,7 +203,7 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
           .filter = filter_of(context),
           .dt = context.dt,
           .up = context.up,
-          .ride = state.ride};
+          .ride = rides(state) ? state.ride : Ride{}};
 }
 
 [[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::begin_step(const Crushers& crushers,
@@ -215,8 +211,8 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
                                                                                 const StepContext& context,
                                                                                 bool wall_ahead, CharacterState& state,
                                                                                 StepReport& report) const noexcept {
-  // A carried character steers, jumps and falls relative to its ground.
-  if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
+  // A carried character steers, jumps and falls relative to its ground. What is gone carries no more.
+  if (rides(state)) state.velocity -= state.ride.velocity;
   const UpFrame up = context.up;
   const double dt = context.dt;
   state.velocity = up.seen(state.velocity);
@@ -228,20 +224,23 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
 }
 
+[[nodiscard, gnu::always_inline]] inline bool Controller::may_pass_something(bool drop) const noexcept {
+  return asks_all_ || scenery_->counts().sensors > 0 || (drop && has_one_way_chains(*scenery_));
+}
+
 /// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.
 [[gnu::noinline]] void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
                                                StepReport& report) const noexcept {
   const std::span<const PathPoint> path = report.move.path;
-  if (has_sensors_)
-    static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors, filter_of(context));
-  if (drop && one_way_)
+  static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors, filter_of(context));
+  if (drop)
     one_way_->find_passed(path, context.movers, {sweep_->finder(), scratch.one_way, context.movers, filter_of(context)},
-                          report.dropped_through);
+                          sweep_->surfaces(scratch), report.dropped_through);
 }
 
 [[gnu::always_inline]] inline void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
                                                         CharacterState& state, StepReport& report) const noexcept {
-  if (has_sensors_ || one_way_) note_passed(drop, context, scratch, report);
+  if (may_pass_something(drop)) note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
 }
 

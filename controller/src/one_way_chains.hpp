@@ -16,22 +16,22 @@ class OneWayChains {
  public:
   using Passed = std::vector<ColliderIndex>;
 
-  /// @param surfaces of the scenery, for the same shape. It must outlive the chains, as `scenery` must.
-  OneWayChains(const Scenery& scenery, const CharacterShape& shape, const OneWaySurfaces& surfaces);
+  /// `scenery` must outlive the chains.
+  OneWayChains(const Scenery& scenery, const CharacterShape& shape);
 
   /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
   /// finds is left out.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
-  /// @param near the solid pieces.
+  /// @param near the solid pieces. @param surfaces of the scenery as it is now, for the same shape.
   void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Nearby near,
-                   Passed& passed) const noexcept;
+                   const OneWaySurfaces& surfaces, Passed& passed) const noexcept;
 
  private:
-  [[nodiscard]] bool passes(PieceIndex piece, const Vec2d& from, const Vec2d& to) const noexcept;
+  [[nodiscard]] bool passes(const OneWaySurfaces& surfaces, PieceIndex piece, const Vec2d& from,
+                            const Vec2d& to) const noexcept;
 
   const Scenery* scenery_;
-  const OneWaySurfaces* surfaces_;
   FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
   FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
 };

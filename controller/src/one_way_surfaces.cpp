@@ -56,7 +56,7 @@ class Joints {
   /// @return one past the last piece of the collider.
   PieceIndex add_collider(PieceIndex piece) {
     const PieceInfo& info = scenery_.pieces()[piece];
-    if (!info.one_way) return scenery_.pieces_of(info.collider).end;
+    if (!info.one_way) return piece + 1;
     const ColliderDef def = scenery_.as_run(info.collider);
     for (const std::vector<Vec2d>& line : one_way_lines(def)) piece = add_line(line, def, piece);
     return piece;

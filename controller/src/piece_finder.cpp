@@ -27,9 +27,9 @@ PieceFinder::PieceFinder(const Scenery& scenery, Kind kind, const Box2& reach, P
 void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const {
   if (mover != no_mover && !box.overlaps(whole(mover))) return;
   if (search_ == PieceSearch::grid) return grid_of(mover).find(box, scenery_->boxes(), found);
-  const PieceIndex first_sensor = scenery_->sensor_pieces().first;
   for (PieceIndex piece = 0; piece < scenery_->pieces().size(); ++piece) {
-    const bool is_one = scenery_->pieces()[piece].mover == mover && (piece < first_sensor) == (kind_ == Kind::solids);
+    const PieceInfo& info = scenery_->pieces()[piece];
+    const bool is_one = info.mover == mover && info.sensor == (kind_ == Kind::sensors) && info.vertex_count > 0;
     if (is_one && (search_ == PieceSearch::none || scenery_->box(piece).overlaps(box))) found.push_back(piece);
   }
 }
@@ -53,6 +53,8 @@ void Nearby::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& fo
     const auto is_absent = [&](PieceIndex piece) { return !(*filter_)(scenery, scenery.pieces()[piece].collider); };
     found.erase(std::remove_if(found.begin() + before, found.end(), is_absent), found.end());
   }
+  std::sort(found.begin() + before, found.end(),
+            [&](PieceIndex a, PieceIndex b) { return finder_.scenery().comes_before(a, b); });
   if (user_ != nullptr) user_->prepare({found.begin() + before, found.end()});
 }
 
@@ -102,6 +104,12 @@ void Nearby::reserve(const Box2& positions) {
   find(no_mover, finder_.touched_from(positions.inflated(2 * finder_.look_ahead())), known_.pieces);
   known_.pieces.reserve(known_.pieces.size() + known_.of_movers.size());
   forget();
+}
+
+void Nearby::follow_edits() noexcept {
+  forget();
+  if (user_ != nullptr) user_->follow_edits();
+  known_.edit = finder_.scenery().edits().count();
 }
 
 /// Forgets the pieces that were collected with another filter.

@@ -60,6 +60,8 @@ class PieceUser {
   virtual ~PieceUser() = default;
   /// Replaces the indices of pieces by these names. It may allocate.
   virtual void prepare(std::span<PieceIndex> pieces) = 0;
+  /// Forgets what is not as it was.
+  virtual void follow_edits() = 0;
 };
 
 /// The pieces near a character in one step or question: each that it can touch from given positions, and perhaps more.
@@ -74,6 +76,8 @@ class Nearby {
          const ColliderFilter* filter, PieceUser* user = nullptr) noexcept
       : finder_(finder), known_(candidates), movers_(movers), filter_(filter), user_(user) {
     known_.moving_valid = false;
+    if (known_.edit != finder.scenery().edits().count()) [[unlikely]]
+      follow_edits();
     if (filter != nullptr || known_.filtered) [[unlikely]]
       forget_others();
   }
@@ -120,6 +124,7 @@ class Nearby {
   void find_standing(const Box2& positions, const Vec2d& way) noexcept;
   void find_moving(const Box2& positions) noexcept;
   void forget_others() noexcept;
+  void follow_edits() noexcept;
   void find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const noexcept;
 
   const PieceFinder& finder_;

@@ -83,6 +83,11 @@ void Sensors::prepare(std::span<PieceIndex> pieces) {
   }
 }
 
+void Sensors::follow_edits() {
+  overlaps_.clear();
+  known_.clear();
+}
+
 Sensors::Overlap Sensors::overlap_with(PieceIndex piece) const {
   const Scenery& scenery = finder_.scenery();
   const PieceVertices vertices = scenery.vertices_of(piece);

@@ -70,6 +70,7 @@ class Sensors final : public OwnMemory, private PieceUser {
   [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
 
   void prepare(std::span<PieceIndex> pieces) override;
+  void follow_edits() override;
 
   /// How a sensor's piece and the character overlap.
   struct Overlap {

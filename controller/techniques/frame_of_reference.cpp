@@ -73,8 +73,8 @@ bool something_carries(const Scenery& scenery) noexcept { return has_moving_soli
 
 double fastest_surface(const Scenery& scenery) noexcept {
   double fastest = 0;
-  for (const ColliderInfo& collider : scenery.collider_kinds())
-    if (!collider.sensor) fastest = std::max(fastest, std::abs(collider.surface_speed));
+  for (ColliderIndex i = 0; i < scenery.collider_count(); ++i)
+    if (!scenery.collider(i).sensor) fastest = std::max(fastest, std::abs(scenery.collider(i).surface_speed));
   return fastest;
 }
 

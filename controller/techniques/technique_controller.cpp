@@ -38,7 +38,7 @@ struct TechniqueController::Driver {
         technique(std::move(how)),
         solids(where, PieceFinder::Kind::solids, who.shape.box().inflated(Tolerances{}.look), search),
         surfaces(where, who.shape),
-        one_way(where, who.shape, surfaces) {
+        one_way(where, who.shape) {
     character.validate();
     if (has_filters(scenery))
       throw std::invalid_argument("the technique " + std::string(technique->name()) +
@@ -95,7 +95,7 @@ struct TechniqueController::Driver {
     const std::span<const PathPoint> path = report.move.path;
     static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors);
     if (drop)
-      one_way.find_passed(path, context.movers, {solids, scratch.one_way, context.movers, nullptr},
+      one_way.find_passed(path, context.movers, {solids, scratch.one_way, context.movers, nullptr}, surfaces,
                           report.dropped_through);
     adopt(character, context.up, report.move, state);
   }

@@ -102,7 +102,11 @@ std::string difference(const StepReport& one, const StepReport& other, const Say
     return "contacts";
   const auto same_collider = [&](ColliderIndex p, ColliderIndex q) { return saying.of(p) == q; };
   if (!std::ranges::equal(a.crushed, b.crushed, same_collider)) return "crushed";
-  if (!std::ranges::equal(one.dropped_through, other.dropped_through, same_collider)) return "dropped_through";
+  // In the order of their ids, which are others in another way.
+  std::vector<ColliderIndex> passed;
+  for (const ColliderIndex chain : one.dropped_through) passed.push_back(saying.of(chain));
+  std::ranges::sort(passed);
+  if (!std::ranges::equal(passed, other.dropped_through)) return "dropped_through";
   if (!std::ranges::equal(one.sensors, other.sensors, [&](const auto& p, const auto& q) {
         return saying.of(p.sensor) == q.sensor && p.change == q.change && same_number(p.fraction, q.fraction);
       }))

@@ -6,6 +6,7 @@
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/scenery.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -62,7 +63,15 @@ void expect_grid_to_find_them(const Boxes& boxes, const Boxes& queries) {
   for (const Box2& query : queries) {
     std::vector<PieceIndex> found;
     grid.find(query, boxes, found);
+    std::sort(found.begin(), found.end());
     ASSERT_EQ(found, overlapping(boxes, query));
+    for (PieceIndex i = 1; i < boxes.size(); i += 2) grid.remove(i, boxes[i]);
+    std::vector<PieceIndex> fewer;
+    grid.find(query, boxes, fewer);
+    std::sort(fewer.begin(), fewer.end());
+    std::erase_if(found, [](PieceIndex piece) { return piece % 2 == 1; });
+    ASSERT_EQ(fewer, found) << "some were removed";
+    for (PieceIndex i = 1; i < boxes.size(); i += 2) grid.add(i, boxes[i]);
   }
 }
 

@@ -126,14 +126,18 @@ class Controller {
   /// Begins an accepted step: turns the intent into a request.
   [[nodiscard]] StepRequest begin_step(const Crushers& crushers, const Input& input, const StepContext& context,
                                        bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
+  [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
   void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
                 StepReport& report) const noexcept;
+  [[nodiscard]] bool rides(const CharacterState& state) const noexcept {
+    return state.ride.ground != Ride::none && scenery_->has(state.ride.ground);
+  }
   /// Null: all colliders are there.
   [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const noexcept {
     static constexpr ColliderFilter usual{};
-    return context.filter == nullptr && has_filters_ ? &usual : context.filter;
+    return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
   }
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
   /// @param before must outlive the request. @return false if the input is not accepted.
@@ -150,12 +154,11 @@ class Controller {
                                      const StepContext& context) const noexcept;
 
   const Scenery* scenery_;
-  bool has_filters_;  ///< Some collider is not there for every character, or all are asked anyway.
-  bool has_sensors_;  ///< Likewise.
+  bool asks_all_;  ///< See `PieceSearch::none`.
   CharacterDef character_;
   /// Scratch memory refers to it.
   std::shared_ptr<const octagon_sweep::SweepInParts> sweep_;
-  std::shared_ptr<const OneWayChains> one_way_;  ///< Null where the scenery has none, and is not asked all the same.
+  std::shared_ptr<const OneWayChains> one_way_;
 };
 
 }  // namespace paperproof

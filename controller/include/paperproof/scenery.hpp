@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -94,6 +96,7 @@ struct PieceInfo {
   /// stored.
   std::uint8_t rectangle_corner = no_rectangle;
   bool one_way = false;
+  bool sensor = false;
 
   [[nodiscard]] bool is_rectangle() const noexcept { return rectangle_corner != no_rectangle; }
   [[nodiscard]] bool is_circle() const noexcept { return vertex_count == 1; }
@@ -142,11 +145,14 @@ struct PieceRange {
 class PieceGrid {
  public:
   void add(PieceIndex piece, const Box2& box);
-  /// Appends the pieces whose boxes meet `box`, ascending. @param boxes of all pieces.
+  /// @param box as it was added with.
+  void remove(PieceIndex piece, const Box2& box);
+  /// Appends the pieces whose boxes meet `box`, in no order. @param boxes of all pieces.
   void find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const;
-  /// Around all pieces; where there are none it meets no box [m].
+  /// Makes `whole` as small as it can be, after a piece with this box was removed. @param boxes of all pieces.
+  void shrink(const Box2& removed, std::span<const Box2> boxes);
+  /// Around all pieces, and perhaps around some that were removed; where there was none it meets no box [m].
   [[nodiscard]] const Box2& whole() const noexcept { return whole_; }
-  [[nodiscard]] bool empty() const noexcept { return links_.empty(); }
 
  private:
   static constexpr std::uint32_t no_link = ~std::uint32_t{0};
@@ -169,6 +175,7 @@ class PieceGrid {
     template <class Visit>
     void for_each_place(const Box2& box, const Visit& visit) const;
     void grow();
+    void erase(std::size_t index);
 
     double cells_per_metre;
     std::size_t used;
@@ -179,11 +186,70 @@ class PieceGrid {
 
   std::vector<Layer> layers_;
   std::vector<Link> links_;
-  Box2 whole_{Vec2d::Constant(std::numeric_limits<double>::infinity()),
-              Vec2d::Constant(-std::numeric_limits<double>::infinity())};
+  std::uint32_t unused_ = no_link;  ///< Links of no cell, as a list.
+  static Box2 nowhere() noexcept {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
+  }
+  Box2 whole_ = nowhere();
 };
 
-/// Immutable after construction; may be shared between threads.
+/// Ranges of a vector that are used no more, to be used again.
+class FreeRanges {
+ public:
+  void give(std::uint32_t first, std::uint32_t size) {
+    if (size > 0) of_size_[size].push_back(first);
+  }
+  /// @return the first element of a range of that size.
+  [[nodiscard]] std::optional<std::uint32_t> take(std::uint32_t size);
+
+ private:
+  std::map<std::uint32_t, std::vector<std::uint32_t>> of_size_;
+};
+
+/// How many colliders there are of a kind that a step need not ask for where there is none.
+struct SceneryCounts {
+  std::size_t sensors = 0;
+  std::size_t one_way = 0;
+  std::size_t conveyors = 0;
+  std::size_t filtered = 0;  ///< With a filter.
+  std::size_t circles = 0;
+  std::size_t moving = 0;         ///< With a mover.
+  std::size_t moving_pieces = 0;  ///< Solid ones.
+};
+
+/// A change of a level.
+struct Edit {
+  PieceRange pieces;  ///< That came or went.
+  Box2 box;           ///< Around them [m].
+  MoverIndex mover = no_mover;
+  bool one_way = false;
+};
+
+/// The last edits of one level. A level that is assigned to another replaces all that this one was.
+class EditLog {
+ public:
+  EditLog() = default;
+  EditLog(const EditLog&) = default;
+  EditLog(EditLog&& from) noexcept : first_(from.first_), edits_(std::move(from.edits_)) { from.forget(count()); }
+  EditLog& operator=(const EditLog& from) noexcept { return forget(from.count()), *this; }
+  EditLog& operator=(EditLog&& from) noexcept { return forget(from.count()), from.forget(count()), *this; }
+  ~EditLog() = default;
+
+  void add(const Edit& edit);
+  /// How many there were.
+  [[nodiscard]] std::uint64_t count() const noexcept { return first_ + edits_.size(); }
+  /// Those after the first `known` ones; nothing where some of them are forgotten.
+  [[nodiscard]] std::optional<std::span<const Edit>> since(std::uint64_t known) const noexcept;
+
+ private:
+  void forget(std::uint64_t other) noexcept;
+
+  std::uint64_t first_ = 0;
+  std::vector<Edit> edits_;
+};
+
+/// Not thread-safe while it is edited. Else any number of threads may read it.
 class Scenery {
  public:
   /// Takes magnitudes below 1e-90 m for zero (their products would underflow), checks every collider and cuts polygons
@@ -191,10 +257,29 @@ class Scenery {
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
   ///   polygon, a hole that is not inside, a `one_way` that is zero or not finite, a sensor that is one-way, a
-  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders; a circle that is
+  ///   `surface_speed` that is not finite, a `mover` that is not below 65,536; a circle that is
   ///   one-way or has more or fewer than one point, a radius of a circle that is not above zero or beyond 2e6 m, a
   ///   radius of anything else.
   explicit Scenery(const SceneryDef& def);
+  Scenery() : Scenery(SceneryDef{}) {}
+
+  /// Adds a collider. Without edits the ids are 0, 1, 2 and so on; the id of one that was removed never names another.
+  /// @param def its `mover` may be any number below 65,536.
+  /// @throws InvalidScenery; std::length_error for more than 2^24 - 1 colliders. Nothing changed then.
+  ColliderIndex add(const ColliderDef& def);
+  /// Gives a collider another definition. It keeps its id, so a character keeps riding on it.
+  /// @return false if there is no collider of this id. @throws InvalidScenery as `add`.
+  bool replace(ColliderIndex id, const ColliderDef& def);
+  /// Whoever stands on it falls in the next step. @return false if there is no collider of this id.
+  bool remove(ColliderIndex id);
+  [[nodiscard]] bool has(ColliderIndex id) const noexcept;
+  /// The definition of a collider as it runs, if it is there.
+  [[nodiscard]] std::optional<ColliderDef> find(ColliderIndex id) const;
+  /// Another number after each change of a collider that is there.
+  [[nodiscard]] std::uint64_t version_of(ColliderIndex id) const noexcept { return colliders_[slot_of(id)].version; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] const EditLog& edits() const noexcept { return edits_; }
+  [[nodiscard]] const SceneryCounts& counts() const noexcept { return counts_; }
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
   [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept {
@@ -217,7 +302,7 @@ class Scenery {
     return {mover_begin_.back(), static_cast<PieceIndex>(pieces_.size())};
   }
   /// One more than the highest index of a mover that moves a collider.
-  [[nodiscard]] std::size_t mover_count() const noexcept { return mover_begin_.size() - 1; }
+  [[nodiscard]] std::size_t mover_count() const noexcept { return moving_.size(); }
 
   /// Solid pieces and sensors, apart, of one mover or of what stands still.
   struct Group {
@@ -229,17 +314,22 @@ class Scenery {
     return mover == no_mover ? standing_ : moving_[mover];
   }
 
+  /// The order in which pieces are looked at: by what their colliders are, so that levels that are alike give the same
+  /// bits, whatever was added first. The pieces of a collider are in a row.
+  [[nodiscard]] bool comes_before(PieceIndex a, PieceIndex b) const noexcept;
+
   /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
   [[nodiscard]] const Box2& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
   [[nodiscard]] std::span<const Box2> boxes() const noexcept { return boxes_; }
   [[nodiscard]] std::span<const Box2> static_boxes() const noexcept { return boxes().first(static_count_); }
 
+  /// Colliders have slots; the slot of one that was removed is free for another.
   [[nodiscard]] std::size_t collider_count() const noexcept { return colliders_.size(); }
+  [[nodiscard]] static std::uint32_t slot_of(ColliderIndex id) noexcept { return id & slot_mask; }
+  /// @param collider that is there.
   [[nodiscard]] const ColliderInfo& collider(ColliderIndex collider) const noexcept {
-    return infos_[colliders_[collider].info];
+    return kinds_[colliders_[slot_of(collider)].kind].info;
   }
-  /// The kinds of colliders: each collider is of one of these kinds.
-  [[nodiscard]] std::span<const ColliderInfo> collider_kinds() const noexcept { return infos_; }
   /// The pieces of a collider are consecutive. A one-way chain may have none.
   [[nodiscard]] PieceRange pieces_of(ColliderIndex collider) const noexcept;
 
@@ -257,22 +347,49 @@ class Scenery {
   struct Collider {
     static constexpr std::uint32_t piece = ~std::uint32_t{0};    ///< Its points are the vertices of its only piece,
     static constexpr std::uint32_t piece_backwards = piece - 1;  ///< or those from the last to the first.
-    std::uint32_t info = 0;                                      ///< Into `infos_`.
+    std::uint32_t kind = 0;                                      ///< Into `kinds_`.
     PieceIndex first_piece = 0;
     std::uint32_t shape = piece;  ///< Or into `shapes_`.
+    std::uint8_t generation = 0;
+    bool is_used = false;
+    std::uint64_t version = 1;  ///< See `version_of`. Zero: nobody knows it yet.
   };
+  /// What colliders that are alike have in common.
+  struct Kind {
+    ColliderInfo info;
+    std::size_t users = 0;
+  };
+  static constexpr std::uint32_t slot_bits = 24;
+  static constexpr std::uint32_t slot_mask = (std::uint32_t{1} << slot_bits) - 1;
+  static constexpr std::uint32_t last_generation = ~std::uint32_t{0} >> slot_bits;
 
-  void add(ColliderIndex collider, const ColliderDef& def);
-  [[nodiscard]] std::uint32_t shape_of(ColliderIndex collider, const ColliderDef& rounded);
+  void place(ColliderIndex id, const ColliderDef& accepted, PieceIndex first_cut);
+  void displace(ColliderIndex id);
+  void tally(ColliderIndex id, int change) noexcept;
+  void log(ColliderIndex id);
+  [[nodiscard]] PieceIndex cut(ColliderIndex id, const ColliderDef& def, ColliderDef& accepted);
+  [[nodiscard]] PieceGrid& grid_of(PieceIndex piece);
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> vertices_of(PieceRange pieces) const noexcept;
+  void move_vertices(PieceRange pieces);
+  [[nodiscard]] std::uint32_t kind_of(const ColliderInfo& info);
+  [[nodiscard]] std::uint32_t shape_of(ColliderIndex collider, const ColliderDef& accepted);
 
-  std::vector<ColliderInfo> infos_;  ///< Colliders that are alike and follow each other share one.
+  std::deque<Kind> kinds_;
+  std::uint32_t last_kind_ = 0;
   std::vector<Collider> colliders_;
+  std::vector<std::uint32_t> free_slots_;
   std::vector<Shape> shapes_;
+  std::vector<std::uint32_t> free_shapes_;
   std::vector<PieceInfo> pieces_;
-  std::vector<Vec2d> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
   std::vector<Box2> boxes_;
+  FreeRanges free_pieces_;
+  std::vector<Vec2d> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
+  FreeRanges free_vertices_;
   Group standing_;
   std::vector<Group> moving_;
+  std::size_t size_ = 0;
+  SceneryCounts counts_;
+  EditLog edits_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.
 };

@@ -18,43 +18,21 @@ namespace paperproof {
   return solids;
 }
 
-/// Whether a mover moves a solid: pieces of moving solids lie between the standing ones and the sensors.
+/// Whether a mover moves a solid.
 [[nodiscard]] inline bool has_moving_solids(const Scenery& scenery) noexcept {
-  return scenery.sensor_pieces().first > scenery.static_pieces().end;
+  return scenery.counts().moving_pieces > 0;
 }
 
 /// Some surface is a conveyor.
-[[nodiscard]] inline bool has_conveyors(const Scenery& scenery) noexcept {
-  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [](const ColliderInfo& c) { return !c.sensor && c.surface_speed != 0; });
-}
+[[nodiscard]] inline bool has_conveyors(const Scenery& scenery) noexcept { return scenery.counts().conveyors > 0; }
 
 /// Some collider is not there for every character.
-[[nodiscard]] inline bool has_filters(const Scenery& scenery) noexcept {
-  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
-  return std::any_of(kinds.begin(), kinds.end(), [](const ColliderInfo& c) { return c.filter != Filter{}; });
-}
-
-/// Number of colliders that movers move, sensors included.
-[[nodiscard]] inline std::size_t count_moving_colliders(const Scenery& scenery) noexcept {
-  std::size_t count = 0;
-  for (ColliderIndex i = 0; i < scenery.collider_count(); ++i)
-    if (scenery.collider(i).mover != no_mover) ++count;
-  return count;
-}
+[[nodiscard]] inline bool has_filters(const Scenery& scenery) noexcept { return scenery.counts().filtered > 0; }
 
 /// Some collider is round, sensors included.
-[[nodiscard]] inline bool has_circles(const Scenery& scenery) noexcept {
-  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [](const ColliderInfo& c) { return c.shape == ColliderDef::Shape::circle; });
-}
+[[nodiscard]] inline bool has_circles(const Scenery& scenery) noexcept { return scenery.counts().circles > 0; }
 
 /// Some segment blocks from one side only.
-[[nodiscard]] inline bool has_one_way_chains(const Scenery& scenery) noexcept {
-  const std::span<const PieceInfo> pieces = scenery.pieces();
-  return std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; });
-}
+[[nodiscard]] inline bool has_one_way_chains(const Scenery& scenery) noexcept { return scenery.counts().one_way > 0; }
 
 }  // namespace paperproof

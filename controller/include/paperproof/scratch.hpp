@@ -30,6 +30,7 @@ struct Candidates {
   std::vector<OfMover> moving;  ///< Ascending.
   Box2 moving_box;              ///< The same for pieces of movers, in this step alone.
   bool moving_valid = false;
+  std::uint64_t edit = 0;   ///< After so many edits of the scenery.
   bool filtered = false;    ///< Pieces that are not there are missing,
   ColliderFilter filter{};  ///< by this filter.
 };

@@ -38,13 +38,6 @@ ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mov
   return result;
 }
 
-bool same_collider(const NearCollider& a, const NearCollider& b) noexcept {
-  return a.id == b.id && a.version == b.version && a.mover == b.mover;
-}
-
-/// Which of two points comes first.
-bool comes_first(const Vec2d& a, const Vec2d& b) noexcept { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); }
-
 }  // namespace
 
 bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
@@ -54,7 +47,6 @@ bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
 void NearScenery::read(const Box2& needed, const StepContext& context, const Find& find) {
   const Vec2d spare = (box_.upper - box_.lower) - (needed.upper - needed.lower);
   if (!box_.contains(needed) || spare.maxCoeff() > 4 * read_ahead) box_ = needed.inflated(read_ahead);
-  near_.swap(near_before_);
   near_.clear();
   find(box_, near_);
   const auto by_id = [](const NearCollider& a, const NearCollider& b) { return a.id < b.id; };
@@ -64,8 +56,6 @@ void NearScenery::read(const Box2& needed, const StepContext& context, const Fin
   leave_out_known();
   number_movers(context.dt);
   note_what_turns(needed, context.filter);
-  const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
-  if (!is_same || !scenery_) place_in_order();
 }
 
 /// Counts the movers in the order of their numbers.
@@ -113,42 +103,6 @@ void NearScenery::note_what_turns(const Box2& needed, const ColliderFilter* filt
   }
 }
 
-/// The order depends on what the colliders are, not on their ids: an edited level gives the bits of one that was built
-/// at once.
-void NearScenery::place_in_order() {
-  scenery_.reset();
-  order_.resize(near_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
-  const auto key = [&](std::size_t i) {
-    const NearCollider& collider = near_[i];
-    const Box2 extent = box_at(collider.def->points, {});
-    return std::tuple(collider.mover + 1, extent.lower.x(), extent.lower.y(), extent.upper.x(), extent.upper.y(),
-                      collider.def->points.size());
-  };
-  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    const auto [one, other] = std::pair(key(a), key(b));
-    if (one != other) return one < other;
-    const std::vector<Vec2d>& points = near_[a].def->points;
-    const std::vector<Vec2d>& others = near_[b].def->points;
-    if (points != others)
-      return std::lexicographical_compare(points.begin(), points.end(), others.begin(), others.end(), comes_first);
-    if (near_[a].def->radius != near_[b].def->radius) return near_[a].def->radius < near_[b].def->radius;
-    const double speed = near_[a].def->surface_speed;
-    return speed != near_[b].def->surface_speed ? speed < near_[b].def->surface_speed : a < b;
-  });
-}
-
-SceneryDef NearScenery::scenery_def() const {
-  SceneryDef def;
-  for (const std::size_t i : order_) {
-    const MoverIndex mover = near_[i].mover;
-    const auto [angle, surface_speed] = mover == no_mover ? std::pair(0.0, 0.0) : built_[mover];
-    def.colliders.push_back(turned_collider(*near_[i].def, angle, mover));
-    if (def.colliders.back().carries) def.colliders.back().surface_speed += surface_speed;
-  }
-  return def;
-}
-
 /// Leaves out what was refused before.
 void NearScenery::leave_out_known() {
   unusable_.clear();
@@ -165,63 +119,102 @@ void NearScenery::leave_out_known() {
   std::erase_if(refused_, is_gone);
 }
 
-/// Leaves out a collider of the scenery that is refused, and its mover, if that moves nothing else.
-void NearScenery::leave_out(ColliderIndex local) {
-  NearCollider& collider = near_[order_[local]];
-  unusable_.push_back(collider.id);
-  refused_.emplace_back(collider.id, collider.version);
-  order_.erase(order_.begin() + local);
-  const MoverIndex mover = std::exchange(collider.mover, no_mover);
-  const auto is_its = [&](const NearCollider& other) { return other.mover == mover; };
-  if (mover == no_mover || std::any_of(near_.begin(), near_.end(), is_its)) return;
-  movers_.erase(movers_.begin() + mover);
-  for (NearCollider& other : near_)
-    if (other.mover != no_mover && other.mover > mover) --other.mover;
+void NearScenery::take_out_what_is_gone() {
+  std::erase_if(known_, [&](const Known& each) {
+    if (find(each.id) != nullptr) return false;
+    scenery_.remove(each.local);
+    return true;
+  });
 }
 
-bool NearScenery::build(double fraction) {
-  const auto angles_and_speeds = [&] {
-    now_.clear();
-    for (const NearMover& mover : movers_)
-      now_.emplace_back(pose_at(mover.motion, fraction).angle, mover.surface_speed);
-  };
-  angles_and_speeds();
-  if (scenery_ && now_ == built_) return true;
-  for (scenery_.reset(); !scenery_;) {  // each round but the last leaves out a collider
-    angles_and_speeds();
-    built_ = now_;
+/// Puts a collider into the scenery, or another definition in its place.
+/// @return false if it cannot be turned by its angle.
+bool NearScenery::put(const NearCollider& collider, Known wanted) {
+  const auto by_id = [](const Known& each, ColliderIndex id) { return each.id < id; };
+  const auto place = std::lower_bound(known_.begin(), known_.end(), wanted.id, by_id);
+  const bool is_known = place != known_.end() && place->id == wanted.id;
+  if (is_known) wanted.local = place->local;
+  if (is_known && *place == wanted) return true;
+  ColliderDef def = turned_collider(*collider.def, wanted.angle, wanted.mover);
+  if (def.carries) def.surface_speed += wanted.surface_speed;
+  try {
+    if (is_known) {
+      scenery_.replace(wanted.local, def);
+      *place = wanted;
+    } else {
+      wanted.local = scenery_.add(def);
+      known_.insert(place, wanted);
+    }
+  } catch (const InvalidScenery&) {
     try {
-      scenery_.emplace(scenery_def(), character_);
-    } catch (const InvalidScenery& refused) {
-      const NearCollider& collider = at(refused.collider());
-      try {
-        const Scenery as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
-        return false;
-      } catch (const InvalidScenery&) {
-        leave_out(refused.collider());
-      }
+      const Scenery as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
+      return false;
+    } catch (const InvalidScenery&) {
+      unusable_.push_back(collider.id);
+      refused_.emplace_back(collider.id, collider.version);
+      if (!is_known) return true;
+      scenery_.remove(wanted.local);
+      known_.erase(place);
+      return true;
     }
   }
-  ids_.clear();
-  for (const std::size_t i : order_) ids_.push_back(near_[i].id);
+  id_of_slot_.resize(scenery_.collider_count(), no_collider);
+  id_of_slot_[Scenery::slot_of(wanted.local)] = wanted.id;
   return true;
 }
 
-ColliderIndex NearScenery::local_of(ColliderIndex id) const noexcept {
-  const auto found = std::find(ids_.begin(), ids_.end(), id);
-  return found == ids_.end() ? no_collider : static_cast<ColliderIndex>(found - ids_.begin());
+/// What the scenery should have of a collider, but its id there.
+NearScenery::Known NearScenery::wanted_of(const NearCollider& collider, double fraction) const {
+  Known wanted{collider.id, no_collider, collider.version, collider.mover, 0, 0};
+  if (collider.mover == no_mover) return wanted;
+  wanted.angle = pose_at(collider.motion, fraction).angle;
+  wanted.surface_speed = movers_[collider.mover].surface_speed;
+  return wanted;
 }
 
-StepContext NearScenery::context(StepContext context, std::span<const MoverMotion> motions) noexcept {
-  context.movers = motions.first(scenery_->scenery.mover_count());
+bool NearScenery::build(double fraction) {
+  const auto is_as_wanted = [&](const NearCollider& collider, const Known& known) {
+    Known wanted = wanted_of(collider, fraction);
+    wanted.local = known.local;
+    return wanted == known;
+  };
+  if (std::equal(near_.begin(), near_.end(), known_.begin(), known_.end(), is_as_wanted)) return true;
+  take_out_what_is_gone();
+  return std::all_of(near_.begin(), near_.end(), [&](const NearCollider& collider) {
+    const bool is_unusable = std::find(unusable_.begin(), unusable_.end(), collider.id) != unusable_.end();
+    return is_unusable || put(collider, wanted_of(collider, fraction));
+  });
+}
+
+const NearCollider* NearScenery::find(ColliderIndex id) const noexcept {
+  const auto by_id = [](const NearCollider& each, ColliderIndex other) { return each.id < other; };
+  const auto found = std::lower_bound(near_.begin(), near_.end(), id, by_id);
+  return found != near_.end() && found->id == id ? &*found : nullptr;
+}
+
+const NearScenery::Known* NearScenery::known(ColliderIndex id) const noexcept {
+  const auto by_id = [](const Known& each, ColliderIndex other) { return each.id < other; };
+  const auto found = std::lower_bound(known_.begin(), known_.end(), id, by_id);
+  return found != known_.end() && found->id == id ? &*found : nullptr;
+}
+
+ColliderIndex NearScenery::local_of(ColliderIndex id) const noexcept {
+  const Known* const found = known(id);
+  return found != nullptr ? found->local : no_collider;
+}
+
+StepContext NearScenery::context(StepContext context, std::span<const MoverMotion> motions) {
+  motions_.assign(motions.begin(), motions.end());
+  motions_.resize(scenery_.mover_count());
+  context.movers = motions_;
   if (context.filter == nullptr) return context;
-  filter_of_ids_ = {*context.filter, ids_};
+  filter_of_ids_ = {*context.filter, id_of_slot_};
   filter_ = *context.filter;
   filter_.user = &filter_of_ids_;
   if (filter_.is_there != nullptr)
     filter_.is_there = [](ColliderIndex collider, const void* user) {
       const auto& of_ids = *static_cast<const FilterOfIds*>(user);
-      return of_ids.filter.is_there(of_ids.ids[collider], of_ids.filter.user);
+      return of_ids.filter.is_there(of_ids.ids[Scenery::slot_of(collider)], of_ids.filter.user);
     };
   context.filter = &filter_;
   return context;
@@ -242,24 +235,24 @@ void NearScenery::to_local(CharacterState& state) const {
 }
 
 void NearScenery::to_ids(CharacterState& state) const {
-  if (state.ride.ground != Ride::none) state.ride.ground = ids_[state.ride.ground];
-  if (state.ground.state != GroundState::air) state.ground.collider = ids_[state.ground.collider];
-  for (Crusher& crusher : state.crushers) crusher.collider = ids_[crusher.collider];
+  if (state.ride.ground != Ride::none) state.ride.ground = id_of(state.ride.ground);
+  if (state.ground.state != GroundState::air) state.ground.collider = id_of(state.ground.collider);
+  for (Crusher& crusher : state.crushers) crusher.collider = id_of(crusher.collider);
 }
 
 void NearScenery::to_ids(StepReport& report) const {
   MoveResult& move = report.move;
-  for (Contact& contact : move.contacts) contact.collider = ids_[contact.collider];
-  for (Crusher& crusher : move.crushers) crusher.collider = ids_[crusher.collider];
-  if (move.ground.state != GroundState::air) move.ground.collider = ids_[move.ground.collider];
-  if (move.ride.ground != Ride::none) move.ride.ground = ids_[move.ride.ground];
-  for (SensorEvent& event : report.sensors) event.sensor = ids_[event.sensor];
+  for (Contact& contact : move.contacts) contact.collider = id_of(contact.collider);
+  for (Crusher& crusher : move.crushers) crusher.collider = id_of(crusher.collider);
+  if (move.ground.state != GroundState::air) move.ground.collider = id_of(move.ground.collider);
+  if (move.ride.ground != Ride::none) move.ride.ground = id_of(move.ride.ground);
+  for (SensorEvent& event : report.sensors) event.sensor = id_of(event.sensor);
   to_ids({move.crushed.begin(), move.crushed.size()});
   to_ids({report.dropped_through.begin(), report.dropped_through.size()});
 }
 
 void NearScenery::to_ids(std::span<ColliderIndex> colliders) const {
-  for (ColliderIndex& collider : colliders) collider = ids_[collider];
+  for (ColliderIndex& collider : colliders) collider = id_of(collider);
 }
 
 }  // namespace paperproof::level

@@ -25,19 +25,18 @@ struct NearMover {
 /// Whether a character meets a collider at all. @param filter of ids; null: it leaves out nothing.
 [[nodiscard]] bool is_there(const NearCollider& collider, const ColliderFilter* filter);
 
-/// Reads what is near, and makes scenery of it where that changed. In the scenery a collider has an index and a mover
-/// a number; outside a collider has an id.
+/// Reads what is near, and keeps scenery of it: what is new or other is put into it, and what is gone is taken out.
+/// In the scenery a collider and a mover have other numbers; outside a collider has an id.
 class NearScenery {
  public:
   using Find = LocalController::Find;
 
-  explicit NearScenery(const CharacterDef& character) : character_(character) {}
+  explicit NearScenery(const CharacterDef& character) : character_(character), controller_(scenery_, character) {}
 
   /// @param needed box. A wider one is read, so that it holds for some steps.
   /// @param context its filter knows ids: what it leaves out does not turn.
   void read(const Box2& needed, const StepContext& context, const Find& find);
-  /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already. What is
-  /// unusable has no mover afterwards, so the movers may have other numbers.
+  /// Makes scenery of what was read, with the angles at a fraction of the step.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
   [[nodiscard]] bool build(double fraction);
 
@@ -55,16 +54,18 @@ class NearScenery {
   }
 
   // Of the scenery.
-  [[nodiscard]] const Controller& controller() const noexcept { return scenery_->controller; }
-  [[nodiscard]] Scratch& scratch() noexcept { return scenery_->scratch; }
-  [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
-  [[nodiscard]] const NearCollider& at(ColliderIndex collider) const noexcept { return near_[order_[collider]]; }
+  [[nodiscard]] const Controller& controller() const noexcept { return controller_; }
+  [[nodiscard]] Scratch& scratch() noexcept { return scratch_; }
+  [[nodiscard]] const NearCollider& at(ColliderIndex collider) const noexcept {
+    return *find(id_of_slot_[Scenery::slot_of(collider)]);
+  }
+  [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
   [[nodiscard]] bool is_in_scenery(ColliderIndex id) const noexcept { return local_of(id) != no_collider; }
   /// Ids of colliders that no scenery can be made of, which are left out.
   [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept { return unusable_; }
   /// A context for steps and questions in the scenery, valid until the next one is made.
   /// @param motions one for each of `movers()`. @param context its filter knows ids.
-  [[nodiscard]] StepContext context(StepContext context, std::span<const MoverMotion> motions) noexcept;
+  [[nodiscard]] StepContext context(StepContext context, std::span<const MoverMotion> motions);
 
   /// A collider that is gone carries and crushes no more.
   void to_local(CharacterState& state) const;
@@ -73,13 +74,15 @@ class NearScenery {
   void to_ids(std::span<ColliderIndex> colliders) const;
 
  private:
-  struct Built {
-    Built(const SceneryDef& def, const CharacterDef& character)
-        : scenery(def), controller(scenery, character, {.search = PieceSearch::one_by_one}) {}
-
-    Scenery scenery;
-    Controller controller;
-    Scratch scratch = controller.make_scratch();
+  /// What of the scenery belongs to a collider that was found.
+  struct Known {
+    ColliderIndex id;
+    ColliderIndex local;
+    std::uint64_t version;
+    MoverIndex mover;
+    double angle;
+    double surface_speed;
+    friend bool operator==(const Known&, const Known&) = default;
   };
   /// A filter of colliders by their ids.
   struct FilterOfIds {
@@ -89,28 +92,29 @@ class NearScenery {
 
   void number_movers(double dt);
   void note_what_turns(const Box2& needed, const ColliderFilter* filter);
-  void place_in_order();
-  [[nodiscard]] SceneryDef scenery_def() const;
+  void take_out_what_is_gone();
+  [[nodiscard]] Known wanted_of(const NearCollider& collider, double fraction) const;
+  [[nodiscard]] bool put(const NearCollider& collider, Known wanted);
   void leave_out_known();
-  void leave_out(ColliderIndex local);
-  [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
+  [[nodiscard]] const NearCollider* find(ColliderIndex id) const noexcept;
+  [[nodiscard]] const Known* known(ColliderIndex id) const noexcept;
+  [[nodiscard]] ColliderIndex id_of(ColliderIndex local) const noexcept { return id_of_slot_[Scenery::slot_of(local)]; }
 
   CharacterDef character_;
   Box2 box_{Vec2d::Constant(1), Vec2d::Constant(-1)};
   std::vector<NearCollider> near_;
-  std::vector<NearCollider> near_before_;
   std::vector<NearMover> movers_;
   std::vector<std::size_t> moving_;  ///< In `near_`, by mover.
   bool any_turns_ = false;
   bool any_sensor_turns_ = false;
-  std::vector<std::size_t> order_;  ///< Of the colliders of the scenery, in `near_`.
-  std::vector<ColliderIndex> ids_;  ///< Of these.
   std::vector<ColliderIndex> unusable_;
   std::vector<std::pair<ColliderIndex, std::uint64_t>> refused_;  ///< Of these, ids and versions.
-  /// Angles of the movers in the scenery, and their surface speeds.
-  std::vector<std::pair<double, double>> built_;
-  std::vector<std::pair<double, double>> now_;  ///< The same, as they are now.
-  std::optional<Built> scenery_;
+  Scenery scenery_{SceneryDef{}};
+  Controller controller_;
+  Scratch scratch_ = controller_.make_scratch();
+  std::vector<Known> known_;  ///< By id.
+  std::vector<ColliderIndex> id_of_slot_;
+  std::vector<MoverMotion> motions_;  ///< Of all movers of the scenery.
   FilterOfIds filter_of_ids_;
   ColliderFilter filter_;  ///< The same, for the scenery.
 };

@@ -46,6 +46,18 @@ void PieceGrid::Layer::grow() {
     if (cell.is_used) cells[index_of(cell.x, cell.y)] = cell;
 }
 
+/// Those after it in the row of used cells move up, unless they are where their hashes put them.
+void PieceGrid::Layer::erase(std::size_t index) {
+  const std::size_t mask = cells.size() - 1;
+  --used;
+  cells[index].is_used = false;
+  for (std::size_t next = (index + 1) & mask; cells[next].is_used; next = (next + 1) & mask) {
+    const Cell cell = cells[next];
+    cells[next].is_used = false;
+    cells[index_of(cell.x, cell.y)] = cell;
+  }
+}
+
 /// The finest whose cells are larger than a box: it meets four of them at most.
 PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
   int exponent = 0;
@@ -67,13 +79,44 @@ void PieceGrid::add(PieceIndex piece, const Box2& box) {
       cell = {x, y, no_link, true};
       ++layer.used;
     }
-    links_.push_back({piece, cell.first});
-    cell.first = static_cast<std::uint32_t>(links_.size() - 1);
+    std::uint32_t link = unused_;
+    if (link == no_link) {
+      link = static_cast<std::uint32_t>(links_.size());
+      links_.emplace_back();
+    } else {
+      unused_ = links_[link].next;
+    }
+    links_[link] = {piece, cell.first};
+    cell.first = link;
   });
 }
 
+void PieceGrid::remove(PieceIndex piece, const Box2& box) {
+  Layer& layer = layer_for(box);
+  layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
+    const std::size_t index = layer.index_of(x, y);
+    std::uint32_t* before = &layer.cells[index].first;
+    while (links_[*before].piece != piece) before = &links_[*before].next;
+    const std::uint32_t link = *before;
+    *before = links_[link].next;
+    links_[link].next = unused_;
+    unused_ = link;
+    if (layer.cells[index].first == no_link) layer.erase(index);
+  });
+}
+
+void PieceGrid::shrink(const Box2& removed, std::span<const Box2> boxes) {
+  const bool is_within =
+      (removed.lower.array() > whole_.lower.array()).all() && (removed.upper.array() < whole_.upper.array()).all();
+  if (is_within) return;
+  whole_ = nowhere();
+  for (const Layer& layer : layers_)
+    for (const Cell& cell : layer.cells)
+      for (std::uint32_t link = cell.is_used ? cell.first : no_link; link != no_link; link = links_[link].next)
+        whole_ = whole_.merged(boxes[links_[link].piece]);
+}
+
 void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const {
-  const std::size_t before = found.size();
   for (const Layer& layer : layers_) {
     const double scale = layer.cells_per_metre;
     const std::int32_t left = cell_at(box.lower.x(), scale);
@@ -100,7 +143,6 @@ void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<P
         if (cell.is_used) look_into(cell);
     }
   }
-  std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
 }
 
 }  // namespace paperproof

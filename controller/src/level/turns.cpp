@@ -176,10 +176,10 @@ Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepCont
 /// @param of_all and of what stands meanwhile; else the sweep has proved that.
 bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult& move, const StepContext& context,
                                       bool of_all) {
-  for (ColliderIndex i = 0; i < scenery.size(); ++i) {
-    const NearCollider& collider = scenery.at(i);
+  for (const NearCollider& collider : scenery.colliders()) {
     if (!(of_all || scenery.turns(collider)) || !blocks(collider, context)) continue;
-    if (std::find(move.crushed.begin(), move.crushed.end(), i) != move.crushed.end()) continue;
+    const ColliderIndex local = scenery.local_of(collider.id);
+    if (std::find(move.crushed.begin(), move.crushed.end(), local) != move.crushed.end()) continue;
     const Pose from = pose_at(collider.motion, part.begin);
     const Pose to = collider.mover == no_mover ? from : turned_pose(collider, part);
     if (overlaps(collider, from, part.way[0].position)) continue;

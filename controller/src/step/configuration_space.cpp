@@ -88,9 +88,47 @@ OctagonFace SharedAxes::face_along(const Vec2& n) const noexcept {
   return face;
 }
 
-ConfigurationSpace::ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids,
-                                       const OneWaySurfaces& surfaces)
-    : solids_(solids), surfaces_(surfaces), axes_(shape), index_of_(solids.scenery().sensor_pieces().first) {}
+ConfigurationSpace::ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids)
+    : solids_(solids),
+      shape_(shape),
+      surfaces_(solids.scenery(), shape),
+      axes_(shape),
+      edit_(solids.scenery().edits().count()),
+      index_of_(solids.scenery().pieces().size()) {}
+
+void ConfigurationSpace::follow_edits() {
+  const auto edits = scenery().edits().since(edit_);
+  edit_ = scenery().edits().count();
+  index_of_.resize(scenery().pieces().size());
+  if (!edits || std::any_of(edits->begin(), edits->end(), [](const Edit& edit) { return edit.one_way; }))
+    return drop_all();
+  for (const Edit& edit : *edits) {
+    for (PieceIndex piece = edit.pieces.first; piece < edit.pieces.end; ++piece) drop(piece);
+    neighbours_.clear();
+    if (edit.mover == no_mover || edit.mover < scenery().mover_count())
+      solids_.find(edit.mover, {edit.box.lower - reach(), edit.box.upper + reach()}, neighbours_);
+    for (const PieceIndex piece : neighbours_) drop(piece);
+  }
+}
+
+void ConfigurationSpace::drop(PieceIndex source) {
+  PieceIndex& index = index_of_[source];
+  if (index == 0) return;
+  const Obstacle& obstacle = obstacles_[index - 1];
+  free_own_.give(obstacle.first_own, obstacle.own_count);
+  free_obstacles_.push_back(index - 1);
+  index = 0;
+}
+
+/// One-way chains may be joined otherwise.
+void ConfigurationSpace::drop_all() {
+  surfaces_ = OneWaySurfaces(scenery(), shape_);
+  std::fill(index_of_.begin(), index_of_.end(), 0);
+  obstacles_.clear();
+  free_obstacles_.clear();
+  own_axes_.clear();
+  free_own_ = {};
+}
 
 Real ConfigurationSpace::support_offset(PieceIndex source, const Vec2d& normal) const noexcept {
   const double radius = scenery().pieces()[source].is_circle() ? scenery().circle(source).radius : 0;
@@ -111,13 +149,18 @@ PieceIndex ConfigurationSpace::make(PieceIndex source) {
   const std::span<const PieceInfo> pieces = scenery().pieces();
   const PieceInfo& info = pieces[source];
   const auto same = [&](PieceIndex other) { return pieces[other].collider == info.collider; };
-  obstacles_.push_back({.offsets = {},
-                        .box = scenery().box(source),
-                        .source = info,
-                        .collider = &scenery().collider(info.collider),
-                        .piece = source});
-  index = static_cast<PieceIndex>(obstacles_.size());
-  Obstacle& made = obstacles_.back();
+  if (free_obstacles_.empty()) {
+    free_obstacles_.push_back(static_cast<PieceIndex>(obstacles_.size()));
+    obstacles_.emplace_back();
+  }
+  index = free_obstacles_.back() + 1;
+  free_obstacles_.pop_back();
+  Obstacle& made = obstacles_[index - 1];
+  made = {.offsets = {},
+          .box = scenery().box(source),
+          .source = info,
+          .collider = &scenery().collider(info.collider),
+          .piece = source};
   made.whole_collider = !(source > 0 && same(source - 1)) && !(source + 1 < pieces.size() && same(source + 1));
   if (info.one_way) {
     made.surface = surfaces_.of(source);
@@ -131,7 +174,7 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
   const PieceInfo& source = obstacle.source;
   const Vec2d& lower = obstacle.box.lower;
   const Vec2d& upper = obstacle.box.upper;
-  obstacle.first_own = static_cast<std::uint32_t>(own_axes_.size());
+  own_.clear();
   // An unused lane is "inside" for ever: never the largest separation, never left.
   obstacle.offsets.all.fill(std::numeric_limits<Real>::max() / 4);
   for (std::size_t k = 0; k < axes_.count; ++k) {
@@ -145,8 +188,8 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
   }
   if (source.is_rectangle()) return;  // its normals are all shared
   const auto add = [&](const Vec2& n) {
-    own_axes_.push_back({n, support_offset(obstacle.piece, n.cast<double>()), face_along(n)});
-    return axes_.lanes + obstacle.own_count++;
+    own_.push_back({n, support_offset(obstacle.piece, n.cast<double>()), face_along(n)});
+    return axes_.lanes + own_.size() - 1;
   };
   const auto axis_of = [&](const Vec2d& normal) -> std::size_t {
     const Vec2 n = normal.cast<Real>();
@@ -156,7 +199,7 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
   };
   if (source.is_circle()) {
     add({0, 1});
-    return;
+    return keep_own(obstacle);
   }
   const PieceVertices vertices = scenery().vertices_of(obstacle.piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
@@ -165,6 +208,15 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) obstacle.one_way_axis = static_cast<std::uint8_t>(axis);
   }
+  keep_own(obstacle);
+}
+
+void ConfigurationSpace::keep_own(Obstacle& obstacle) {
+  obstacle.own_count = static_cast<std::uint8_t>(own_.size());
+  const std::optional<std::uint32_t> free = free_own_.take(obstacle.own_count);
+  obstacle.first_own = free.value_or(static_cast<std::uint32_t>(own_axes_.size()));
+  if (!free) own_axes_.resize(own_axes_.size() + own_.size());
+  std::copy(own_.begin(), own_.end(), own_axes_.begin() + obstacle.first_own);
 }
 
 /// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
@@ -172,8 +224,7 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   obstacles_[piece].knows_its_seams = true;
   if (is_circle(piece)) return;
   // Whatever can cover a facet meets this box.
-  const Vec2d reach = axes_.box.upper - axes_.box.lower;
-  const Box2 around{info(piece).box.lower - reach, info(piece).box.upper + reach};
+  const Box2 around{info(piece).box.lower - reach(), info(piece).box.upper + reach()};
   const double furthest = std::max(around.lower.cwiseAbs().maxCoeff(), around.upper.cwiseAbs().maxCoeff());
   const double noise = std::max(least_noise, noise_in_ulps * furthest * double{std::numeric_limits<Real>::epsilon()});
   neighbours_.clear();

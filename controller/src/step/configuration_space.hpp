@@ -102,8 +102,8 @@ struct Obstacle {
   PerAxis offsets;  ///< Along the shared axes [m].
   Box2 box;         ///< Of the piece [m].
   PieceInfo source;
-  const ColliderInfo* collider;
-  PieceIndex piece;             ///< In the scenery.
+  const ColliderInfo* collider = nullptr;
+  PieceIndex piece = 0;         ///< In the scenery.
   std::uint32_t first_own = 0;  ///< Of its own axes.
   std::uint8_t own_count = 0;
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
@@ -127,11 +127,13 @@ class ConfigurationSpace final : public PieceUser {
  public:
   static constexpr std::size_t max_axes = 64;  ///< Of one piece: shared ones, and those of at most 32 edges.
 
-  /// What is given must outlive it.
-  ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids, const OneWaySurfaces& surfaces);
+  /// @param solids must outlive it.
+  ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids);
 
   /// Makes the obstacles of pieces, and writes their indices in the places of the pieces.
   void prepare(std::span<PieceIndex> pieces) override;
+  /// Forgets the obstacles of pieces that came or went, and of those near them.
+  void follow_edits() override;
 
   [[nodiscard]] const PieceFinder& solids() const noexcept { return solids_; }
   [[nodiscard]] const Scenery& scenery() const noexcept { return solids_.scenery(); }
@@ -231,8 +233,12 @@ class ConfigurationSpace final : public PieceUser {
   }
   [[nodiscard]] Real support_offset(PieceIndex source, const Vec2d& normal) const noexcept;
 
+  [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.upper - axes_.box.lower; }
   [[nodiscard]] PieceIndex make(PieceIndex source);
+  void drop(PieceIndex source);
+  void drop_all();
   void find_axes(Obstacle& obstacle);
+  void keep_own(Obstacle& obstacle);
   void find_seams(PieceIndex piece);
   void find_neighbours(PieceIndex piece);
   void set_open(PieceIndex piece, std::size_t axis, double open) noexcept;
@@ -243,12 +249,17 @@ class ConfigurationSpace final : public PieceUser {
   [[nodiscard]] bool is_covered_corner(PieceIndex piece, const Facet& corner) const noexcept;
 
   const PieceFinder& solids_;
-  const OneWaySurfaces& surfaces_;
+  CharacterShape shape_;
+  OneWaySurfaces surfaces_;
   SharedAxes axes_;
   std::vector<Obstacle> obstacles_;
+  std::vector<PieceIndex> free_obstacles_;
   std::vector<OwnAxis> own_axes_;
+  FreeRanges free_own_;
+  std::uint64_t edit_ = 0;            ///< See `EditLog::count`.
   std::vector<PieceIndex> index_of_;  ///< Among the obstacles, of each solid piece: one more, or zero for none.
   // While an obstacle is made.
+  std::vector<OwnAxis> own_;
   std::vector<PieceIndex> neighbours_;  ///< What may cover its facets.
   std::vector<Interval> inside_;        ///< Parts of the present facet that are in another obstacle.
 };

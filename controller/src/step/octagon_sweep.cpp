@@ -38,17 +38,17 @@ class OctagonSweep final : public SweepInParts {
  public:
   OctagonSweep(const SweepDef& def, const Scenery& scenery, const CharacterDef& character)
       : finder_(find_solids(scenery, character.shape, def.search)),
-        surfaces_(scenery, character.shape),
         shape_(character.shape),
-        settings_(settings_for(def, character)),
-        has_conveyors_(has_conveyors(scenery)) {}
+        settings_(settings_for(def, character)) {}
 
   [[nodiscard]] const PieceFinder& finder() const noexcept override { return finder_; }
-  [[nodiscard]] const OneWaySurfaces& surfaces() const noexcept override { return surfaces_; }
+  [[nodiscard]] const OneWaySurfaces& surfaces(const Scratch& scratch) const noexcept override {
+    return static_cast<const StepMemory&>(*scratch.own).space.surfaces();
+  }
 
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
-    scratch.own = std::make_unique<StepMemory>(shape_, finder_, surfaces_);
+    scratch.own = std::make_unique<StepMemory>(shape_, finder_);
     return scratch;
   }
 
@@ -62,13 +62,16 @@ class OctagonSweep final : public SweepInParts {
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
+    if (scratch.solids.edit != finder_.scenery().edits().count()) [[unlikely]]
+      memory.follow_edits();
     const bool looks_at_movers =
         !request.movers.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
     const bool rides = request.ride.ground != Ride::none;
     Step step(settings_,
               {finder_, scratch.solids, looks_at_movers ? request.movers : std::span<const MoverMotion>{},
                request.filter, &memory.space},
-              {request.movers, request.dt, has_conveyors_ || rides || looks_at_movers}, memory, request.up, result);
+              {request.movers, request.dt, has_conveyors(finder_.scenery()) || rides || looks_at_movers}, memory,
+              request.up, result);
     solve(step, part, request);
   }
 
@@ -128,10 +131,8 @@ class OctagonSweep final : public SweepInParts {
   }
 
   PieceFinder finder_;
-  OneWaySurfaces surfaces_;
   CharacterShape shape_;
   Settings settings_;
-  bool has_conveyors_;
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ class SweepInParts {
   virtual void reserve(const Box2& positions, Scratch& scratch) const = 0;
   /// Of solid pieces.
   [[nodiscard]] virtual const PieceFinder& finder() const noexcept = 0;
-  [[nodiscard]] virtual const OneWaySurfaces& surfaces() const noexcept = 0;
+  [[nodiscard]] virtual const OneWaySurfaces& surfaces(const Scratch& scratch) const noexcept = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
   virtual void move_part(Part part, const StepRequest& request, Scratch& scratch,

@@ -60,17 +60,19 @@ struct Reported {
 
 /// One per thread; a step leaves nothing in it that the next one uses.
 struct StepMemory final : OwnMemory {
-  StepMemory(const CharacterShape& shape, const PieceFinder& solids, const OneWaySurfaces& one_way)
-      : space(shape, solids, one_way),
-        most_corners(2 * MoveResult::max_corners + 4 * moving_pieces(solids.scenery())),
-        reported_at(most_corners) {
-    if (moving_pieces(solids.scenery()) == 0 && !has_conveyors(solids.scenery())) return;
-    roles.resize(solids.scenery().collider_count());
+  StepMemory(const CharacterShape& shape, const PieceFinder& solids) : space(shape, solids) { follow_edits(); }
+
+  void follow_edits() {
+    const Scenery& scenery = space.scenery();
+    most_corners = 2 * MoveResult::max_corners + 4 * scenery.counts().moving_pieces;
+    reported_at.resize(most_corners);
+    clear();
+    roles.assign(has_moving_solids(scenery) || has_conveyors(scenery) ? scenery.collider_count() : 0, 0);
   }
 
   /// Forgets the last step.
   void clear() noexcept {
-    for (const ColliderIndex collider : marked) roles[collider] = 0;
+    for (const ColliderIndex collider : marked) roles[Scenery::slot_of(collider)] = 0;
     marked.clear();
     surfaces.clear();
     crushers.clear();
@@ -78,18 +80,20 @@ struct StepMemory final : OwnMemory {
   /// Without effect where nothing moves: then a ride in the state comes from another scenery.
   void mark(ColliderIndex collider, Role role) noexcept {
     if (roles.empty()) return;
-    if (roles[collider] == 0) marked.push_back(collider);
-    roles[collider] |= role | known;
+    std::uint8_t& roles_of = roles[Scenery::slot_of(collider)];
+    if (roles_of == 0) marked.push_back(collider);
+    roles_of |= role | known;
   }
   void unmark(ColliderIndex collider, Role role) noexcept {
-    roles[collider] = static_cast<std::uint8_t>(roles[collider] & ~role);
+    std::uint8_t& roles_of = roles[Scenery::slot_of(collider)];
+    roles_of = static_cast<std::uint8_t>(roles_of & ~role);
   }
   [[nodiscard]] bool is(ColliderIndex collider, std::uint8_t any_of) const noexcept {
-    return !marked.empty() && (roles[collider] & any_of) != 0;
+    return !marked.empty() && (roles[Scenery::slot_of(collider)] & any_of) != 0;
   }
 
   ConfigurationSpace space;
-  std::size_t most_corners;              ///< Of the path: movers may add any number. A step that needs more is dropped.
+  std::size_t most_corners = 0;          ///< Of the path: movers may add any number. A step that needs more is dropped.
   std::vector<Reported> reported_at;     ///< At each corner of the path.
   std::vector<std::uint8_t> roles;       ///< Of each collider, where anything moves: bits of `Role`.
   std::vector<ColliderIndex> marked;     ///< Colliders with a role, in the order in which they got one.
@@ -99,11 +103,6 @@ struct StepMemory final : OwnMemory {
   std::vector<HalfPlane> velocity_planes;
   /// Movers that crushed, now or before, with their displacement at the end of the step.
   std::vector<Crusher> crushers;
-
- private:
-  [[nodiscard]] static std::size_t moving_pieces(const Scenery& scenery) noexcept {
-    return scenery.sensor_pieces().first - scenery.static_pieces().end;
-  }
 };
 
 /// The movers of one step. Of `no_mover`, which is what stands still, each answer is zero, and `relative` the motion

@@ -216,7 +216,9 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   const auto known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& other) {
     return other.collider == collider && dot(other.normal, normal) > 1 - same_plane;
   });
-  if (known != contacts.end() && (known < contacts.begin() + static_cast<std::ptrdiff_t>(this_moment) || known->fraction <= fraction)) return;
+  if (known != contacts.end() &&
+      (known < contacts.begin() + static_cast<std::ptrdiff_t>(this_moment) || known->fraction <= fraction))
+    return;
   const ContactPlace place = contact_place(step.space, piece, axis, normal, local(step, piece, step.position));
   const Contact contact{.collider = collider,
                         .point = place.point + offset(step, piece),
