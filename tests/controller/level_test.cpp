@@ -211,6 +211,7 @@ TEST(LevelEdits, a_controller_with_one_scratch_steps_as_through_a_level_that_was
       const auto context = [&](const Level& where) -> StepContext {
         return {{0, -30}, frame, std::span(movers).first(where.mover_count())};
       };
+      if (random.chance(0.5)) (void)controller.overlaps(state.position, context(level), scratch);
       other.step(expected, input, context(fresh), of_other, from_other);
       controller.step(state, input, context(level), scratch, report);
       ASSERT_TRUE(same_bits(state.position, expected.position)) << "seed " << seed << ", step " << step;

@@ -232,7 +232,7 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   for (PieceIndex& other : neighbours_) other = make(other);
   std::erase_if(neighbours_, [&](PieceIndex other) { return other == piece || !may_cover(other, piece, noise); });
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
-    if (axis < axes_.lanes && axis >= axes_.count) continue;
+    if (is_unused(axis)) continue;
     const Facet here = facet(piece, axis, noise);
     if (here.length > open_enough)
       set_open(piece, axis, open_part(here));
@@ -287,7 +287,7 @@ bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](PieceIndex other) {
     if (is_circle(other)) return false;
     for (std::size_t k = 0; k < axis_count(other); ++k) {
-      if (k >= axes_.count && k < axes_.lanes) continue;
+      if (is_unused(k)) continue;
       const double out = normal(other, k).cast<double>().dot(corner.from) - static_cast<double>(offset(other, k));
       if (out > corner.noise) return false;
     }
@@ -318,7 +318,7 @@ Interval ConfigurationSpace::inside(const Facet& facet, PieceIndex other) const 
   Interval inside{0, 1};
   const Vec2d span = facet.to - facet.from;
   for (std::size_t k = 0; k < axis_count(other); ++k) {
-    if (k >= axes_.count && k < axes_.lanes) continue;
+    if (is_unused(k)) continue;
     const Vec2d n = normal(other, k).cast<double>();
     const double start = n.dot(facet.from) - static_cast<double>(offset(other, k)) + facet.noise;
     const double rate = n.dot(span);

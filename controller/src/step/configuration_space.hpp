@@ -123,7 +123,7 @@ struct Obstacle {
 /// first time, and kept: what it is depends on the scenery around it alone. Not thread-safe: each thread has its own.
 ///
 /// A step names a piece by its index among the obstacles.
-class ConfigurationSpace final : public PieceUser {
+class ConfigurationSpace {
  public:
   static constexpr std::size_t max_axes = 64;  ///< Of one piece: shared ones, and those of at most 32 edges.
 
@@ -131,9 +131,9 @@ class ConfigurationSpace final : public PieceUser {
   ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids);
 
   /// Makes the obstacles of pieces, and writes their indices in the places of the pieces.
-  void prepare(std::span<PieceIndex> pieces) override;
+  void prepare(std::span<PieceIndex> pieces);
   /// Forgets the obstacles of pieces that came or went, and of those near them.
-  void follow_edits() override;
+  void follow_edits();
 
   [[nodiscard]] const PieceFinder& solids() const noexcept { return solids_; }
   [[nodiscard]] const Scenery& scenery() const noexcept { return solids_.scenery(); }
@@ -233,6 +233,8 @@ class ConfigurationSpace final : public PieceUser {
   }
   [[nodiscard]] Real support_offset(PieceIndex source, const Vec2d& normal) const noexcept;
 
+  /// A lane that no axis has.
+  [[nodiscard]] bool is_unused(std::size_t axis) const noexcept { return axis >= axes_.count && axis < axes_.lanes; }
   [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.upper - axes_.box.lower; }
   [[nodiscard]] PieceIndex make(PieceIndex source);
   void drop(PieceIndex source);

@@ -53,7 +53,7 @@ class OctagonSweep final : public SweepInParts {
   }
 
   void reserve(const Box2& positions, Scratch& scratch) const override {
-    Nearby(finder_, scratch.solids, {}, nullptr, &static_cast<StepMemory&>(*scratch.own).space).reserve(positions);
+    Nearby(finder_, scratch.solids, {}, nullptr, &static_cast<StepMemory&>(*scratch.own)).reserve(positions);
   }
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
@@ -62,14 +62,12 @@ class OctagonSweep final : public SweepInParts {
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
-    if (scratch.solids.edit != finder_.scenery().edits().count()) [[unlikely]]
-      memory.follow_edits();
     const bool looks_at_movers =
         !request.movers.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
     const bool rides = request.ride.ground != Ride::none;
     Step step(settings_,
               {finder_, scratch.solids, looks_at_movers ? request.movers : std::span<const MoverMotion>{},
-               request.filter, &memory.space},
+               request.filter, &memory},
               {request.movers, request.dt, has_conveyors(finder_.scenery()) || rides || looks_at_movers}, memory,
               request.up, result);
     solve(step, part, request);
@@ -77,8 +75,8 @@ class OctagonSweep final : public SweepInParts {
 
   template <class Question>
   [[nodiscard]] auto ask(const StepRequest& at, Scratch& scratch, const Question& question) const noexcept {
-    ConfigurationSpace& space = static_cast<StepMemory&>(*scratch.own).space;
-    Surroundings around{space, {finder_, scratch.solids, at.movers, at.filter, &space}, at.movers, at.up};
+    auto& memory = static_cast<StepMemory&>(*scratch.own);
+    Surroundings around{memory.space, {finder_, scratch.solids, at.movers, at.filter, &memory}, at.movers, at.up};
     const auto answer = question(around);
     around.near.forget();  // a wide question would make the next steps slow
     return answer;

@@ -48,7 +48,8 @@ enum class Part : std::uint8_t {
   stay,   ///< The character keeps its position in the world. Every mover that runs into it crushes it.
 };
 
-/// Const and shareable between threads; each thread brings its scratch. No call throws, and each allocates as `Controller::reserve` says.
+/// Const and shareable between threads; each thread brings its scratch. No call throws, and each allocates as
+/// `Controller::reserve` says.
 class SweepInParts {
  public:
   virtual ~SweepInParts() = default;

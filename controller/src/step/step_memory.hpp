@@ -59,10 +59,15 @@ struct Reported {
 };
 
 /// One per thread; a step leaves nothing in it that the next one uses.
-struct StepMemory final : OwnMemory {
-  StepMemory(const CharacterShape& shape, const PieceFinder& solids) : space(shape, solids) { follow_edits(); }
+struct StepMemory final : OwnMemory, PieceUser {
+  StepMemory(const CharacterShape& shape, const PieceFinder& solids) : space(shape, solids) { fit_to_scenery(); }
 
-  void follow_edits() {
+  void prepare(std::span<PieceIndex> pieces) override { space.prepare(pieces); }
+  void follow_edits() override {
+    space.follow_edits();
+    fit_to_scenery();
+  }
+  void fit_to_scenery() {
     const Scenery& scenery = space.scenery();
     most_corners = 2 * MoveResult::max_corners + 4 * scenery.counts().moving_pieces;
     reported_at.resize(most_corners);
