@@ -211,7 +211,7 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
                                                                                 const StepContext& context,
                                                                                 bool wall_ahead, CharacterState& state,
                                                                                 StepReport& report) const noexcept {
-  // A carried character steers, jumps and falls relative to its ground. What is gone carries no more.
+  // A carried character steers, jumps and falls relative to its ground. A collider that is gone carries nobody.
   if (rides(state)) state.velocity -= state.ride.velocity;
   const UpFrame up = context.up;
   const double dt = context.dt;

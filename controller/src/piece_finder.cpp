@@ -1,7 +1,6 @@
 #include "piece_finder.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace paperproof {
 namespace {

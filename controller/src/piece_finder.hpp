@@ -21,7 +21,7 @@ class PieceFinder {
   /// @param reach what the character at the origin touches, and a little more [m].
   PieceFinder(const Scenery& scenery, Kind kind, const Box2& reach, PieceSearch search);
 
-  /// Appends those of one mover, or those that stand still, whose boxes meet `box`, ascending.
+  /// Appends the pieces of one mover, or those that stand still, whose boxes meet `box`. Their order means nothing.
   void find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const;
   /// Around all pieces of a mover at offset zero.
   [[nodiscard]] const Box2& whole(MoverIndex mover) const noexcept { return grid_of(mover).whole(); }
@@ -82,7 +82,7 @@ class Nearby {
       forget_others();
   }
 
-  /// Those that stand still, ascending.
+  /// Those that stand still. Within a group pieces are in the order of `Scenery::comes_before`.
   /// @param way where the character goes [m]: the next steps will need the pieces there.
   [[nodiscard]] std::span<const PieceIndex> standing(const Box2& positions, const Vec2d& way = Vec2d::Zero()) noexcept {
     if (!known_.valid || !known_.box.contains(positions)) find_standing(positions, way);

@@ -382,7 +382,7 @@ void Scenery::displace(ColliderIndex id) {
     shapes_[collider.shape] = {};
     free_shapes_.push_back(collider.shape);
   }
-  --kinds_[collider.kind].users;
+  if (--kinds_[collider.kind].users == 0) free_kinds_.push_back(collider.kind);
   collider.is_used = false;
 }
 
@@ -396,7 +396,6 @@ void Scenery::tally(ColliderIndex id, int change) noexcept {
   add(counts_.conveyors, !info.sensor && info.surface_speed != 0);
   add(counts_.filtered, info.filter != Filter{});
   add(counts_.circles, info.shape == ColliderDef::Shape::circle);
-  add(counts_.moving, info.mover != no_mover);
   add(counts_.moving_pieces, info.mover != no_mover && !info.sensor ? pieces_of(id).size() : 0);
 }
 
@@ -420,13 +419,19 @@ PieceGrid& Scenery::grid_of(PieceIndex piece) {
 /// Of colliders that follow each other most are of one kind.
 std::uint32_t Scenery::kind_of(const ColliderInfo& info) {
   constexpr std::ptrdiff_t looked_through = 64;
-  if (last_kind_ < kinds_.size() && kinds_[last_kind_].info == info) return last_kind_;
+  const auto is_it = [&](const Kind& kind) { return kind.users > 0 && kind.info == info; };
+  if (last_kind_ < kinds_.size() && is_it(kinds_[last_kind_])) return last_kind_;
   const auto end = kinds_.begin() + std::min(looked_through, std::ssize(kinds_));
-  auto found = std::find_if(kinds_.begin(), end, [&](const Kind& kind) { return kind.info == info; });
-  if (found == end) found = std::find_if(kinds_.begin(), end, [](const Kind& kind) { return kind.users == 0; });
-  if (found == end) found = kinds_.insert(kinds_.end(), Kind{});
-  found->info = info;
-  return last_kind_ = static_cast<std::uint32_t>(found - kinds_.begin());
+  const auto found = std::find_if(kinds_.begin(), end, is_it);
+  if (found != end) return last_kind_ = static_cast<std::uint32_t>(found - kinds_.begin());
+  if (free_kinds_.empty()) {
+    free_kinds_.push_back(static_cast<std::uint32_t>(kinds_.size()));
+    kinds_.emplace_back();
+  }
+  last_kind_ = free_kinds_.back();
+  free_kinds_.pop_back();
+  kinds_[last_kind_].info = info;
+  return last_kind_;
 }
 
 bool Scenery::has(ColliderIndex id) const noexcept {

@@ -4,10 +4,8 @@
 
 #include "geometry/circle.hpp"
 
+#include <algorithm>
 #include <limits>
-#include <numeric>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace paperproof {
@@ -102,8 +100,7 @@ Sensors::Overlap Sensors::overlap_with(PieceIndex piece) const {
           geometry::separating_axes(outline_, vertices)};
 }
 
-typename Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin,
-                                           const PathPoint& end) noexcept {
+Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end) noexcept {
   Segment segment;
   segment.from = begin.position - motion.at(begin.fraction);
   segment.to = end.position - motion.at(end.fraction);

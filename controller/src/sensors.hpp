@@ -59,7 +59,7 @@ class Sensors final : public OwnMemory, private PieceUser {
 
   [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin,
                                        const PathPoint& end) noexcept;
-  /// @param near pieces that stand still, or go along with `motion`, ascending.
+  /// @param near pieces that stand still, or go along with `motion`. Those of one sensor follow each other.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
   Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
                Events& events) const noexcept;

@@ -28,8 +28,8 @@ struct LevelContext {
 /// Steps one character through a level. Reports and state name colliders by their ids in the level. A state may be
 /// copied, saved and restored; a controller keeps nothing that changes a result.
 ///
-/// Where no mover has an angle, a step is one of a `Controller`, and `Controller::reserve` says when it allocates. Else
-/// it is one of a `LocalController`, which reads what is near the character.
+/// Where no mover has an angle, a `Controller` makes the step, and `Controller::reserve` says when it allocates.
+/// Otherwise a `LocalController` makes it.
 ///
 /// Not thread-safe: each thread brings its own.
 class LevelController {
@@ -47,31 +47,31 @@ class LevelController {
   [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const LevelContext& context);
   /// What moved near the character in the last step, as the step saw it; empty where nothing near it turned.
   [[nodiscard]] std::span<const TurnedCollider> turned() const noexcept {
-    return goes_straight_ ? std::span<const TurnedCollider>{} : local_.turned();
+    return went_straight_ ? std::span<const TurnedCollider>{} : local_.turned();
   }
   [[nodiscard]] const CharacterDef& character() const noexcept { return local_.character(); }
 
  private:
-  [[nodiscard]] bool accepts(const LevelContext& context) const noexcept;
-  [[nodiscard]] LocalController::Find finder(const LevelContext& context);
-  [[nodiscard]] StepContext context_without_movers(const LevelContext& context) const noexcept;
-  [[nodiscard]] StepContext straight_context(const LevelContext& context);
-  /// Notes whether no mover has an angle.
-  bool goes_straight(const LevelContext& context) noexcept;
-
-  const Level* level_;
-  Controller straight_;
-  Scratch scratch_;
-  bool goes_straight_ = true;
-  std::vector<MoverMotion> motions_;
-  LocalController local_;
   /// A definition, kept while its collider has the same version.
   struct Known {
     std::uint64_t version = 0;
     ColliderDef def{};
   };
+
+  [[nodiscard]] bool accepts(const LevelContext& context) const noexcept;
+  [[nodiscard]] LocalController::Find finder(const LevelContext& context);
+  [[nodiscard]] StepContext context_without_movers(const LevelContext& context) const noexcept;
+  [[nodiscard]] StepContext straight_context(const LevelContext& context);
+  /// Whether no mover has an angle.
+  [[nodiscard]] static bool goes_straight(const LevelContext& context) noexcept;
   void find(MoverIndex mover, const PoseMotion& motion, const Box2& box, std::vector<NearCollider>& found);
 
+  const Level* level_;
+  Controller straight_;
+  Scratch scratch_;
+  bool went_straight_ = true;  ///< In the last step.
+  std::vector<MoverMotion> motions_;
+  LocalController local_;
   std::unordered_map<ColliderIndex, Known> known_;
   std::vector<PieceIndex> pieces_;
   std::vector<NearCollider> standing_;  ///< In `read_`, after `last_edit_`.

@@ -45,7 +45,7 @@ struct TurnedCollider {
 /// Steps one character through whatever a function finds near it: `LevelController` and `box2d::Hero` are made of it.
 ///
 /// While the colliders that are found stay the same, a step costs no more than one of a `Controller`, and allocates
-/// nothing. Else what is new, other or turned is made anew.
+/// nothing. Otherwise it makes anew what came, changed or turned.
 ///
 /// **What turns.** A step among movers that turn consists of 1, 2, 4, ... or 32 shorter steps, so many that nothing
 /// near the character is turned by more than `most_turned` at once. Each begins with a millionth of its time in which

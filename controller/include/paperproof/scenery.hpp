@@ -140,14 +140,14 @@ struct PieceRange {
   [[nodiscard]] std::size_t size() const noexcept { return end - first; }
 };
 
-/// Finds pieces by boxes: a grid of squares of 1 m, and others of 2 m, 4 m, 0.5 m and so on. A piece lies in the
-/// squares of the finest grid whose squares are larger than the piece, hence in four at most.
+/// Finds pieces by boxes. There are grids with squares of 1 m, 2 m, 4 m, 0.5 m and so on. A piece is in the finest grid
+/// whose squares are larger than the piece, and so it meets four squares at most.
 class PieceGrid {
  public:
   void add(PieceIndex piece, const Box2& box);
   /// @param box as it was added with.
   void remove(PieceIndex piece, const Box2& box);
-  /// Appends the pieces whose boxes meet `box`, in no order. @param boxes of all pieces.
+  /// Appends the pieces whose boxes meet `box`. Their order means nothing. @param boxes of all pieces.
   void find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const;
   /// Makes `whole` as small as it can be, after a piece with this box was removed. @param boxes of all pieces.
   void shrink(const Box2& removed, std::span<const Box2> boxes);
@@ -168,9 +168,6 @@ class PieceGrid {
   };
   /// One grid. Its cells are in a hash table.
   struct Layer {
-    Layer(double scale, std::size_t count, std::vector<Cell> free)
-        : cells_per_metre(scale), used(count), cells(std::move(free)) {}
-
     [[nodiscard]] std::size_t index_of(std::int32_t x, std::int32_t y) const noexcept;
     template <class Visit>
     void for_each_place(const Box2& box, const Visit& visit) const;
@@ -214,8 +211,7 @@ struct SceneryCounts {
   std::size_t conveyors = 0;
   std::size_t filtered = 0;  ///< With a filter.
   std::size_t circles = 0;
-  std::size_t moving = 0;         ///< With a mover.
-  std::size_t moving_pieces = 0;  ///< Solid ones.
+  std::size_t moving_pieces = 0;  ///< Solid pieces with a mover.
 };
 
 /// A change of a level.
@@ -249,7 +245,8 @@ class EditLog {
   std::vector<Edit> edits_;
 };
 
-/// Not thread-safe while it is edited. Else any number of threads may read it.
+/// Not thread-safe while it is edited. Otherwise any number of threads may read it. A `Controller` follows edits from
+/// its next step on. A `Crowd`, and a technique of the article, keep to the scenery as it was when they were made.
 class Scenery {
  public:
   /// Takes magnitudes below 1e-90 m for zero (their products would underflow), checks every collider and cuts polygons
@@ -270,7 +267,7 @@ class Scenery {
   /// Gives a collider another definition. It keeps its id, so a character keeps riding on it.
   /// @return false if there is no collider of this id. @throws InvalidScenery as `add`.
   bool replace(ColliderIndex id, const ColliderDef& def);
-  /// Whoever stands on it falls in the next step. @return false if there is no collider of this id.
+  /// A character that stands on it falls in the next step. @return false if there is no collider of this id.
   bool remove(ColliderIndex id);
   [[nodiscard]] bool has(ColliderIndex id) const noexcept;
   /// The definition of a collider as it runs, if it is there.
@@ -292,8 +289,8 @@ class Scenery {
     const Vec2d* stored = vertices_.data() + pieces_[piece].first_vertex;
     return {stored[0], stored[1].x()};
   }
-  /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …; then the
-  /// sensors, by mover, and last those that do not move.
+  /// Without edits, pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1,
+  /// …; then the sensors, by mover, and last those that do not move.
   [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
   [[nodiscard]] PieceRange pieces_of_mover(MoverIndex mover) const noexcept {
     return {mover_begin_[mover], mover_begin_[mover + 1]};
@@ -314,8 +311,8 @@ class Scenery {
     return mover == no_mover ? standing_ : moving_[mover];
   }
 
-  /// The order in which pieces are looked at: by what their colliders are, so that levels that are alike give the same
-  /// bits, whatever was added first. The pieces of a collider are in a row.
+  /// The order in which a step looks at pieces. Shapes and places of the colliders decide it, so that levels that are
+  /// alike give the same bits, whatever was added first. The pieces of one collider follow each other.
   [[nodiscard]] bool comes_before(PieceIndex a, PieceIndex b) const noexcept;
 
   /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
@@ -375,6 +372,7 @@ class Scenery {
   [[nodiscard]] std::uint32_t shape_of(ColliderIndex collider, const ColliderDef& accepted);
 
   std::deque<Kind> kinds_;
+  std::vector<std::uint32_t> free_kinds_;
   std::uint32_t last_kind_ = 0;
   std::vector<Collider> colliders_;
   std::vector<std::uint32_t> free_slots_;

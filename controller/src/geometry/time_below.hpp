@@ -5,9 +5,10 @@
 
 namespace paperproof::geometry {
 
-/// The part of a motion, whose fractions run from 0 to 1, in which all separations so far are below a level: an open
-/// interval, as each of them is below it in one. Empty where `begin >= end`. `begin` is `before` if they are below it
-/// at the start already, and `end` is `after` if they still are at the end. Else both are fractions in [0, 1].
+/// When all separations so far are below a level. Times are fractions of a motion, from 0 to 1. A separation that
+/// changes evenly is below the level in one open interval, and so are all of them together. Empty where `begin >= end`.
+/// `begin` is `before` if they are below it at the start already, and `end` is `after` if they still are at the end.
+/// Else both are fractions in [0, 1].
 template <class Number>
 struct TimeBelow {
   static constexpr Number before = -1;

@@ -72,23 +72,23 @@ StepContext LevelController::straight_context(const LevelContext& context) {
 }
 
 bool LevelController::goes_straight(const LevelContext& context) noexcept {
-  goes_straight_ = std::none_of(context.movers.begin(), context.movers.end(), [](const PoseMotion& motion) {
-    return motion.from.angle != 0 || motion.to.angle != 0;
-  });
-  return goes_straight_;
+  return std::none_of(context.movers.begin(), context.movers.end(),
+                      [](const PoseMotion& motion) { return motion.from.angle != 0 || motion.to.angle != 0; });
 }
 
 StepStatus LevelController::step(CharacterState& state, const Input& input, const LevelContext& context,
                                  StepReport& report) {
   if (!accepts(context)) return report.status = StepStatus::invalid_input;
-  if (goes_straight(context)) return straight_.step(state, input, straight_context(context), scratch_, report);
+  went_straight_ = goes_straight(context);
+  if (went_straight_) return straight_.step(state, input, straight_context(context), scratch_, report);
   return local_.step(state, input, context_without_movers(context), finder(context), report);
 }
 
 StepStatus LevelController::move(CharacterState& state, const Vec2d& displacement, const LevelContext& context,
                                  StepReport& report) {
   if (!accepts(context)) return report.status = StepStatus::invalid_input;
-  if (goes_straight(context)) return straight_.move(state, displacement, straight_context(context), scratch_, report);
+  went_straight_ = goes_straight(context);
+  if (went_straight_) return straight_.move(state, displacement, straight_context(context), scratch_, report);
   return local_.move(state, displacement, context_without_movers(context), finder(context), report);
 }
 

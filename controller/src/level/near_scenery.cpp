@@ -38,6 +38,20 @@ ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mov
   return result;
 }
 
+/// Where an element with this id is, or would be, in a vector in the order of ids.
+template <class Vector>
+auto place_of(Vector& all, ColliderIndex id) noexcept {
+  return std::lower_bound(all.begin(), all.end(), id,
+                          [](const auto& each, ColliderIndex other) { return each.id < other; });
+}
+
+/// Null if there is none.
+template <class Each>
+const Each* find_by_id(const std::vector<Each>& all, ColliderIndex id) noexcept {
+  const auto place = place_of(all, id);
+  return place != all.end() && place->id == id ? &*place : nullptr;
+}
+
 }  // namespace
 
 bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
@@ -53,7 +67,7 @@ void NearScenery::read(const Box2& needed, const StepContext& context, const Fin
   if (!std::is_sorted(near_.begin(), near_.end(), by_id)) std::sort(near_.begin(), near_.end(), by_id);
   const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
   near_.erase(std::unique(near_.begin(), near_.end(), same_id), near_.end());
-  leave_out_known();
+  leave_out_refused();
   number_movers(context.dt);
   note_what_turns(needed, context.filter);
 }
@@ -104,7 +118,7 @@ void NearScenery::note_what_turns(const Box2& needed, const ColliderFilter* filt
 }
 
 /// Leaves out what was refused before.
-void NearScenery::leave_out_known() {
+void NearScenery::leave_out_refused() {
   unusable_.clear();
   if (refused_.empty()) return;
   std::erase_if(near_, [&](const NearCollider& collider) {
@@ -130,8 +144,7 @@ void NearScenery::take_out_what_is_gone() {
 /// Puts a collider into the scenery, or another definition in its place.
 /// @return false if it cannot be turned by its angle.
 bool NearScenery::put(const NearCollider& collider, Known wanted) {
-  const auto by_id = [](const Known& each, ColliderIndex id) { return each.id < id; };
-  const auto place = std::lower_bound(known_.begin(), known_.end(), wanted.id, by_id);
+  const auto place = place_of(known_, wanted.id);
   const bool is_known = place != known_.end() && place->id == wanted.id;
   if (is_known) wanted.local = place->local;
   if (is_known && *place == wanted) return true;
@@ -186,20 +199,10 @@ bool NearScenery::build(double fraction) {
   });
 }
 
-const NearCollider* NearScenery::find(ColliderIndex id) const noexcept {
-  const auto by_id = [](const NearCollider& each, ColliderIndex other) { return each.id < other; };
-  const auto found = std::lower_bound(near_.begin(), near_.end(), id, by_id);
-  return found != near_.end() && found->id == id ? &*found : nullptr;
-}
-
-const NearScenery::Known* NearScenery::known(ColliderIndex id) const noexcept {
-  const auto by_id = [](const Known& each, ColliderIndex other) { return each.id < other; };
-  const auto found = std::lower_bound(known_.begin(), known_.end(), id, by_id);
-  return found != known_.end() && found->id == id ? &*found : nullptr;
-}
+const NearCollider* NearScenery::find(ColliderIndex id) const noexcept { return find_by_id(near_, id); }
 
 ColliderIndex NearScenery::local_of(ColliderIndex id) const noexcept {
-  const Known* const found = known(id);
+  const Known* const found = find_by_id(known_, id);
   return found != nullptr ? found->local : no_collider;
 }
 

@@ -25,8 +25,8 @@ struct NearMover {
 /// Whether a character meets a collider at all. @param filter of ids; null: it leaves out nothing.
 [[nodiscard]] bool is_there(const NearCollider& collider, const ColliderFilter* filter);
 
-/// Reads what is near, and keeps scenery of it: what is new or other is put into it, and what is gone is taken out.
-/// In the scenery a collider and a mover have other numbers; outside a collider has an id.
+/// Reads what is near, and keeps a scenery of it. It puts in what came or changed, and takes out what is gone. In the
+/// scenery a collider and a mover have other numbers; outside a collider has an id.
 class NearScenery {
  public:
   using Find = LocalController::Find;
@@ -36,7 +36,7 @@ class NearScenery {
   /// @param needed box. A wider one is read, so that it holds for some steps.
   /// @param context its filter knows ids: what it leaves out does not turn.
   void read(const Box2& needed, const StepContext& context, const Find& find);
-  /// Makes scenery of what was read, with the angles at a fraction of the step.
+  /// Brings the scenery up to what was read, with the angles at a fraction of the step.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
   [[nodiscard]] bool build(double fraction);
 
@@ -95,9 +95,8 @@ class NearScenery {
   void take_out_what_is_gone();
   [[nodiscard]] Known wanted_of(const NearCollider& collider, double fraction) const;
   [[nodiscard]] bool put(const NearCollider& collider, Known wanted);
-  void leave_out_known();
+  void leave_out_refused();
   [[nodiscard]] const NearCollider* find(ColliderIndex id) const noexcept;
-  [[nodiscard]] const Known* known(ColliderIndex id) const noexcept;
   [[nodiscard]] ColliderIndex id_of(ColliderIndex local) const noexcept { return id_of_slot_[Scenery::slot_of(local)]; }
 
   CharacterDef character_;

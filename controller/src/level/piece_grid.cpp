@@ -58,7 +58,7 @@ void PieceGrid::Layer::erase(std::size_t index) {
   }
 }
 
-/// The finest whose cells are larger than a box: it meets four of them at most.
+/// The finest layer whose cells are larger than a box. The box meets four of them at most.
 PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
   int exponent = 0;
   std::frexp((box.upper - box.lower).maxCoeff(), &exponent);  // the size is less than 2^exponent
@@ -66,7 +66,8 @@ PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
   const auto same = [&](const Layer& layer) { return layer.cells_per_metre == cells_per_metre; };
   const auto known = std::find_if(layers_.begin(), layers_.end(), same);
   if (known != layers_.end()) return *known;
-  return layers_.emplace_back(cells_per_metre, 0, std::vector<Cell>(8));
+  layers_.push_back({cells_per_metre, 0, std::vector<Cell>(8)});
+  return layers_.back();
 }
 
 void PieceGrid::add(PieceIndex piece, const Box2& box) {
