@@ -27,8 +27,8 @@ Hero::Impl::Impl(b2World& in, const HeroDef& from)
       def(from),
       body(&make_body(in, from)),
       fixtures(in, *body),
-      controller(from.character),
-      other_controller(from.character) {
+      controller(fixtures.level(), from.character),
+      scratch(controller.make_scratch()) {
   make_fixture(def.filter);
   HeroPlaces::note(*body, state.position);
   state.position = def.position;
@@ -46,16 +46,19 @@ bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) cons
   NearFixtures around(*world, *body);
   around.restore_poses(fixtures.poses());
   around.begin_step(def, up_of(gravity()), fixtures.dt(), state, contacts);
-  return LocalController(character).overlaps(position, {.dt = 1},
-                                             [&](const auto& box, auto& found) { around.find(box, found); }) == 0U;
+  const Box2& extent = character.shape.box();
+  around.read({position + extent.lower, position + extent.upper});
+  const Controller asked(around.level(), character);
+  Scratch memory = asked.make_scratch();
+  return asked.overlaps(position, {.dt = 1, .movers = around.motions()}, memory) == 0U;
 }
 
 /// After the shape has changed, or the way to move.
 void Hero::Impl::change(const CharacterDef& character) {
   const bool same_shape = std::ranges::equal(def.character.shape.hull(), character.shape.hull());
   def.character = character;
-  controller = LocalController(character);
-  other_controller = LocalController(character);
+  controller = Controller(fixtures.level(), character);
+  scratch = controller.make_scratch();
   if (!same_shape) remake_fixture();
 }
 
@@ -66,15 +69,15 @@ Hero& Hero::operator=(Hero&&) noexcept = default;
 
 StepStatus Hero::step(const Input& input, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext& context, const LocalController::Find& find) {
-    return hero.controller.step(hero.state, input, context, find, hero.report);
+  return hero.advance(dt, [&](const StepContext& context) {
+    return hero.controller.step(hero.state, input, context, hero.scratch, hero.report);
   });
 }
 
 StepStatus Hero::move(const Vec2d& displacement, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext& context, const LocalController::Find& find) {
-    return hero.controller.move(hero.state, displacement, context, find, hero.report);
+  return hero.advance(dt, [&](const StepContext& context) {
+    return hero.controller.move(hero.state, displacement, context, hero.scratch, hero.report);
   });
 }
 
@@ -161,8 +164,7 @@ HeroSave Hero::save() const {
                 .body_position = hero.body->GetPosition(),
                 .body_velocity = hero.body->GetLinearVelocity(),
                 .is_bullet = hero.body->IsBullet(),
-                .struck = hero.struck,
-                .reach = hero.controller.reach()};
+                .struck = hero.struck};
   for (const Crusher& crusher : hero.state.crushers)
     save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
   return save;
@@ -173,6 +175,10 @@ void Hero::restore(const HeroSave& save) {
   require(!hero.world->IsLocked(), "a hero cannot be restored during a step of the world");
   hero.change(save.character);
   hero.state = save.state;
+  hero.contacts = save.contacts;
+  hero.fixtures.restore_poses(save.poses);
+  hero.fixtures.begin_step(hero.def, up_of(hero.gravity()), hero.fixtures.dt(), hero.state, hero.contacts);
+  hero.read_near(hero.controller.reach(hero.state, {.gravity = hero.gravity(), .dt = hero.fixtures.dt()}));
   // A fixture that is near keeps its ids: it may have several.
   const auto rename = [&](ColliderIndex& id, b2Fixture* fixture) {
     if (fixture != nullptr && hero.fixtures.fixture_of(id) != fixture) id = hero.fixtures.id_of(fixture);
@@ -180,13 +186,10 @@ void Hero::restore(const HeroSave& save) {
   rename(hero.state.ride.ground, save.ride);
   rename(hero.state.ground.collider, save.ground);
   for (std::size_t i = 0; i < save.crushers.size(); ++i) rename(hero.state.crushers[i].collider, save.crushers[i]);
-  hero.contacts = save.contacts;
   hero.inside = save.inside;
   hero.sensors.clear();
   hero.crushed_by.clear();
   hero.skipped.clear();
-  hero.fixtures.restore_poses(save.poses);
-  hero.controller.set_reach(save.reach);
   hero.body->SetTransform(save.body_position, 0);
   hero.body->SetLinearVelocity(save.body_velocity);
   hero.body->SetBullet(save.is_bullet);

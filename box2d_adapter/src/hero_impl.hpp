@@ -7,7 +7,7 @@
 
 #include <paperproof/box2d/hero.hpp>
 #include <paperproof/box2d/invalid_definition.hpp>
-#include <paperproof/local_controller.hpp>
+#include <paperproof/controller.hpp>
 
 #include <box2d/b2_body.h>
 #include <box2d/b2_world.h>
@@ -47,14 +47,19 @@ struct Hero::Impl {
   void change(const CharacterDef& character);
 
   // hero_step.cpp
-  using Go = std::function<StepStatus(const StepContext& context, const LocalController::Find& find)>;
+  using Go = std::function<StepStatus(const StepContext& context)>;
   StepStatus advance(double dt, const Go& go);
+  void read_near(const Box2& needed);
+  StepStatus step_as_far_as_read(StepContext& context, const Go& go);
   std::optional<double> limit_squeeze(const CharacterState& before, const Vec2d& body_velocity,
                                       const StepContext& context);
+  /// For questions: movers are where the step begins, or where it ends.
+  [[nodiscard]] StepContext here(bool at_end) const {
+    return {.dt = 1, .movers = at_end ? fixtures.ends() : fixtures.motions()};
+  }
   std::pair<double, bool> limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt);
   [[nodiscard]] bool is_freed(const CharacterState& before);
   std::optional<double> end_sooner(double least, double most);
-  [[nodiscard]] LocalController::Find found_again();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   double end_at(const Vec2d& position, std::size_t corner, double share);
   void note_step();
@@ -75,8 +80,8 @@ struct Hero::Impl {
   HeroDef def;
   b2Body* body;
   NearFixtures fixtures;
-  LocalController controller;
-  LocalController other_controller;  ///< Asks what the hero overlaps, beside its step.
+  Controller controller;
+  Scratch scratch;
   CharacterState state;
   Vec2d struck{Vec2d::Zero()};  ///< See `strike`.
   StepReport report;

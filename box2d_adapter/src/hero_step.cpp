@@ -13,10 +13,17 @@ namespace {
 /// How much farther than they go bodies may squeeze the hero in a step [m].
 constexpr double most_squeezed = 0.25;
 
+/// Fixtures are read in squares of this size, and one more around what a step needs [m]. Zero: each step reads other
+/// ones. Large: each change costs more.
+constexpr double read_ahead = 1;
+
+/// Largest coordinate of what can be read [m].
+constexpr double farthest = 1e8;
+
 /// How far the point of a body that is now at `point` went in a step [m].
-double way_of(const Vec2d& point, const PoseMotion& motion) {
-  const Eigen::Rotation2Dd turn(motion.from.angle - motion.to.angle);
-  return (motion.from.position + turn * (point - motion.to.position) - point).norm();
+double way_of(const Vec2d& point, const MoverMotion& motion) {
+  const Eigen::Rotation2Dd turn(-motion.turn());
+  return (motion.from + turn * (point - motion.to) - point).norm();
 }
 
 /// Whether a fixture is still in the world. @param fixture may have been destroyed.
@@ -38,8 +45,8 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   fixtures.begin_step(def, up, dt, state, contacts);
   take_impacts();
   const Vec2d own_velocity = state.velocity;
-  const StepContext context{.gravity = gravity(), .dt = dt, .up = up};
-  const StepStatus status = go(context, [this](const auto& box, auto& found) { fixtures.find(box, found); });
+  StepContext context{.gravity = gravity(), .dt = dt, .up = up};
+  const StepStatus status = step_as_far_as_read(context, go);
   if (is_refused(status)) {
     state = before;
     return status;
@@ -55,14 +62,38 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   return report.status;
 }
 
-/// What the step has found near the hero.
-LocalController::Find Hero::Impl::found_again() {
-  return [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); };
+/// Reads what is near. The box depends on the state alone, so that the hero does after a roll-back what it did before.
+void Hero::Impl::read_near(const Box2& needed) {
+  const auto before = [](double x) { return (std::floor(x / read_ahead) - 1) * read_ahead; };
+  const auto after = [](double x) { return (std::ceil(x / read_ahead) + 1) * read_ahead; };
+  fixtures.read(
+      {{before(needed.lower.x()), before(needed.lower.y())}, {after(needed.upper.x()), after(needed.upper.y())}});
+}
+
+/// A step within what was read. Where the hero went farther, more is read, and it steps again.
+StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
+  const CharacterState before = state;
+  const Box2& extent = def.character.shape.box();
+  Box2 needed = controller.reach(state, context);
+  for (;;) {
+    if (!(needed.lower.minCoeff() > -farthest && needed.upper.maxCoeff() < farthest))
+      return report.status = StepStatus::invalid_input;
+    read_near(needed);
+    context.movers = fixtures.motions();
+    state = before;
+    const StepStatus status = go(context);
+    if (is_refused(status)) return status;
+    Box2 way{state.position, state.position};
+    for (const PathPoint& corner : report.move.path) way = way.merged({corner.position, corner.position});
+    way = Box2{way.lower + extent.lower, way.upper + extent.upper}.inflated(Controller::most_turned);
+    if (needed.contains(way)) return status;
+    needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));
+  }
 }
 
 /// Whether the hero overlaps nothing at a position on its way at the end of the step.
 bool Hero::Impl::is_free_at_end(const Vec2d& position) {
-  return other_controller.overlaps(position, {.dt = 1}, found_again(), true) == 0U;
+  return controller.overlaps(position, here(true), scratch) == 0U;
 }
 
 /// Ends the step on its way, in the air.
@@ -127,7 +158,7 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState& before, co
   if ((state.position - before.position).norm() <= most || !(is_pushed || is_freed(before))) return std::nullopt;
   if (const std::optional<double> when = end_sooner(speed * context.dt, most)) return when;
   state = before;
-  controller.wait(state, context, found_again(), report);
+  controller.wait(state, context, scratch, report);
   return std::nullopt;
 }
 
@@ -136,11 +167,10 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState& before, co
 bool Hero::Impl::is_freed(const CharacterState& before) {
   if (!before.has_last_free) return false;
   std::array<ColliderIndex, 16> found{};
-  const std::size_t count =
-      other_controller.overlaps(before.position, {.dt = 1}, found_again(), false, found).value_or(0);
+  const std::size_t count = controller.overlaps(before.position, here(false), scratch, found).value_or(0);
   const std::span<const ColliderIndex> holding(found.data(), std::min(count, found.size()));
   const auto stands = [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() == b2_staticBody; };
-  if (holding.empty()) return !controller.turned().empty();
+  if (holding.empty()) return fixtures.any_turns();
   return std::none_of(holding.begin(), holding.end(), stands);
 }
 
@@ -168,8 +198,7 @@ std::optional<double> Hero::Impl::end_sooner(double least, double most) {
 void Hero::Impl::note_step() {
   crushed_by.clear();
   for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(fixtures.fixture_of(collider));
-  skipped.clear();
-  for (const ColliderIndex collider : controller.unusable()) skipped.push_back(fixtures.fixture_of(collider));
+  skipped = fixtures.unusable();
   note_sensors();
   note_contacts();
 }
@@ -182,10 +211,8 @@ void Hero::Impl::note_sensors_at(const Vec2d& position, bool at_end, double frac
   std::vector<b2Fixture*> now;
   if (fixtures.any_sensor()) {
     std::vector<ColliderIndex> found(16);
-    const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_sensors(near); };
     std::size_t count = 0;
-    while ((count = other_controller.overlaps(position, {.dt = 1}, find, at_end, found).value_or(0)) > found.size())
-      found.resize(count);
+    while ((count = controller.sensors_at(position, here(at_end), scratch, found)) > found.size()) found.resize(count);
     for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }
   const auto report_missing = [&](const auto& from, const auto& in, SensorEvent::Change change) {

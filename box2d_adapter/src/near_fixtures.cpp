@@ -221,7 +221,8 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Bo
   }
   if (result.sensor) return result;
   if (def_->surface_of) result.surface = def_->surface_of(fixture);
-  if (result.surface.blocks == Blocking::from_above) result.one_way = up_;
+  if (result.surface.blocks == Blocking::from_above)
+    result.one_way = result.moves ? Vec2d(Eigen::Rotation2Dd(-begin_of(body).angle) * up_) : up_;
   if (result.surface.blocks == Blocking::as_in_box2d && is_one_sided(*result.shape)) {
     const Seen& before = known.seen;
     const bool is_same = before.shape == result.shape && before.geometry == result.geometry &&
@@ -237,11 +238,11 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Bo
   return result;
 }
 
-/// The side from which alone a one-sided fixture blocks in this step. Nothing: it blocks from everywhere. It does so
-/// while the hero is in front of it, so that its ends and joints hold the hero as those of any fixture. If the middle
-/// of the hero is in front, it lifts out a hero that is in it by little, was placed there, touched it in the last step,
-/// or stood: the game may have moved it, or made the ground anew. What turns or may tumble always blocks from
-/// everywhere.
+/// The side from which alone a one-sided fixture blocks in this step, as its body sees it. Nothing: it blocks from
+/// everywhere. It does so while the hero is in front of it, so that its ends and joints hold the hero as those of any
+/// fixture. If the middle of the hero is in front, it lifts out a hero that is in it by little, was placed there,
+/// touched it in the last step, or stood: the game may have moved it, or made the ground anew. What turns or may tumble
+/// always blocks from everywhere.
 std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Known& known) const {
   const b2Body& body = *fixture.GetBody();
   const bool moves = body.GetType() != b2_staticBody;
@@ -260,7 +261,7 @@ std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Kn
   const bool is_known =
       was_placed_ || is_ground || std::find(touched_.begin(), touched_.end(), &fixture) != touched_.end();
   if (is_ahead({&middle_, 1}, 0) && (is_known || is_ahead(hull_, most_lifted))) return std::nullopt;
-  return Vec2d(turn * *known.front);
+  return known.front;
 }
 
 void NearFixtures::search(const Box2& box) {
@@ -278,118 +279,130 @@ void NearFixtures::search(const Box2& box) {
     if (filter != nullptr && !filter->ShouldCollide(hero_->GetFixtureList(), fixture)) continue;
     Known& known = known_[fixture];
     const Seen now = seen(*fixture, known, box);
-    const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
-    if (is_other) known = {};  // another one at the same address
+    const bool is_other = known.is_defined && (known.seen.body != now.body || known.seen.shape != now.shape);
+    const bool is_gone = now.surface.blocks == Blocking::not_at_all;
+    if (is_other || is_gone) {  // another one is at the same address
+      take_out(known);
+      known = {};
+    }
     known.found = searches_;
-    if (now.surface.blocks == Blocking::not_at_all) continue;
+    if (is_gone) continue;
     near_.push_back({fixture, &known});
-    if (known.version != 0 && known.seen == now) continue;
+    if (known.is_defined && known.seen == now) continue;
     known.seen = now;
     changed.push_back(near_.back());
   }
   if (known_.size() > near_.size())
-    std::erase_if(known_, [&](const auto& entry) { return entry.second.found != searches_; });
+    std::erase_if(known_, [&](const auto& entry) {
+      if (entry.second.found == searches_) return false;
+      take_out(entry.second);
+      return true;
+    });
   // Not in the order of the addresses: steps must be the same in each run of a game.
   const auto key = [](const Near& near) {
     const b2AABB& extent = near.fixture->GetAABB(0);
     return std::tuple(extent.lowerBound.x, extent.lowerBound.y, extent.upperBound.x, extent.upperBound.y);
   };
   std::sort(changed.begin(), changed.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
-  for (const Near& near : changed) define(*near.known);
-  number_movers();
+  free_movers();
+  for (const Near& near : changed) define(near);
 }
 
-/// In an order that depends on where the bodies are now, and on nothing that was before: a roll-back gives the same.
-void NearFixtures::number_movers() {
-  moving_.clear();
-  for (const Near& near : near_) {
-    near.known->mover = no_mover;
-    if (near.known->seen.moves) moving_.push_back(near);
+/// Bodies that are not near leave their movers to others.
+void NearFixtures::free_movers() {
+  std::erase_if(movers_, [&](const auto& entry) {
+    const auto is_its = [&](const Near& near) {
+      return near.known->seen.moves && near.known->seen.body == entry.first;
+    };
+    if (std::any_of(near_.begin(), near_.end(), is_its)) return false;
+    free_movers_.push_back(entry.second);
+    return true;
+  });
+}
+
+MoverIndex NearFixtures::mover_of(const b2Fixture& fixture) {
+  const b2Body* body = fixture.GetBody();
+  if (body->GetType() == b2_staticBody) return no_mover;
+  auto known = movers_.find(body);
+  if (known == movers_.end()) {
+    if (free_movers_.empty()) free_movers_.push_back(static_cast<MoverIndex>(2 * movers_.size()));
+    known = movers_.emplace(body, free_movers_.back()).first;
+    free_movers_.pop_back();
   }
-  const auto key = [](const Near& near) {
-    const b2Body& body = *near.known->seen.body;
-    return std::tuple(body.GetPosition().x, body.GetPosition().y, body.GetAngle(), near.known->seen.geometry);
-  };
-  std::sort(moving_.begin(), moving_.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
-  MoverIndex count = 0;
-  for (auto near = moving_.begin(); near != moving_.end(); ++near) {
-    const auto known = std::find_if(
-        moving_.begin(), near, [&](const Near& other) { return other.known->seen.body == near->known->seen.body; });
-    near->known->mover = known == near ? count++ : known->known->mover;
-  }
+  return known->second + (is_wheel(fixture) ? 1 : 0);
 }
 
 /// Makes the colliders of a fixture. Those that it had keep their ids.
-void NearFixtures::define(Known& known) {
-  const Seen& seen = known.seen;
-  known.version = ++versions_;
+void NearFixtures::define(const Near& near) {
+  const Seen& seen = near.known->seen;
   ColliderDef whole = collider_of(*seen.shape, seen.moves ? at({0, 0}) : seen.body->GetTransform());
   whole.sensor = seen.sensor;
   whole.surface_speed = seen.surface.speed;
   if (seen.one_way && whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
   whole.one_way = seen.one_way;
+  whole.mover = mover_of(*near.fixture);
   const bool is_cut = !(seen.cut.lower == seen.cut.upper);
-  std::vector<ColliderDef> defs = is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)};
-  known.parts.resize(std::max(known.parts.size(), defs.size()));
-  for (std::size_t i = 0; i < known.parts.size(); ++i) {
-    if (known.parts[i].id == no_collider) known.parts[i].id = ids_++;
-    known.parts[i].def = i < defs.size() ? std::move(defs[i]) : ColliderDef{};
+  put(is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)}, near);
+}
+
+void NearFixtures::put(const std::vector<ColliderDef>& defs, const Near& near) {
+  Known& known = *near.known;
+  known.is_defined = true;
+  known.is_unusable = false;
+  for (; known.parts.size() > defs.size(); known.parts.pop_back()) level_.remove(known.parts.back());
+  for (std::size_t i = 0; i < defs.size(); ++i) {
+    try {
+      if (i < known.parts.size())
+        level_.replace(known.parts[i], defs[i]);
+      else
+        known.parts.push_back(level_.add(defs[i]));
+    } catch (const InvalidScenery&) {
+      take_out(known);
+      known.parts.clear();
+      known.is_unusable = true;
+      return;
+    }
+    fixture_of_slot_.resize(level_.collider_count());
+    fixture_of_slot_[Level::slot_of(known.parts[i])] = near.fixture;
   }
 }
 
-void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const {
-  const Known& known = *near.known;
-  const bool stands = known.mover == no_mover;
-  const PoseMotion motion = stands ? PoseMotion{} : motion_of(*near.fixture);
-  const MoverIndex mover = stands ? no_mover : 2 * known.mover + (is_wheel(*near.fixture) ? 1 : 0);
-  for (const Part& part : known.parts)
-    if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, mover, motion});
+void NearFixtures::take_out(const Known& known) {
+  for (const ColliderIndex part : known.parts) level_.remove(part);
 }
 
-void NearFixtures::find(const Box2& box, std::vector<NearCollider>& found) {
+void NearFixtures::read(const Box2& box) {
   search(box);
-  find_again(found);
-}
-
-void NearFixtures::find_again(std::vector<NearCollider>& found) const {
-  for (const Near& near : near_) add(near, found);
-}
-
-void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
+  motions_.assign(std::max(level_.mover_count(), 2 * (movers_.size() + free_movers_.size())), {});
   for (const Near& near : near_)
-    if (near.known->seen.sensor) add(near, found);
-  solid_sensors_.clear();
-  solid_sensors_.reserve(found.size());
-  for (NearCollider& collider : found) {
-    solid_sensors_.push_back(*collider.def);
-    solid_sensors_.back().sensor = false;
-    collider.def = &solid_sensors_.back();
-    collider.version = ~collider.version;  // not that of the sensor
-  }
+    if (near.known->seen.moves) motions_[mover_of(*near.fixture)] = motion_of(*near.fixture);
+  ends_.clear();
+  for (const MoverMotion& motion : motions_) ends_.push_back({motion.to, motion.to, motion.to_angle, motion.to_angle});
 }
 
-auto NearFixtures::find_known(ColliderIndex id) const noexcept -> std::map<b2Fixture*, Known>::const_iterator {
-  return std::find_if(known_.begin(), known_.end(), [&](const auto& entry) {
-    const std::vector<Part>& parts = entry.second.parts;
-    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.id == id; });
-  });
+bool NearFixtures::any_turns() const noexcept {
+  return std::any_of(motions_.begin(), motions_.end(), [](const MoverMotion& motion) { return motion.turn() != 0; });
+}
+
+std::vector<b2Fixture*> NearFixtures::unusable() const {
+  std::vector<b2Fixture*> all;
+  for (const Near& near : near_)
+    if (near.known->is_unusable) all.push_back(near.fixture);
+  return all;
 }
 
 b2Fixture* NearFixtures::fixture_of(ColliderIndex id) const noexcept {
-  const auto known = find_known(id);
-  return known == known_.end() ? nullptr : known->first;
+  return level_.has(id) ? fixture_of_slot_[Level::slot_of(id)] : nullptr;
 }
 
 const b2Body* NearFixtures::body_of(ColliderIndex id) const noexcept {
-  const auto known = find_known(id);
+  const auto known = known_.find(fixture_of(id));
   return known == known_.end() ? nullptr : known->second.seen.body;
 }
 
-ColliderIndex NearFixtures::id_of(b2Fixture* fixture) {
-  Known& known = known_[fixture];
-  known.seen.body = fixture->GetBody();
-  if (known.parts.empty()) known.parts.push_back({ids_++, {}});
-  return known.parts[0].id;
+ColliderIndex NearFixtures::id_of(b2Fixture* fixture) const {
+  const auto known = known_.find(fixture);
+  return known == known_.end() || known->second.parts.empty() ? no_collider : known->second.parts[0];
 }
 
 bool NearFixtures::is_near(const b2Fixture* fixture) const noexcept {
@@ -433,13 +446,14 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
   return {&body, now - way, angle - turn};
 }
 
-PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {
+MoverMotion NearFixtures::motion_of(b2Fixture& fixture) const {
   const b2Body& body = *fixture.GetBody();
   const BodyPose begin = begin_of(body);
-  PoseMotion motion{{begin.position, begin.angle}, {place_of(body), static_cast<double>(body.GetAngle())}};
+  const double angle = static_cast<double>(body.GetAngle());
+  MoverMotion motion{begin.position, place_of(body), begin.angle, angle};
   // A wheel turns as fast as its body says: angles in float tell that only roughly, and its place does not depend on
   // them.
-  if (is_wheel(fixture)) motion.from.angle = motion.to.angle - static_cast<double>(body.GetAngularVelocity()) * dt_;
+  if (is_wheel(fixture)) motion.from_angle = angle - static_cast<double>(body.GetAngularVelocity()) * dt_;
   return motion;
 }
 

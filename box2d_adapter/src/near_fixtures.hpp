@@ -1,8 +1,8 @@
-/// The fixtures of a `b2World` that are near a hero, as colliders of a `LocalController`.
+/// The fixtures of a `b2World` that are near a hero, as a level.
 #pragma once
 
 #include <paperproof/box2d/hero.hpp>
-#include <paperproof/local_controller.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <box2d/b2_math.h>
 
@@ -45,38 +45,42 @@ class HeroPlaces {
 /// hero has not stepped yet.
 [[nodiscard]] Vec2d place_of(const b2Body& body);
 
-/// Reads fixtures anew in each step. What did not change keeps its id, its definition and its version.
+/// Reads fixtures anew in each step. What did not change stays in the level as it is.
 class NearFixtures {
  public:
   NearFixtures(b2World& world, b2Body& hero) noexcept : world_(&world), hero_(&hero) {}
 
-  /// Before the first `find` of a step.
+  /// Before the first `read` of a step.
   /// @param up the side from which ledges block.
   /// @param dt for the motion of a body that was not near in the last step.
   /// @param state of the hero, when the step begins. @param contacts of the step before.
   void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState& state,
                   std::span<const HeroContact> contacts);
-  /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
-  void find(const Box2& box, std::vector<NearCollider>& found);
-  /// The same as the last `find` found.
-  void find_again(std::vector<NearCollider>& found) const;
-  /// The sensors alone that the last `find` found, as if they were solid.
-  /// @param found is empty.
-  void find_sensors(std::vector<NearCollider>& found);
+  /// Reads all fixtures in a box, and how their bodies moved since `note_poses`.
+  void read(const Box2& box);
+  /// Those that were read last.
+  [[nodiscard]] const Level& level() const noexcept { return level_; }
+  /// Of its movers.
+  [[nodiscard]] std::span<const MoverMotion> motions() const noexcept { return motions_; }
+  /// The movers stand where their motions end.
+  [[nodiscard]] std::span<const MoverMotion> ends() const noexcept { return ends_; }
+  [[nodiscard]] bool any_turns() const noexcept;
+  /// Those that no collider can be made of: see `InvalidScenery`.
+  [[nodiscard]] std::vector<b2Fixture*> unusable() const;
   /// The bodies are where they are when the next step begins.
   void note_poses();
 
-  /// Null for a collider that is not known: from the last step, or from `id_of`.
+  /// Null for a collider that was not there in the last step.
   [[nodiscard]] b2Fixture* fixture_of(ColliderIndex id) const noexcept;
   /// Its body in the last step, even if the fixture was destroyed since. Null as for `fixture_of`.
   [[nodiscard]] const b2Body* body_of(ColliderIndex id) const noexcept;
-  /// The id of (the first part of) a fixture. One that is not known gets one.
-  [[nodiscard]] ColliderIndex id_of(b2Fixture* fixture);
+  /// The id of (the first part of) a fixture; `no_collider` for one that is not near.
+  [[nodiscard]] ColliderIndex id_of(b2Fixture* fixture) const;
   /// Whether a fixture was found in the last step.
   [[nodiscard]] bool is_near(const b2Fixture* fixture) const noexcept;
   [[nodiscard]] bool any_sensor() const noexcept;
   /// Of the body of a fixture that was found in the last step.
-  [[nodiscard]] PoseMotion motion_of(b2Fixture& fixture) const;
+  [[nodiscard]] MoverMotion motion_of(b2Fixture& fixture) const;
 
   void shift_origin(const Vec2d& new_origin);
   /// Of the last step [s]; zero before the first one.
@@ -95,19 +99,15 @@ class NearFixtures {
     bool moves = false;
     bool sensor = false;
     Surface surface;
-    std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks.
+    std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks, as the body sees it.
     Box2 cut;                        ///< To which a long chain is cut; else always the same.
     bool operator==(const Seen& other) const noexcept;
   };
-  struct Part {
-    ColliderIndex id = no_collider;
-    ColliderDef def;
-  };
   struct Known {
     Seen seen;
-    std::uint64_t version = 0;
-    MoverIndex mover = no_mover;
-    std::vector<Part> parts;  ///< One, but of a chain that is cut.
+    bool is_defined = false;
+    bool is_unusable = false;
+    std::vector<ColliderIndex> parts;  ///< One, but of a chain that is cut.
     /// Of a one-sided shape: its vertices, in the world or, of a body that may move, relative to the body; and what
     /// they face.
     std::vector<Vec2d> chain;
@@ -121,12 +121,13 @@ class NearFixtures {
   };
 
   void search(const Box2& box);
-  void add(const Near& near, std::vector<NearCollider>& found) const;
   [[nodiscard]] Seen seen(b2Fixture& fixture, Known& known, const Box2& box) const;
   [[nodiscard]] std::optional<Vec2d> one_way_of(const b2Fixture& fixture, const Known& known) const;
-  void define(Known& known);
-  [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;
-  void number_movers();
+  void define(const Near& near);
+  void put(const std::vector<ColliderDef>& defs, const Near& near);
+  void take_out(const Known& known);
+  [[nodiscard]] MoverIndex mover_of(const b2Fixture& fixture);
+  void free_movers();
   /// Where a body was when the step began.
   [[nodiscard]] BodyPose begin_of(const b2Body& body) const;
 
@@ -142,13 +143,15 @@ class NearFixtures {
   std::vector<const b2Fixture*> touched_;  ///< What it stands on and touched.
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
-  std::vector<Near> near_;    ///< Found in the last search,
-  std::vector<Near> moving_;  ///< and those of bodies that may move.
+  std::vector<Near> near_;  ///< Found in the last search.
   std::vector<BodyPose> poses_;
-  std::vector<ColliderDef> solid_sensors_;
+  Level level_;
+  std::vector<b2Fixture*> fixture_of_slot_;     ///< By `Level::slot_of`.
+  std::map<const b2Body*, MoverIndex> movers_;  ///< The first of two: wheels are movers of their own.
+  std::vector<MoverIndex> free_movers_;
+  std::vector<MoverMotion> motions_;
+  std::vector<MoverMotion> ends_;
   std::uint64_t searches_ = 0;
-  std::uint64_t versions_ = 0;
-  ColliderIndex ids_ = 0;
 };
 
 }  // namespace paperproof::box2d

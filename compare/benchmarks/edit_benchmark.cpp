@@ -2,7 +2,7 @@
 
 #include "level.hpp"
 
-#include <paperproof/level.hpp>
+#include <paperproof/controller.hpp>
 
 #include <benchmark/benchmark.h>
 #include <box2d/b2_fixture.h>
@@ -41,14 +41,15 @@ void step(benchmark::State& state, double height) {
   const Level level = make_level(pieces);
   paperproof::Level edited(level.scenery);
   const ColliderDef tile = tile_above(level, height);
-  LevelController controller(edited, {});
+  const Controller controller(edited, {});
+  Scratch scratch = controller.make_scratch();
   CharacterState character;
   character.position = level.start();
   StepReport report;
   ColliderIndex id = no_collider;
   for ([[maybe_unused]] auto _ : state) {
     if (height > 0 && !edited.remove(id)) id = edited.add(tile);
-    controller.step(character, {.move = 0.0}, {{0, gravity_y}, frame}, report);
+    controller.step(character, {.move = 0.0}, {{0, gravity_y}, frame}, scratch, report);
   }
 }
 

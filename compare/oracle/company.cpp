@@ -170,7 +170,8 @@ double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceSt
     const Box2 covered{places.lower + box_.lower, places.upper + box_.upper};
     for (const ColliderDef& def : header_.scenery.colliders) {
       if (def.mover == no_mover) continue;
-      const auto& [from, to] = step.movers[def.mover];
+      const Vec2d& from = step.movers[def.mover].from;
+      const Vec2d& to = step.movers[def.mover].to;
       Box2 swept = box_of(def.points);
       swept = Box2{swept.lower + from.cwiseMin(to), swept.upper + from.cwiseMax(to)};
       if (swept.inflated(def.radius + (to - from).norm() + reach_).overlaps(covered))

@@ -3,7 +3,7 @@
 #include "runs/level_ways.hpp"
 #include "runs/technique_parts.hpp"
 
-#include <paperproof/level.hpp>
+#include <paperproof/controller.hpp>
 
 #include <fmt/format.h>
 
@@ -17,9 +17,11 @@ class LevelContender final : public Contender {
   LevelContender(const TechniqueEntry& technique, const Scene& scene, const Scenery& scenery, const Planning& planning)
       : level_(scenery.as_run()),
         controller_(level_, rules_for(technique, scene, planning.knobs)),
+        scratch_(controller_.make_scratch()),
         header_(header_of(technique, ScalarKind::binary64, scenery, scene, planning)) {
     header_.plan.reset();  // it leaves nothing out
     header_.turning.assign(scene.movers.size(), true);
+    scratch_.notes_turned = true;
     place_at_start(*this, scene);
   }
 
@@ -31,7 +33,7 @@ class LevelContender final : public Contender {
     step_unrecorded(input);
     write_report(report_, state_, Sides::as_said, record);
     record.movers.assign(input.movers.begin(), input.movers.end());
-    record.vertex_ways = ways_in_level(header_.scenery, controller_.turned(), motions_);
+    record.vertex_ways = ways_in_level(header_.scenery, Controller::turned(scratch_), motions_);
     record.requested += carried(before, record.vertex_ways);
     refuse_unusable(report_.status, report_.move.refusal);
   }
@@ -39,9 +41,9 @@ class LevelContender final : public Contender {
   void step_unrecorded(const StepInput& input) override {
     motions_.clear();
     for (std::size_t i = 0; i < input.movers.size(); ++i)
-      motions_.push_back({{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
+      motions_.push_back({input.movers[i].from, input.movers[i].to, input.turns[i].from, input.turns[i].to});
     controller_.step(state_, input.players.front(),
-                     {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, report_);
+                     {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
@@ -60,11 +62,12 @@ class LevelContender final : public Contender {
   }
 
   Level level_;
-  LevelController controller_;
+  Controller controller_;
+  Scratch scratch_;
   TraceHeader header_;
   CharacterState state_;
   StepReport report_;
-  std::vector<PoseMotion> motions_;  ///< Of the present step.
+  std::vector<MoverMotion> motions_;  ///< Of the present step.
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "sensors.hpp"
 #include "step/octagon_sweep.hpp"
 #include "step_parts.hpp"
+#include "turning/turning_step.hpp"
 
 namespace paperproof {
 namespace {
@@ -150,11 +151,12 @@ Controller::Controller(const Scenery& scenery, const CharacterDef& character,
       asks_all_(search == PieceSearch::none),
       character_(character),
       sweep_(std::move(sweep)),
-      one_way_(std::make_shared<OneWayChains>(scenery, character_.shape)) {}
+      one_way_(std::make_shared<OneWayChains>(character_.shape)) {}
 
 Scratch Controller::make_scratch() const {
   Scratch scratch = sweep_->make_scratch();
   scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, sweep_->finder().search());
+  scratch.turning = std::make_unique<turning::Memory>();
   scratch.maker = sweep_;
   return scratch;
 }
@@ -163,12 +165,16 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   if (!is_made_by(sweep_, scratch.maker)) return;
   sweep_->reserve(positions, scratch);
   static_cast<Sensors&>(*scratch.sensors).reserve(positions);
-  if (has_one_way_chains(*scenery_)) Nearby(sweep_->finder(), scratch.one_way, {}, nullptr).reserve(positions);
+}
+
+[[gnu::always_inline]] inline Moving Controller::moving_in(const StepContext& context,
+                                                           const Scratch& scratch) const noexcept {
+  return {context.movers.first(scenery_->mover_count() + scratch.circles.size()), scratch.circles};
 }
 
 [[gnu::always_inline]] inline bool Controller::accepts(const CharacterState& state, const Input& input,
                                                        const StepContext& context) const noexcept {
-  return context.dt > 0 && context.movers.size() == scenery_->mover_count() && is_unit(context.up) &&
+  return context.dt > 0 && context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
          finite(state, input, context.gravity, context.dt, context.movers);
 }
 
@@ -178,7 +184,8 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   const double reach = character_.wall_reach;
   const UpFrame up = context.up;
   const Vec2d there = up.in_world({move < 0 ? -reach : reach, 0});
-  StepRequest request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context);
+  const Moving moving = moving_in(context, scratch);
+  StepRequest request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context, moving);
   request.crushed = false;
   request.crushers = {};
   sweep_->move_part(octagon_sweep::Part::whole, request, scratch, tried);
@@ -187,7 +194,7 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
 
 [[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::request_of(
     const CharacterState& state, const Crushers& crushers, const Vec2d& displacement, const Vec2d& velocity,
-    double steered, bool drop, bool jumps, const StepContext& context) const noexcept {
+    double steered, bool drop, bool jumps, const StepContext& context, const Moving& moving) const noexcept {
   return {.position = state.position,
           .displacement = displacement,
           .velocity = velocity,
@@ -199,20 +206,18 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
           .drop = drop,
           .next_dt = jumps ? 0 : context.dt,
           .crushers = {crushers.begin(), crushers.end()},
-          .movers = context.movers,
+          .moving = &moving,
           .filter = filter_of(context),
           .dt = context.dt,
           .up = context.up,
-          .ride = rides(state) ? state.ride : Ride{}};
+          .ride = state.ride};
 }
 
-[[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::begin_step(const Crushers& crushers,
-                                                                                const Input& input,
-                                                                                const StepContext& context,
-                                                                                bool wall_ahead, CharacterState& state,
-                                                                                StepReport& report) const noexcept {
-  // A carried character steers, jumps and falls relative to its ground. A collider that is gone carries nobody.
-  if (rides(state)) state.velocity -= state.ride.velocity;
+[[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::begin_step(
+    const Crushers& crushers, const Input& input, const StepContext& context, const Moving& moving, bool wall_ahead,
+    CharacterState& state, StepReport& report) const noexcept {
+  // A carried character steers, jumps and falls relative to its ground.
+  if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
   const UpFrame up = context.up;
   const double dt = context.dt;
   state.velocity = up.seen(state.velocity);
@@ -221,7 +226,8 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
+  return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context,
+                    moving);
 }
 
 [[nodiscard, gnu::always_inline]] inline bool Controller::may_pass_something(bool drop) const noexcept {
@@ -232,10 +238,11 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
 [[gnu::noinline]] void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
                                                StepReport& report) const noexcept {
   const std::span<const PathPoint> path = report.move.path;
-  static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors, filter_of(context));
+  const Moving moving = moving_in(context, scratch);
+  static_cast<Sensors&>(*scratch.sensors).observe(path, moving, report.sensors, filter_of(context));
   if (drop)
-    one_way_->find_passed(path, context.movers, {sweep_->finder(), scratch.one_way, context.movers, filter_of(context)},
-                          sweep_->surfaces(scratch), report.dropped_through);
+    sweep_->find_passed({.moving = &moving, .filter = filter_of(context)}, path, *one_way_, scratch,
+                        report.dropped_through);
 }
 
 [[gnu::always_inline]] inline void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
@@ -250,12 +257,16 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   report.dropped_through.clear();
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
+  if (is_divided(state, context, scratch)) [[unlikely]]
+    return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
   const Undo before(state);
   const bool wall_ahead =
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  sweep_->move_part(octagon_sweep::Part::whole, begin_step(state.crushers, input, context, wall_ahead, state, report),
-                    scratch, report.move);
+  const Moving moving = moving_in(context, scratch);
+  sweep_->move_part(octagon_sweep::Part::whole,
+                    begin_step(state.crushers, input, context, moving, wall_ahead, state, report), scratch,
+                    report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
@@ -273,9 +284,12 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
       !FiniteCheck().add(displacement).add(velocity).passed())
     return report.status = StepStatus::invalid_input;
+  if (is_divided(state, context, scratch))
+    return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
   report.requested = displacement;
   report.steered = 0;
-  StepRequest request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context);
+  const Moving moving = moving_in(context, scratch);
+  StepRequest request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context, moving);
   sweep_->move_part(octagon_sweep::Part::whole, request, scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
@@ -285,47 +299,105 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   return report.status;
 }
 
+bool Controller::is_divided(const CharacterState& state, const StepContext& context,
+                            const Scratch& scratch) const noexcept {
+  if (scratch.is_in_part) return false;
+  const bool all_there =
+      state.crushers.empty() || std::all_of(state.crushers.begin(), state.crushers.end(),
+                                            [&](const Crusher& crusher) { return scenery_->has(crusher.collider); });
+  return !all_there || (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) ||
+         any_angle(context.movers);
+}
+
+[[gnu::cold, gnu::noinline]] StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,
+                                                                  const StepContext& context, Scratch& scratch,
+                                                                  StepReport& report) const noexcept {
+  return turning::TurningStep(*this, context, scratch, report).step(state, wish);
+}
+
+StepStatus Controller::wait(CharacterState& state, const StepContext& context, Scratch& scratch,
+                            StepReport& report) const {
+  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context))
+    return report.status = StepStatus::invalid_input;
+  return turning::TurningStep(*this, context, scratch, report).wait(state);
+}
+
+std::span<const TurnedCollider> Controller::turned(const Scratch& scratch) noexcept {
+  return static_cast<const turning::Memory&>(*scratch.turning).turned;
+}
+
+Box2 Controller::reach(const CharacterState& state, const StepContext& context) const noexcept {
+  const double dt = context.dt;
+  const double acceleration =
+      character_.acceleration + character_.air_acceleration.value_or(0) + context.gravity.norm();
+  const double reach = (character_.jump_speed + acceleration * dt) * dt + character_.snap + character_.step_height +
+                       character_.wall_reach + 2 * most_turned;
+  const Vec2d goes = state.position + (state.velocity + state.ride.velocity) * dt;
+  const Box2& extent = character_.shape.box();
+  return Box2{state.position.cwiseMin(goes) + extent.lower, state.position.cwiseMax(goes) + extent.upper}.inflated(
+      reach);
+}
+
 bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                             const Scratch& scratch) const noexcept {
   return is_made_by(sweep_, scratch.maker) && in_range(position) && in_range(Vec2d(position + displacement)) &&
-         context.movers.size() == scenery_->mover_count() && is_unit(context.up) &&
+         context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
          (context.movers.empty() || finite(context.movers, 1.0));
 }
 
-octagon_sweep::StepRequest Controller::question(const Vec2d& position, const Vec2d& displacement,
-                                                const StepContext& context) const noexcept {
-  return {.position = position,
-          .displacement = displacement,
-          .movers = context.movers,
-          .filter = filter_of(context),
-          .up = context.up};
+/// Asks about a character that goes from a position.
+/// @param within [m] of its way. @param ask called with a request.
+template <class Ask>
+auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
+                        Scratch& scratch, const Ask& ask) const noexcept {
+  const Box2& extent = character_.shape.box();
+  const Vec2d end = position + displacement;
+  const Box2 around{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
+  StepContext posed = context;
+  const turning::CirclesOfQuestion circles(*scenery_, around.inflated(within), posed, scratch);
+  const Moving moving = moving_in(posed, scratch);
+  return ask(StepRequest{.position = position,
+                         .displacement = displacement,
+                         .moving = &moving,
+                         .filter = filter_of(context),
+                         .up = context.up});
 }
 
 std::optional<Contact> Controller::cast(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                                         Scratch& scratch) const noexcept {
   if (!can_answer(position, displacement, context, scratch)) return std::nullopt;
-  return sweep_->cast(question(position, displacement, context), scratch);
+  return answer(position, displacement, 0, context, scratch,
+                [&](const StepRequest& at) { return sweep_->cast(at, scratch); });
 }
 
 std::optional<std::size_t> Controller::overlaps(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                                 std::span<ColliderIndex> found) const noexcept {
-  const Vec2d nowhere{0, 0};
-  if (!can_answer(position, nowhere, context, scratch)) return std::nullopt;
-  return sweep_->overlaps(question(position, nowhere, context), scratch, found);
+  if (!can_answer(position, {0, 0}, context, scratch)) return std::nullopt;
+  return answer(position, {0, 0}, 0, context, scratch,
+                [&](const StepRequest& at) { return sweep_->overlaps(at, scratch, found); });
 }
 
 std::size_t Controller::contacts_at(const Vec2d& position, double within, const StepContext& context, Scratch& scratch,
                                     std::span<Contact> found) const noexcept {
-  const Vec2d nowhere{0, 0};
-  if (!can_answer(position, nowhere, context, scratch) || !(within <= Tolerances{}.range)) return 0;
-  return sweep_->contacts_at(question(position, nowhere, context), within, scratch, found);
+  if (!can_answer(position, {0, 0}, context, scratch) || !(within <= Tolerances{}.range)) return 0;
+  return answer(position, {0, 0}, std::max(within, 0.0), context, scratch,
+                [&](const StepRequest& at) { return sweep_->contacts_at(at, within, scratch, found); });
+}
+
+std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& context, Scratch& scratch,
+                                   std::span<ColliderIndex> found) const noexcept {
+  if (!can_answer(position, {0, 0}, context, scratch)) return 0;
+  return answer(position, {0, 0}, 0, context, scratch, [&](const StepRequest& at) {
+    return static_cast<Sensors&>(*scratch.sensors).around(position, *at.moving, at.filter, found);
+  });
 }
 
 bool Controller::begin_together(const CharacterState& before, const Input& input, const StepContext& context,
                                 CharacterState& state, StepRequest& request, StepReport& report) const noexcept {
-  if (!accepts(before, input, context)) return false;
+  if (!accepts(before, input, context) || any_angle(context.movers)) return false;
   state = before;
-  request = begin_step(before.crushers, input, context, false, state, report);
+  if (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) state.ride = {};
+  request = begin_step(before.crushers, input, context, nothing_moves, false, state, report);
   return true;
 }
 

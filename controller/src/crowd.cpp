@@ -50,6 +50,7 @@ StepStatus Crowd::step(std::span<CharacterState> states, std::span<const Input> 
       !step_parts::is_made_by(rules_, scratch.maker))
     return report.status = StepStatus::invalid_input;
   StepContext context = given;
+  context.movers = given.movers.first(std::min(given.movers.size(), controller_.scenery_->mover_count()));
   ColliderFilter filter;
   if (const ColliderFilter* used = controller_.filter_of(given)) {
     filter = *used;

@@ -6,32 +6,49 @@
 
 #include <paperproof/controller.hpp>
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <span>
 
 namespace paperproof {
 
-/// The one-way chains of one scenery, for one character. Immutable; shareable between threads; a search never
-/// allocates.
+/// A segment of a one-way chain. It runs so that its blocking normal is on its left.
+struct OneWaySegment {
+  ColliderIndex chain;
+  std::array<Vec2d, 2> ends;  ///< As its mover sees them [m].
+  const OneWaySurfaces* surfaces;
+  OneWaySurfaces::Index surface;
+};
+
+/// Which one-way chains does one character pass? Immutable; shareable between threads.
 class OneWayChains {
  public:
   using Passed = std::vector<ColliderIndex>;
 
-  /// `scenery` must outlive the chains.
-  OneWayChains(const Scenery& scenery, const CharacterShape& shape);
+  explicit OneWayChains(const CharacterShape& shape);
 
   /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
   /// finds is left out.
-  /// @param path straight between its corners. @param movers one for each mover of the scenery.
-  /// @param near the solid pieces. @param surfaces of the scenery as it is now, for the same shape.
-  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Nearby near,
-                   const OneWaySurfaces& surfaces, Passed& passed) const noexcept;
+  /// @param path straight between its corners. @param motions of the movers. @param near the solid pieces.
+  /// @param segment_of called with a piece: what it is, if it is a one-way segment.
+  template <class SegmentOf>
+  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> motions, Nearby near,
+                   const SegmentOf& segment_of, Passed& passed) const {
+    passed.clear();
+    near.for_each_group(box_around(path, {}), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+      const MoverMotion motion = mover == no_mover ? MoverMotion{} : motions[mover];
+      for (const PieceIndex piece : pieces)
+        if (const std::optional<OneWaySegment> segment = segment_of(piece)) look_at(*segment, path, motion, passed);
+    });
+  }
 
  private:
-  [[nodiscard]] bool passes(const OneWaySurfaces& surfaces, PieceIndex piece, const Vec2d& from,
-                            const Vec2d& to) const noexcept;
+  void look_at(const OneWaySegment& segment, std::span<const PathPoint> path, const MoverMotion& motion,
+               Passed& passed) const;
+  [[nodiscard]] bool passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const noexcept;
 
-  const Scenery* scenery_;
   FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
   FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
 };

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_set>
 
 #include "geometry/exact.hpp"
+#include "geometry/pose.hpp"
 
 namespace paperproof {
 namespace {
@@ -16,8 +18,6 @@ using geometry::orientation_sign_of_edge_offset;
 using geometry::orientation_sign_of_offset;
 using geometry::turn_sign;
 using geometry::turn_sign_of_offset;
-
-constexpr PieceIndex no_piece = std::numeric_limits<PieceIndex>::max();
 
 /// An end of a chain's first or last segment, at which a line begins or ends.
 struct OpenEnd {
@@ -36,30 +36,32 @@ struct OpenEnd {
 /// Which segment continues the line where another segment ends.
 class Joints {
  public:
-  explicit Joints(const Scenery& scenery)
-      : scenery_(scenery), next_(scenery.pieces().size(), no_piece), has_previous_(next_.size(), false) {
-    PieceIndex piece = 0;
-    while (piece < scenery.pieces().size()) piece = add_collider(piece);
+  /// @param pieces one-way ones, ascending: all of each collider.
+  Joints(const Scenery& scenery, std::span<const PieceIndex> pieces) {
+    ColliderIndex last = no_collider;
+    for (const PieceIndex piece : pieces) {
+      const ColliderIndex collider = scenery.pieces()[piece].collider;
+      if (collider != last) add_collider(scenery.as_run(collider), piece);
+      last = collider;
+    }
     join_ends();
   }
 
-  [[nodiscard]] PieceIndex next(PieceIndex piece) const noexcept { return next_[piece]; }
-  [[nodiscard]] bool begins(PieceIndex piece) const noexcept { return !has_previous_[piece]; }
+  [[nodiscard]] std::optional<PieceIndex> next(PieceIndex piece) const {
+    const auto known = next_.find(piece);
+    return known == next_.end() ? std::nullopt : std::optional(known->second);
+  }
+  [[nodiscard]] bool begins(PieceIndex piece) const { return !has_previous_.contains(piece); }
 
  private:
   void join(PieceIndex before, PieceIndex after) {
     next_[before] = after;
-    has_previous_[after] = true;
+    has_previous_.insert(after);
   }
 
   /// The pieces of a collider are consecutive, and those of its lines are in order.
-  /// @return one past the last piece of the collider.
-  PieceIndex add_collider(PieceIndex piece) {
-    const PieceInfo& info = scenery_.pieces()[piece];
-    if (!info.one_way) return piece + 1;
-    const ColliderDef def = scenery_.as_run(info.collider);
+  void add_collider(const ColliderDef& def, PieceIndex piece) {
     for (const std::vector<Vec2d>& line : one_way_lines(def)) piece = add_line(line, def, piece);
-    return piece;
   }
 
   PieceIndex add_line(const std::vector<Vec2d>& line, const ColliderDef& def, PieceIndex piece) {
@@ -91,32 +93,53 @@ class Joints {
     }
   }
 
-  const Scenery& scenery_;
-  std::vector<PieceIndex> next_;
-  std::vector<bool> has_previous_;
+  std::unordered_map<PieceIndex, PieceIndex> next_;
+  std::unordered_set<PieceIndex> has_previous_;
   std::vector<OpenEnd> ends_;
 };
 
+FixedVector<Vec2d, CharacterShape::max_points> corners_of(const CharacterShape& shape) {
+  FixedVector<Vec2d, CharacterShape::max_points> corners;
+  for (const Vec2d& corner : shape.hull()) corners.push_back(corner);
+  return corners;
+}
+
 }  // namespace
 
-OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape) {
-  const std::span<const PieceInfo> pieces = scenery.pieces();
-  if (std::none_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; })) return;
-  for (const Vec2d& corner : shape.hull()) hull_.push_back(corner);
-  of_piece_.assign(pieces.size(), none);
-  const Joints joints(scenery);
+OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape) : hull_(corners_of(shape)) {
+  if (scenery.counts().one_way == 0) return;
+  std::vector<PieceIndex> pieces;
+  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
+    if (scenery.pieces()[piece].one_way) pieces.push_back(piece);
+  build(scenery, pieces, 0);
+}
+
+OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape, MoverIndex mover, double angle)
+    : hull_(corners_of(shape)) {
+  const PieceGrid& solids = scenery.group_of(mover).solids;
+  std::vector<PieceIndex> pieces;
+  solids.find(solids.whole(), scenery.boxes(), pieces);
+  std::erase_if(pieces, [&](PieceIndex piece) { return !scenery.pieces()[piece].one_way; });
+  std::sort(pieces.begin(), pieces.end());
+  build(scenery, pieces, angle);
+}
+
+void OneWaySurfaces::build(const Scenery& scenery, std::span<const PieceIndex> pieces, double angle) {
+  const Joints joints(scenery, pieces);
+  const geometry::Turn turn(angle);
+  const auto turned = [&](const Vec2d& v) { return angle == 0 ? v : turn(v); };
   std::vector<Vec2d> line;
-  for (PieceIndex first = 0; first < pieces.size(); ++first) {
-    if (!pieces[first].one_way || !joints.begins(first)) continue;
-    line.assign(1, scenery.vertices_of(first)[0]);
-    for (PieceIndex piece = first; piece != no_piece; piece = joints.next(piece)) {
-      const Vec2d end = scenery.vertices_of(piece)[1];
+  for (const PieceIndex first : pieces) {
+    if (!joints.begins(first)) continue;
+    line.assign(1, turned(scenery.vertices_of(first)[0]));
+    for (std::optional<PieceIndex> piece = first; piece; piece = joints.next(*piece)) {
+      const Vec2d end = turned(scenery.vertices_of(*piece)[1]);
       // Segments on the same line are one edge.
       if (line.size() > 1 && orientation_sign(line[line.size() - 2], line.back(), end) == 0) line.pop_back();
       line.push_back(end);
-      of_piece_[piece] = static_cast<Index>(surfaces_.size());
+      of_piece_[*piece] = static_cast<Index>(surfaces_.size());
     }
-    add_surface(line, *scenery.collider(pieces[first].collider).one_way);
+    add_surface(line, turned(*scenery.collider(scenery.pieces()[first].collider).one_way));
   }
 }
 

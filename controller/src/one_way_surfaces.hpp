@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace paperproof {
@@ -23,10 +24,16 @@ class OneWaySurfaces {
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
 
+  /// Those at angle zero.
   OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape);
+  /// Those of one mover, at an angle. Their `one_way` turns with them.
+  OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape, MoverIndex mover, double angle);
 
   /// The surface that a piece is part of; `none` for a piece that blocks from both sides.
-  [[nodiscard]] Index of(PieceIndex piece) const noexcept { return of_piece_.empty() ? none : of_piece_[piece]; }
+  [[nodiscard]] Index of(PieceIndex piece) const noexcept {
+    const auto known = of_piece_.find(piece);
+    return known == of_piece_.end() ? none : known->second;
+  }
   /// A surface that is one straight line.
   [[nodiscard]] bool is_straight(Index surface) const noexcept { return surfaces_[surface].edge_count == 1; }
 
@@ -68,6 +75,7 @@ class OneWaySurfaces {
     double offset;  ///< Of `normal · position` where the octagon touches the line of the edge [m].
   };
 
+  void build(const Scenery& scenery, std::span<const PieceIndex> pieces, double angle);
   [[nodiscard]] std::uint32_t find_frame(const Vec2d& one_way);
   void add_surface(std::span<const Vec2d> line, const Vec2d& one_way);
   template <class Visit>
@@ -81,7 +89,7 @@ class OneWaySurfaces {
   std::vector<Frame> frames_;
   std::vector<Surface> surfaces_;
   std::vector<Edge> edges_;
-  std::vector<Index> of_piece_;
+  std::unordered_map<PieceIndex, Index> of_piece_;
 };
 
 /// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference (D. E.

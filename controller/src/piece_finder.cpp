@@ -1,6 +1,7 @@
 #include "piece_finder.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace paperproof {
 namespace {
@@ -33,6 +34,20 @@ void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex
   }
 }
 
+bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const noexcept {
+  for (MoverIndex mover = 0; mover < moving.motions.size(); ++mover) {
+    const MoverMotion& motion = moving.motions[mover];
+    const Box2 seen = seen_by(box, motion);
+    if (mover >= moving.mover_count()) {
+      if (seen.overlaps(scenery_->box(moving.circles[mover - moving.mover_count()]))) return true;
+    } else if (motion.to_angle == 0 ? seen.overlaps(whole(mover))
+                                    : seen.overlaps(geometry::Turn(motion.to_angle)(whole(mover)))) {
+      return true;
+    }
+  }
+  return false;
+}
+
 Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
   const Vec2d first = path.front().position - motion.at(path.front().fraction);
   Box2 positions{first, first};
@@ -44,9 +59,22 @@ Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noex
 }
 
 /// Appends those that are there, by the names that their user has for them.
-void Nearby::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const noexcept {
-  const auto before = static_cast<std::ptrdiff_t>(found.size());
-  finder_.find(mover, box, found);
+/// @param box as the mover sees it, apart from its angle.
+void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const noexcept {
+  const std::size_t first = found.size();
+  finder_.find(mover, angle == 0 ? box : geometry::Turn(-angle)(box), found);
+  const auto goes_by_itself = [&](PieceIndex piece) {
+    return std::find(moving_->circles.begin(), moving_->circles.end(), piece) != moving_->circles.end();
+  };
+  if (mover != no_mover && moving_ != nullptr && !moving_->circles.empty()) [[unlikely]]
+    found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), goes_by_itself),
+                found.end());
+  name(first, mover, angle, found);
+}
+
+/// Leaves out what is not there, sorts the rest, and names it.
+void Nearby::name(std::size_t first, MoverIndex mover, double angle, std::vector<PieceIndex>& found) const noexcept {
+  const auto before = static_cast<std::ptrdiff_t>(first);
   if (filter_ != nullptr) {
     const Scenery& scenery = finder_.scenery();
     const auto is_absent = [&](PieceIndex piece) { return !(*filter_)(scenery, scenery.pieces()[piece].collider); };
@@ -54,7 +82,7 @@ void Nearby::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& fo
   }
   std::sort(found.begin() + before, found.end(),
             [&](PieceIndex a, PieceIndex b) { return finder_.scenery().comes_before(a, b); });
-  if (user_ != nullptr) user_->prepare({found.begin() + before, found.end()});
+  if (user_ != nullptr) user_->prepare({found.begin() + before, found.end()}, mover, angle);
 }
 
 void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
@@ -66,7 +94,7 @@ void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
   known_.box =
       positions.merged({positions.lower + ahead, positions.upper + ahead}).inflated(finder_.look_ahead() * sides);
   known_.pieces.clear();
-  find(no_mover, finder_.touched_from(known_.box), known_.pieces);
+  find(no_mover, finder_.touched_from(known_.box), 0, known_.pieces);
   known_.valid = true;
 }
 
@@ -76,12 +104,31 @@ void Nearby::find_moving(const Box2& positions) noexcept {
   const Box2 touched = finder_.touched_from(known_.moving_box);
   known_.moving.clear();
   known_.of_movers.clear();
-  for (MoverIndex mover = 0; mover < movers_.size(); ++mover) {
-    const std::size_t first = known_.of_movers.size();
-    find(mover, PieceFinder::seen_by(touched, movers_[mover]), known_.of_movers);
-    if (known_.of_movers.size() > first) known_.moving.push_back({mover, first, known_.of_movers.size()});
-  }
+  for (MoverIndex mover = 0; mover < moving_->motions.size(); ++mover) add_moving(mover, touched);
+  // By their motions, so that movers that are alike give the same bits, whatever their numbers are.
+  const auto key = [&](const Candidates::OfMover& each) {
+    const MoverMotion& motion = moving_->motions[each.mover];
+    return std::tuple(motion.from.x(), motion.from.y(), motion.to.x(), motion.to.y(), motion.to_angle, each.mover);
+  };
+  std::sort(known_.moving.begin(), known_.moving.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   known_.moving_valid = true;
+}
+
+/// Appends what has a motion.
+void Nearby::add_moving(MoverIndex mover, const Box2& touched) noexcept {
+  const MoverMotion& motion = moving_->motions[mover];
+  const Box2 box = PieceFinder::seen_by(touched, motion);
+  std::vector<PieceIndex>& found = known_.of_movers;
+  const std::size_t first = found.size();
+  if (mover >= moving_->mover_count()) {
+    const PieceIndex circle = moving_->circles[mover - moving_->mover_count()];
+    if (!finder_.has(circle) || !box.overlaps(finder_.scenery().box(circle))) return;
+    found.push_back(circle);
+    name(first, mover, 0, found);
+  } else {
+    find(mover, box, motion.to_angle, found);
+  }
+  if (found.size() > first) known_.moving.push_back({mover, first, found.size()});
 }
 
 std::span<PieceIndex> Nearby::take(const Box2& positions) noexcept {
@@ -98,9 +145,9 @@ void Nearby::reserve(const Box2& positions) {
   known_.moving.reserve(finder_.scenery().mover_count());
   known_.of_movers.clear();
   for (MoverIndex mover = 0; mover < finder_.scenery().mover_count(); ++mover)
-    find(mover, finder_.whole(mover), known_.of_movers);
+    find(mover, finder_.whole(mover), 0, known_.of_movers);
   known_.pieces.clear();
-  find(no_mover, finder_.touched_from(positions.inflated(2 * finder_.look_ahead())), known_.pieces);
+  find(no_mover, finder_.touched_from(positions.inflated(2 * finder_.look_ahead())), 0, known_.pieces);
   known_.pieces.reserve(known_.pieces.size() + known_.of_movers.size());
   forget();
 }

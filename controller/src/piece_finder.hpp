@@ -6,10 +6,24 @@
 #include <paperproof/scenery.hpp>
 #include <paperproof/scratch.hpp>
 
+#include "geometry/pose.hpp"
+
 #include <span>
 #include <vector>
 
 namespace paperproof {
+
+/// What moves in a step, and how.
+struct Moving {
+  /// Of each mover of the scenery, then of each of `circles`. A mover has the angle that it has at the end.
+  std::span<const MoverMotion> motions{};
+  /// Circles of movers that have an angle: the centre of each goes straight. (It carries by the turn of its motion.)
+  std::span<const PieceIndex> circles{};
+
+  [[nodiscard]] std::size_t mover_count() const noexcept { return motions.size() - circles.size(); }
+};
+
+inline constexpr Moving nothing_moves{};
 
 /// Finds the solid pieces of a scenery, or its sensors, by positions of a character. Immutable; shareable between
 /// threads.
@@ -25,6 +39,8 @@ class PieceFinder {
   void find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const;
   /// Around all pieces of a mover at offset zero.
   [[nodiscard]] const Box2& whole(MoverIndex mover) const noexcept { return grid_of(mover).whole(); }
+  /// Whether pieces that move may come into a box during a step.
+  [[nodiscard]] bool any_comes_into(const Box2& box, const Moving& moving) const noexcept;
   /// What a box covers during a step, relative to a mover.
   [[nodiscard]] static Box2 seen_by(const Box2& box, const MoverMotion& motion) noexcept {
     return {box.lower - motion.from.cwiseMax(motion.to), box.upper - motion.from.cwiseMin(motion.to)};
@@ -34,6 +50,10 @@ class PieceFinder {
     return {positions.lower + reach_.lower, positions.upper + reach_.upper};
   }
   [[nodiscard]] const Scenery& scenery() const noexcept { return *scenery_; }
+  /// Whether it finds pieces of this kind.
+  [[nodiscard]] bool has(PieceIndex piece) const noexcept {
+    return scenery_->pieces()[piece].sensor == (kind_ == Kind::sensors);
+  }
   [[nodiscard]] PieceSearch search() const noexcept { return search_; }
   /// How far ahead of a motion candidates are collected at most [m].
   [[nodiscard]] double look_ahead() const noexcept { return look_ahead_; }
@@ -59,7 +79,8 @@ class PieceUser {
  public:
   virtual ~PieceUser() = default;
   /// Replaces the indices of pieces by these names. It may allocate.
-  virtual void prepare(std::span<PieceIndex> pieces) = 0;
+  /// @param mover index of their motion. @param angle that they have [rad].
+  virtual void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) = 0;
   /// Forgets what is not as it was.
   virtual void follow_edits() = 0;
 };
@@ -70,11 +91,11 @@ class PieceUser {
 class Nearby {
  public:
   /// @param candidates made by a finder of the same pieces and the same character.
-  /// @param movers one for each mover of the scenery, or none: movers are not looked at.
-  /// @param filter null: all colliders are there. @param user gives the pieces its names; null: they are indices.
-  Nearby(const PieceFinder& finder, Candidates& candidates, std::span<const MoverMotion> movers,
-         const ColliderFilter* filter, PieceUser* user = nullptr) noexcept
-      : finder_(finder), known_(candidates), movers_(movers), filter_(filter), user_(user) {
+  /// @param moving null: movers are not looked at. @param filter null: all colliders are there.
+  /// @param user gives the pieces its names; null: they are indices.
+  Nearby(const PieceFinder& finder, Candidates& candidates, const Moving* moving, const ColliderFilter* filter,
+         PieceUser* user = nullptr) noexcept
+      : finder_(finder), known_(candidates), moving_(moving), filter_(filter), user_(user) {
     known_.moving_valid = false;
     if (known_.edit != finder.scenery().edits().count()) [[unlikely]]
       follow_edits();
@@ -89,8 +110,8 @@ class Nearby {
     return known_.pieces;
   }
 
-  /// Calls `look(pieces, mover)` for those that stand still, and for each mover that has some, at any time of the step.
-  /// `look` may ask again for the same positions, or fewer.
+  /// Calls `look(pieces, mover)` for those that stand still, and for each motion that some have, at any time of the
+  /// step. `look` may ask again for the same positions, or fewer.
   template <class Look>
   [[gnu::always_inline]] inline void for_each_group(const Box2& positions, const Vec2d& way,
                                                     const Look& look) noexcept {
@@ -99,7 +120,7 @@ class Nearby {
   }
   template <class Look>
   [[gnu::always_inline]] inline void for_each_moving(const Box2& positions, const Look& look) noexcept {
-    if (movers_.empty()) return;
+    if (moving_ == nullptr) return;
     if (!known_.moving_valid || !known_.moving_box.contains(positions)) find_moving(positions);
     for (const Candidates::OfMover& each : known_.moving)
       look(std::span<const PieceIndex>(known_.of_movers).subspan(each.first, each.end - each.first), each.mover);
@@ -112,8 +133,8 @@ class Nearby {
   void reserve(const Box2& positions);
 
   /// From now on movers are looked at.
-  void look_at(std::span<const MoverMotion> movers) noexcept {
-    movers_ = movers;
+  void look_at(const Moving& moving) noexcept {
+    moving_ = &moving;
     known_.moving_valid = false;
   }
 
@@ -125,11 +146,13 @@ class Nearby {
   void find_moving(const Box2& positions) noexcept;
   void forget_others() noexcept;
   void follow_edits() noexcept;
-  void find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const noexcept;
+  void find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const noexcept;
+  void add_moving(MoverIndex mover, const Box2& touched) noexcept;
+  void name(std::size_t first, MoverIndex mover, double angle, std::vector<PieceIndex>& found) const noexcept;
 
   const PieceFinder& finder_;
   Candidates& known_;
-  std::span<const MoverMotion> movers_;
+  const Moving* moving_;
   const ColliderFilter* filter_;
   PieceUser* user_;
 };

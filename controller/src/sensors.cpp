@@ -17,11 +17,9 @@ using geometry::OverlapTime;
 /// grazes the corner that they share. Large: short visits are joined.
 inline constexpr double one_instant = 1e-12;
 
-/// Depth of an overlap that no rounding can hide, at the distance `furthest` from the origin [m]. Zero: a character
+/// Depth of an overlap that no rounding can hide, at the distance `far` from the origin [m]. Zero: a character
 /// that grazes a sensor would count as inside. Large: more overlaps than necessary are calculated.
-double beyond_rounding(double furthest) {
-  return Tolerances{}.look + 64 * std::numeric_limits<double>::epsilon() * furthest;
-}
+double beyond_rounding(double far) { return Tolerances{}.look + 64 * std::numeric_limits<double>::epsilon() * far; }
 
 /// Inserts in order of time, in whichever order the sensors are tested.
 void add_in_order(const SensorEvent& event, std::vector<SensorEvent>& events) {
@@ -73,10 +71,13 @@ Sensors::Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearc
     : finder_(scenery, PieceFinder::Kind::sensors, shape.box().inflated(Tolerances{}.look), search),
       outline_(shape.hull().begin(), shape.hull().end()) {}
 
-void Sensors::prepare(std::span<PieceIndex> pieces) {
+void Sensors::prepare(std::span<PieceIndex> pieces, MoverIndex, double angle) {
   for (PieceIndex& piece : pieces) {
     const auto [known, is_new] = known_.try_emplace(piece, static_cast<PieceIndex>(overlaps_.size()));
-    if (is_new) overlaps_.push_back(overlap_with(piece));
+    if (is_new)
+      overlaps_.push_back(overlap_with(piece, angle));
+    else if (overlaps_[known->second].angle != angle)
+      overlaps_[known->second] = overlap_with(piece, angle);
     piece = known->second;
   }
 }
@@ -86,17 +87,27 @@ void Sensors::follow_edits() {
   known_.clear();
 }
 
-Sensors::Overlap Sensors::overlap_with(PieceIndex piece) const {
+Sensors::Overlap Sensors::overlap_with(PieceIndex piece, double angle) const {
   const Scenery& scenery = finder_.scenery();
-  const PieceVertices vertices = scenery.vertices_of(piece);
+  const PieceInfo& info = scenery.pieces()[piece];
+  const PieceVertices given = scenery.vertices_of(piece);
+  std::vector<Vec2d> vertices(given.begin(), given.end());
+  Box2 box = scenery.box(piece);
+  if (angle != 0) {
+    vertices.clear();
+    geometry::place({given.begin(), given.end()}, {.angle = angle}, vertices);
+    box = geometry::Turn(angle)(box);
+  }
   const Box2 shape = Box2::around(outline_);
-  const Box2& box = scenery.box(piece);
-  const double furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  const double far = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   // A little larger, so that rounding here cannot hide an overlap that the separations show.
   const Box2 any = Box2{box.lower - shape.upper, box.upper - shape.lower}.inflated(Tolerances{}.look);
-  const ColliderIndex sensor = scenery.pieces()[piece].collider;
-  if (scenery.pieces()[piece].is_circle()) return {sensor, piece, any, nowhere(), {}};
-  return {sensor, piece, any, geometry::deep_overlap(outline_, vertices, beyond_rounding(furthest)),
+  if (info.is_circle()) return {info.collider, angle, {vertices[0], scenery.circle(piece).radius}, any, nowhere(), {}};
+  return {info.collider,
+          angle,
+          {},
+          any,
+          geometry::deep_overlap(outline_, vertices, beyond_rounding(far)),
           geometry::separating_axes(outline_, vertices)};
 }
 
@@ -110,9 +121,9 @@ Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& be
   return segment;
 }
 
-void Sensors::observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Events& events,
+void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
                       const ColliderFilter* filter) noexcept {
-  Nearby near(finder_, near_, movers, filter, this);
+  Nearby near(finder_, near_, &moving, filter, this);
   if (!near_.valid) quiet_ = nowhere();
   const Box2 positions = box_around(path, {});
   const bool may_change = positions.lower != positions.upper && !is_quiet(positions);
@@ -121,7 +132,7 @@ void Sensors::observe(std::span<const PathPoint> path, std::span<const MoverMoti
     quiet_ = observe(standing, path, {}, near_.box, events);
   }
   near.for_each_moving(positions, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    observe(pieces, path, movers[mover], {}, events);
+    observe(pieces, path, moving.motions[mover], {}, events);
   });
 }
 
@@ -145,6 +156,33 @@ Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoin
     }
   }
   return all_quiet ? quiet : nowhere();
+}
+
+OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const noexcept {
+  const Overlap& overlap = overlaps_[piece];
+  if (!overlap.any.overlaps(segment.positions)) return {.begin = OverlapTime::after, .end = OverlapTime::before};
+  if (overlap.axes.empty()) return geometry::overlap_time(outline_, overlap.circle, segment.from, segment.to);
+  return geometry::overlap_time(overlap.axes, segment.from, segment.to);
+}
+
+std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const ColliderFilter* filter,
+                            std::span<ColliderIndex> found) noexcept {
+  std::size_t count = 0;
+  ColliderIndex last = no_collider;
+  Nearby near(finder_, near_, &moving, filter, this);
+  if (!near_.valid) quiet_ = nowhere();
+  near.for_each_group({position, position}, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const MoverMotion motion = mover == no_mover ? MoverMotion{} : moving.motions[mover];
+    const Segment here = seen_by(motion, {position, 0}, {position, 0});
+    for (const PieceIndex piece : pieces) {
+      const ColliderIndex sensor = overlaps_[piece].sensor;
+      if (sensor == last || !stay_in(piece, here).any()) continue;
+      last = sensor;
+      if (count < found.size()) found[count] = sensor;
+      ++count;
+    }
+  });
+  return count;
 }
 
 bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept {
@@ -171,14 +209,8 @@ void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, 
   // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)
     if (overlaps_[piece].well_inside.contains(segment.positions)) return;
-  const auto stay_in = [&](PieceIndex piece) -> OverlapTime {
-    const Overlap& overlap = overlaps_[piece];
-    if (!overlap.any.overlaps(segment.positions)) return {.begin = OverlapTime::after, .end = OverlapTime::before};
-    if (overlap.axes.empty())
-      return geometry::overlap_time(outline_, finder_.scenery().circle(overlap.piece), segment.from, segment.to);
-    return geometry::overlap_time(overlap.axes, segment.from, segment.to);
-  };
-  const Stays<decltype(stay_in)> stays(pieces, stay_in);
+  const auto stay_in_piece = [&](PieceIndex piece) { return stay_in(piece, segment); };
+  const Stays<decltype(stay_in_piece)> stays(pieces, stay_in_piece);
   for (OverlapTime stay = stays.after(OverlapTime::before - 1); stay.any(); stay = stays.after(stay.end)) {
     if (stay.begin != OverlapTime::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
     if (stay.end == OverlapTime::after) return;

@@ -29,16 +29,20 @@ class Sensors final : public OwnMemory, private PieceUser {
   Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search = PieceSearch::grid);
 
   /// Makes ready all sensors around positions in a box.
-  void reserve(const Box2& positions) { Nearby(finder_, near_, {}, nullptr, this).reserve(positions); }
+  void reserve(const Box2& positions) { Nearby(finder_, near_, nullptr, nullptr, this).reserve(positions); }
 
   /// Every event on the way, in order of time (ties: the lower sensor first).
   ///
   /// A fraction is exact but for a few ulp of the distance over the length of the segment; regions of one sensor that
   /// are left and entered within 1e-12 (`float`: 1e-5) of a segment count as one.
   /// @param path straight between its corners, fractions ascending.
-  /// @param movers one for each mover of the scenery. @param filter null: all sensors are there.
-  void observe(std::span<const PathPoint> path, std::span<const MoverMotion> movers, Events& events,
+  /// @param filter null: all sensors are there.
+  void observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
                const ColliderFilter* filter = nullptr) noexcept;
+  /// The sensors that the character is in at a position, when the motions begin: as events say it.
+  /// @param found as many of them as it has room for. @return how many they are.
+  [[nodiscard]] std::size_t around(const Vec2d& position, const Moving& moving, const ColliderFilter* filter,
+                                   std::span<ColliderIndex> found) noexcept;
   /// Whether it is known from the steps before that nothing happens between the character and any sensor that stands
   /// still, while it goes among positions in a box.
   [[nodiscard]] bool is_quiet(const Box2& positions) const noexcept { return quiet_.contains(positions); }
@@ -69,18 +73,20 @@ class Sensors final : public OwnMemory, private PieceUser {
   /// Returns false if this may change on the way.
   [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
 
-  void prepare(std::span<PieceIndex> pieces) override;
+  void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) override;
+  [[nodiscard]] geometry::OverlapTime stay_in(PieceIndex piece, const Segment& segment) const noexcept;
   void follow_edits() override;
 
   /// How a sensor's piece and the character overlap.
   struct Overlap {
     ColliderIndex sensor;
-    PieceIndex piece;
+    double angle;      ///< Of its mover [rad].
+    Circle circle;     ///< With a radius, if it is one.
     Box2 any;          ///< Positions at which they may overlap; at all others they do not [m].
     Box2 well_inside;  ///< Positions at which they certainly overlap [m]. Of a circle none are known.
     std::vector<geometry::SeparatingAxis> axes;  ///< None for a circle.
   };
-  [[nodiscard]] Overlap overlap_with(PieceIndex piece) const;
+  [[nodiscard]] Overlap overlap_with(PieceIndex piece, double angle) const;
 
   static Box2 nowhere() noexcept { return {Vec2d::Constant(1), Vec2d::Constant(-1)}; }
 

@@ -33,11 +33,21 @@ class FiniteCheck {
 }
 
 /// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that
-/// they carry.
+/// they carry. One that has an angle stays within 1e6: what is proved of its vertices allows for rounding there.
 [[nodiscard]] inline bool finite(std::span<const MoverMotion> movers, double dt) noexcept {
-  return std::all_of(movers.begin(), movers.end(), [dt](const MoverMotion& mover) {
-    return in_range(mover.from) && in_range(mover.to) && FiniteCheck().add((mover.to - mover.from) / dt).passed();
+  const auto may_have_angle = [](const MoverMotion& mover) {
+    const double furthest = std::max({std::abs(mover.from_angle), std::abs(mover.to_angle),
+                                      mover.from.cwiseAbs().maxCoeff(), mover.to.cwiseAbs().maxCoeff()});
+    return furthest <= 1e6 && !std::isnan(mover.from_angle) && !std::isnan(mover.to_angle);
+  };
+  return std::all_of(movers.begin(), movers.end(), [&](const MoverMotion& mover) {
+    return in_range(mover.from) && in_range(mover.to) && FiniteCheck().add((mover.to - mover.from) / dt).passed() &&
+           (!mover.has_angle() || may_have_angle(mover));
   });
+}
+
+[[nodiscard]] inline bool any_angle(std::span<const MoverMotion> movers) noexcept {
+  return std::any_of(movers.begin(), movers.end(), [](const MoverMotion& mover) { return mover.has_angle(); });
 }
 
 /// Whether a step can begin with these numbers.

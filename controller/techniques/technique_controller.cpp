@@ -38,7 +38,7 @@ struct TechniqueController::Driver {
         technique(std::move(how)),
         solids(where, PieceFinder::Kind::solids, who.shape.box().inflated(Tolerances{}.look), search),
         surfaces(where, who.shape),
-        one_way(where, who.shape) {
+        one_way(who.shape) {
     character.validate();
     if (has_filters(scenery))
       throw std::invalid_argument("the technique " + std::string(technique->name()) +
@@ -54,7 +54,7 @@ struct TechniqueController::Driver {
   [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
                              const StepContext& context) const noexcept {
     return is_upright(context.up) && context.filter == nullptr && context.dt > 0 &&
-           context.movers.size() == scenery.mover_count() &&
+           context.movers.size() == scenery.mover_count() && !any_angle(context.movers) &&
            finite(state, input, context.gravity, context.dt, context.movers);
   }
 
@@ -89,14 +89,24 @@ struct TechniqueController::Driver {
     return touches(tried, move < 0 ? Side::left : Side::right);
   }
 
+  void find_passed(std::span<const PathPoint> path, const StepContext& context, OneWayChains::Passed& passed) const {
+    const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
+      const PieceInfo& info = scenery.pieces()[piece];
+      if (!info.one_way) return std::nullopt;
+      const PieceVertices ends = scenery.vertices_of(piece);
+      return OneWaySegment{info.collider, {ends[0], ends[1]}, &surfaces, surfaces.of(piece)};
+    };
+    Candidates near;
+    const Moving moving{context.movers};
+    one_way.find_passed(path, context.movers, {solids, near, &moving, nullptr}, segment_of, passed);
+  }
+
   /// After the move has filled `report.move`.
   void end(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
            StepReport& report) const noexcept {
     const std::span<const PathPoint> path = report.move.path;
-    static_cast<Sensors&>(*scratch.sensors).observe(path, context.movers, report.sensors);
-    if (drop)
-      one_way.find_passed(path, context.movers, {solids, scratch.one_way, context.movers, nullptr}, surfaces,
-                          report.dropped_through);
+    static_cast<Sensors&>(*scratch.sensors).observe(path, {context.movers}, report.sensors);
+    if (drop) find_passed(path, context, report.dropped_through);
     adopt(character, context.up, report.move, state);
   }
 };

@@ -5,8 +5,8 @@
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
+#include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
-#include <paperproof/level.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/techniques.hpp>
 
@@ -205,13 +205,11 @@ OtherWay edited_level(const RandomRun& run, Random& random, OtherWay other) {
     if (is_moved) level->replace(id, def);
     other.saying.colliders[i] = id;
   }
-  const auto controller = std::make_shared<LevelController>(*level, other.saying.of(run.scene.character));
-  const auto poses = std::make_shared<std::vector<PoseMotion>>();
-  other.step = [level, controller, poses](CharacterState& state, const Input& input, const StepContext& context,
-                                          StepReport& report) {
-    poses->clear();
-    for (const MoverMotion& motion : context.movers) poses->push_back({{motion.from, 0}, {motion.to, 0}});
-    controller->step(state, input, {context.gravity, context.dt, *poses, nullptr, context.up}, report);
+  const auto controller = std::make_shared<Controller>(*level, other.saying.of(run.scene.character));
+  const auto scratch = std::make_shared<Scratch>(controller->make_scratch());
+  other.step = [level, controller, scratch](CharacterState& state, const Input& input, const StepContext& context,
+                                            StepReport& report) {
+    controller->step(state, input, context, *scratch, report);
   };
   return other;
 }

@@ -157,6 +157,38 @@ TEST(Hero, falls_in_the_frame_in_which_its_tile_is_destroyed) {
   }
 }
 
+/// A ledge has its top where the world's is, however its body is turned.
+TEST(Hero, jumps_up_through_a_ledge_at_any_angle_and_lands_on_it) {
+  constexpr float right_angle = b2_pi / 2;
+  for (const float angle : {0.0F, right_angle, 2 * right_angle, -right_angle, 0.2F}) {
+    for (const bool turns : {false, true}) {
+      const b2Fixture* ledge = nullptr;
+      HeroDef def{.position = {0, 0.6}};
+      def.character.jump_speed = 8;
+      def.surface_of = [&](const b2Fixture& fixture) -> Surface {
+        return {.blocks = &fixture == ledge ? Blocking::from_above : Blocking::from_everywhere};
+      };
+      Game game(def);
+      game.floor();
+      const bool upright = std::abs(std::cos(angle)) < 0.5F;
+      b2Fixture& fixture = game.box(b2_kinematicBody, {0, 2}, upright ? 0.1F : 3, upright ? 3 : 0.1F);
+      ledge = &fixture;
+      fixture.GetBody()->SetTransform({0, 2}, angle);
+      if (turns) fixture.GetBody()->SetAngularVelocity(0.01F);
+      game.run(30);
+      ASSERT_TRUE(game.hero.grounded());
+      double highest = 0;
+      for (int i = 0; i < 200; ++i) {
+        game.go({.move = 0.0, .jump = i < 40});
+        highest = std::max(highest, game.feet());
+      }
+      EXPECT_GT(highest, 2.5) << angle;
+      EXPECT_EQ(game.hero.ground(), ledge) << angle;
+      EXPECT_NEAR(game.feet(), 2.1, 0.1) << angle;
+    }
+  }
+}
+
 TEST(Hero, takes_a_coin_however_fast_it_is) {
   Game game({.position = {0, 30}});
   b2Fixture& coin = game.circle(b2_staticBody, {0, 10}, 0.25F);

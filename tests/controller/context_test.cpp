@@ -152,13 +152,16 @@ TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   const Controller& controller = asked.sweep();
   Scratch own = controller.make_scratch();
   Scratch foreign = Stepper({ground}).scratch;
-  const std::vector<MoverMotion> one(1);  // but the scenery has no mover
+  ColliderDef moving = ground;
+  moving.mover = 0;
+  const Stepper with_mover({moving});
+  Scratch of_other = with_mover.sweep().make_scratch();
   EXPECT_TRUE(controller.cast({0, 2}, {0, -5}, {}, own));
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5}, {}, foreign));
   EXPECT_FALSE(controller.cast({0, std::numeric_limits<double>::infinity()}, {0, -5}, {}, own));
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5e6}, {}, own));
-  EXPECT_FALSE(controller.cast({0, 2}, {0, -5}, {.movers = one}, own));
-  EXPECT_FALSE(controller.overlaps({0, 0}, {.movers = one}, own));
+  EXPECT_FALSE(with_mover.sweep().cast({0, 2}, {0, -5}, {}, of_other));
+  EXPECT_FALSE(with_mover.sweep().overlaps({0, 0}, {}, of_other));
   EXPECT_FALSE(controller.overlaps({0, nan}, {}, own));
   EXPECT_FALSE(controller.nearest({0, 2}, 1, {}, own)) << "nothing is that near";
   EXPECT_NEAR(controller.nearest({0, 2}, 2, {}, own)->separation, 2 - half_height, 1e-12);

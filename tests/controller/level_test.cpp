@@ -1,12 +1,12 @@
 /// A level that changes between steps, against scenery that is built at once; and movers that turn. Who stands on them
 /// or is pushed by them is in tests/situations/turning.json.
 #include "controller/played.hpp"
-#include "level/poses.hpp"
-#include "level/turn.hpp"
+#include "geometry/pose.hpp"
 #include "support/allocations.hpp"
 #include "support/random_runs.hpp"
 #include "support/same_bits.hpp"
 #include "support/steps_wanted.hpp"
+#include "turning/proof.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,12 +72,12 @@ TEST(LevelEdits, what_is_refused_changes_nothing) {
 TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
   Played played({{box(0, 0, 1, 1, 1)}});
   const auto step = [&](double dt) {
-    return played.controller.step(played.state, {}, {{0, -30}, dt, played.movers}, played.report);
+    return played.controller.step(played.state, {}, {{0, -30}, dt, played.movers}, played.scratch, played.report);
   };
   played.movers.resize(1);
   EXPECT_EQ(step(frame), StepStatus::invalid_input);
   played.movers.resize(2);
-  played.movers[1].to.angle = std::nan("");
+  played.movers[1].to_angle = std::nan("");
   EXPECT_EQ(step(frame), StepStatus::invalid_input);
   played.movers[1] = {};
   EXPECT_EQ(step(-frame), StepStatus::invalid_input);
@@ -261,7 +261,7 @@ TEST(LevelEdits, a_rider_stays_on_what_is_replaced_and_falls_in_the_step_in_whic
     played.step_by({0.05, 0.02});
     ASSERT_TRUE(i <= 30 || played.state.ride.ground == 0) << i;
   }
-  EXPECT_NEAR(played.state.position.x(), played.movers[0].to.position.x(), 0.2);
+  EXPECT_NEAR(played.state.position.x(), played.movers[0].to.x(), 0.2);
   const Vec2d before = played.state.position;
   played.level.remove(0);
   played.level.add(box(-2, -100, 2, -99, 0));  // takes the slot
@@ -274,15 +274,15 @@ TEST(LevelEdits, a_rider_stays_on_what_is_replaced_and_falls_in_the_step_in_whic
 // What turns.
 
 /// Turns a mover evenly.
-PoseMotion turning(const Vec2d& position, double speed, int step) {
-  return {{position, speed * step * frame}, {position, speed * (step + 1) * frame}};
+MoverMotion turning(const Vec2d& position, double speed, int step) {
+  return {position, position, speed * step * frame, speed * (step + 1) * frame};
 }
 
 /// Of a mover that turns evenly: the place about which, and how fast [rad/s].
 using Spin = std::pair<Vec2d, double>;
 
-std::vector<PoseMotion> in_step(const std::vector<Spin>& spins, int step) {
-  std::vector<PoseMotion> motions;
+std::vector<MoverMotion> in_step(const std::vector<Spin>& spins, int step) {
+  std::vector<MoverMotion> motions;
   for (const auto& [middle, speed] : spins) motions.push_back(turning(middle, speed, step));
   return motions;
 }
@@ -335,11 +335,13 @@ TEST(SensorsThatTurn, report_each_visit_and_are_known_at_the_end_of_each_step) {
         events_at_rest += before == played.state.position;
       }
       // As a character that is put there without knowing anything would find it.
-      std::vector<PoseMotion> there = played.movers;
-      for (PoseMotion& motion : there) motion.from = motion.to;
+      std::vector<MoverMotion> there = played.movers;
+      for (MoverMotion& motion : there) motion = {motion.to, motion.to, motion.to_angle, motion.to_angle};
       for (std::size_t i = 0; i < alone.size(); ++i) {
         const Level solid(alone[i]);
-        const std::size_t count = *LevelController(solid, {}).overlaps(played.state.position, {{0, 0}, frame, there});
+        const Controller other(solid, {});
+        Scratch scratch = other.make_scratch();
+        const std::size_t count = *other.overlaps(played.state.position, {{0, 0}, frame, there}, scratch);
         ASSERT_EQ(count > 0, inside.contains(static_cast<ColliderIndex>(room.colliders.size() + i)));
       }
     }
@@ -367,7 +369,7 @@ TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   Played played({{box(-3, -0.1, 3, 0.1, 0)}}, {999'999, 0.8});
   played.state.velocity = {1e9, 0};
   const CharacterState before = played.state;
-  played.movers = {{{{999'999, 0}, 0}, {{999'999, 0}, 0.01}}};
+  played.movers = {{{999'999, 0}, {999'999, 0}, 0, 0.01}};
   EXPECT_EQ(played.step(), StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
   const MoveResult& move = played.report.move;
@@ -376,7 +378,7 @@ TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   EXPECT_EQ(move.path.back().position, before.position);
   EXPECT_EQ(move.position, before.position);
   for (const double x : {1e12, std::nan("")})
-    EXPECT_EQ(played.controller.overlaps({x, 0}, {{0, 0}, frame, played.movers}), std::nullopt);
+    EXPECT_EQ(played.controller.overlaps({x, 0}, played.context(), played.scratch), std::nullopt);
 }
 
 /// See-saws, lifts that tilt and swings, up to 5 radians a second.
@@ -396,10 +398,11 @@ TEST(LevelTurning, a_one_way_plank_keeps_who_stands_on_it_and_who_jumps) {
     const bool jumps = random.chance(0.5);
     for (int step = 0; step < 400; ++step) {
       const double share = std::sin(pace * std::max(0, step - 29) * frame);
-      const Pose pose{reach * share, swing * share};
-      played.movers[0] = {played.movers[0].to, pose};
+      const Vec2d offset = reach * share;
+      const double angle = swing * share;
+      played.movers[0] = {played.movers[0].to, offset, played.movers[0].to_angle, angle};
       played.step({.jump = jumps && step > 30 && step % 40 < 20});
-      const Vec2d from_above = level::rotated(Vec2d(played.state.position - pose.position), -pose.angle);
+      const Vec2d from_above = geometry::Turn(-angle)(Vec2d(played.state.position - offset));
       if (std::abs(from_above.x()) > 1.6) break;  // it went over the end
       ASSERT_GT(from_above.y(), 0.1) << "run " << run << ", step " << step;
       (played.state.grounded ? grounded : in_the_air) += 1;
@@ -412,10 +415,10 @@ TEST(LevelTurning, a_one_way_plank_keeps_who_stands_on_it_and_who_jumps) {
 /// A press comes down on the character, which stands on the floor.
 TEST(LevelTurning, what_crushed_and_stands_now_is_a_solid_to_leave) {
   Played played({{box(-2, -1, 2, 0), box(-3, -1, -2, 5), box(2, -1, 3, 5), box(-2, 0, 2, 1, 0), box(0, 3, 3, 3.1, 1)}});
-  std::vector<PoseMotion>& movers = played.movers;
-  movers[0].to.position = {0, 1.5};
+  std::vector<MoverMotion>& movers = played.movers;
+  movers[0].to = {0, 1.5};
   for (int i = 0; i < 60; ++i) {
-    movers[0] = {movers[0].to, {{0, std::max(0.5, 1.5 - 0.5 * i)}, 0}};
+    movers[0] = {movers[0].to, {0, std::max(0.5, 1.5 - 0.5 * i)}};
     movers[1] = turning({0, 0}, 1.0, i);
     played.step();
   }
@@ -424,8 +427,10 @@ TEST(LevelTurning, what_crushed_and_stands_now_is_a_solid_to_leave) {
   movers[1] = turning({0, 0}, 1.0, 60);
   const StepStatus status = played.step();
   movers[1].from = movers[1].to;
-  const LevelContext context{played.gravity, frame, movers};
-  EXPECT_EQ(played.controller.overlaps(played.state.position, context) == 0U, status == StepStatus::moved);
+  movers[1].from_angle = movers[1].to_angle;
+  const std::optional<std::size_t> count =
+      played.controller.overlaps(played.state.position, played.context(), played.scratch);
+  EXPECT_EQ(count == 0U, status == StepStatus::moved);
 }
 
 TEST(LevelTurning, a_step_depends_on_its_state_alone) {
@@ -440,19 +445,21 @@ TEST(LevelTurning, a_step_depends_on_its_state_alone) {
       spins.push_back({Vec2d{random.between(-5, 5), random.between(0.5, 4)}, random.between(-4, 4)});
     }
     Played played(def, {random.between(-5, 5), 6});
+    played.scratch.notes_turned = true;
     Input input;
     for (int i = 0; i < 120; ++i) {
       if (i % 20 == 0) input = random_input(random);
       played.movers = in_step(spins, i);
-      const LevelContext context{played.gravity, frame, played.movers};
       CharacterState other = played.state;
       StepReport report;
-      LevelController(played.level, {}).step(other, input, context, report);
-      static_cast<void>(played.controller.overlaps({random.between(-8, 8), 3}, context));
+      Scratch fresh = played.controller.make_scratch();
+      played.controller.step(other, input, played.context(), fresh, report);
+      const Vec2d elsewhere{random.between(-8, 8), 3};
+      static_cast<void>(played.controller.overlaps(elsewhere, played.context(), played.scratch));
       played.step(input);
       ASSERT_EQ(played.state, other) << "seed " << seed << ", step " << i;
       ASSERT_EQ(played.report.move.path.size(), report.move.path.size()) << "seed " << seed << ", step " << i;
-      pushed += !played.controller.turned().empty();
+      pushed += !Controller::turned(played.scratch).empty();
     }
   }
   EXPECT_GE(pushed, 300);
@@ -465,9 +472,9 @@ TEST(LevelTurning, what_the_filter_leaves_out_changes_nothing) {
   Played without({{box(-10, -1, 10, 0)}});
   const ColliderFilter filter{Filter{.mask = 1}};
   for (int i = 0; i < 120; ++i) {
-    const PoseMotion motion = turning({0, 0}, 6, i);
+    const MoverMotion motion = turning({0, 0}, 6, i);
     const Input input{.move = 0.1, .jump = i % 40 > 30};
-    with.controller.step(with.state, input, {with.gravity, frame, {&motion, 1}, &filter}, with.report);
+    with.controller.step(with.state, input, {with.gravity, frame, {&motion, 1}, &filter}, with.scratch, with.report);
     without.step(input);
     ASSERT_EQ(with.state, without.state) << i;
   }
@@ -481,7 +488,7 @@ TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_grou
   played.steps(30);
   ASSERT_GT(played.state.ground.collider, 10'000U);
   const CharacterState before = played.state;
-  EXPECT_EQ(played.controller.move(played.state, {3e6, 0}, {played.gravity, frame}, played.report),
+  EXPECT_EQ(played.controller.move(played.state, {3e6, 0}, played.context(), played.scratch, played.report),
             StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
 }
@@ -493,40 +500,15 @@ TEST(LevelStep, reads_no_ground_of_a_state_that_stands_on_none) {
   EXPECT_EQ(played.step(), StepStatus::moved);
 }
 
-TEST(LocalControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
-  LocalController controller({});
-  const ColliderDef wall = box(-1, -1, 1, 1);
-  const auto wait = [&](MoverIndex mover, const Vec2d& from) {
-    const auto find = [&](const Box2&, std::vector<NearCollider>& found) {
-      found.push_back({.id = 0, .version = 1, .def = &wall, .mover = mover, .motion = {{from}, {}}});
-    };
-    CharacterState state;
-    StepReport report;
-    return controller.wait(state, {.dt = frame}, find, report);
+TEST(ControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
+  const auto wait = [](MoverIndex mover, const Vec2d& from) {
+    Played played({{box(-1, -1, 1, 1, mover)}}, {0, 0});
+    for (MoverMotion& motion : played.movers) motion.from = from;
+    return played.controller.wait(played.state, played.context(), played.scratch, played.report);
   };
   EXPECT_EQ(wait(no_mover, {0, 0}), StepStatus::stuck);
   EXPECT_EQ(wait(0, {0, 9}), StepStatus::crushed);
   EXPECT_EQ(wait(0, {0, 0}), StepStatus::stuck);
-}
-
-/// A collider that no scenery can be made of made scenery anew in every step.
-TEST(LocalControllerStep, costs_the_same_beside_a_mover_that_is_unusable) {
-  LocalController controller({});
-  const ColliderDef floor = box(-5, -1, 5, 0);
-  const ColliderDef nothing{.shape = ColliderDef::Shape::chain, .points = {{1, 1}, {1, 1}}};
-  const auto find = [&](const Box2&, std::vector<NearCollider>& found) {
-    found.push_back({.id = 0, .version = 1, .def = &floor, .mover = no_mover, .motion = {}});
-    found.push_back({.id = 1, .version = 1, .def = &nothing, .mover = 0, .motion = {}});
-  };
-  CharacterState state;
-  state.position = {0, 0.63};
-  StepReport report;
-  const auto step = [&] { controller.step(state, {.move = 0.0}, {.gravity = {0, -20}, .dt = frame}, find, report); };
-  for (int i = 0; i < 30; ++i) step();
-  ASSERT_EQ(controller.unusable().size(), 1U);
-  const std::size_t before = tests::allocations();
-  for (int i = 0; i < 10; ++i) step();
-  EXPECT_EQ(tests::allocations(), before);
 }
 
 TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
@@ -544,8 +526,8 @@ TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
 
 // The proof.
 
-using level::PieceWay;
-using level::stay_apart;
+using turning::PieceWay;
+using turning::stay_apart;
 
 const std::vector<Vec2d> unit_box{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
 
@@ -555,7 +537,7 @@ std::vector<Vec2d> shifted(std::vector<Vec2d> points, const Vec2d& by) {
 }
 
 std::vector<Vec2d> rotated(std::vector<Vec2d> points, double angle) {
-  for (Vec2d& point : points) point = level::rotated(point, angle);
+  for (Vec2d& point : points) point = geometry::Turn(angle)(point);
   return points;
 }
 
@@ -569,7 +551,7 @@ TEST(ProofOfTurns, knows_ways_that_pass_and_ways_that_meet) {
   // A paper turns past a corner: it ends 1 mm before the corner, or 1 mm behind it.
   const std::vector<Vec2d> paper{{0, 0}, {2, 0}};
   for (const double gap : {1e-3, -1e-3}) {
-    const Vec2d corner = level::rotated(Vec2d(1, gap), 0.2);
+    const Vec2d corner = geometry::Turn(0.2)(Vec2d(1, gap));
     const Vec2d at = corner + Vec2d(-0.5, 0.5);  // it is the lower right corner of the box
     EXPECT_EQ(stay_apart({unit_box, at, at}, {paper, rotated(paper, 0.2)}, 1e-9), gap > 0) << gap;
   }

@@ -69,7 +69,7 @@ using Seen = Sensors::Events;
 
 Seen seen_by(Sensors& sensors, const Path& path, const Motions& motions) {
   Seen events;
-  sensors.observe(path, motions, events);
+  sensors.observe(path, {motions}, events);
   return events;
 }
 

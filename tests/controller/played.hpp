@@ -3,7 +3,7 @@
 
 #include "campaign/shapes.hpp"
 
-#include <paperproof/level.hpp>
+#include <paperproof/controller.hpp>
 
 #include <vector>
 
@@ -16,22 +16,24 @@ struct Played {
     state.position = position;
   }
 
-  StepStatus step(const Input& input = {}) { return controller.step(state, input, {gravity, frame, movers}, report); }
+  StepStatus step(const Input& input = {}) { return controller.step(state, input, context(), scratch, report); }
+  [[nodiscard]] StepContext context() const { return {gravity, frame, movers}; }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
   }
   /// Every mover goes on from where it is.
   StepStatus step_by(const Vec2d& way, double turn = 0, const Input& input = {}) {
-    for (PoseMotion& mover : movers) mover = {mover.to, {mover.to.position + way, mover.to.angle + turn}};
+    for (MoverMotion& mover : movers) mover = {mover.to, mover.to + way, mover.to_angle, mover.to_angle + turn};
     return step(input);
   }
 
   Level level;
-  LevelController controller{level, {}};
+  Controller controller{level, {}};
+  Scratch scratch = controller.make_scratch();
   CharacterState state;
   StepReport report;
   Vec2d gravity{0, -30};
-  std::vector<PoseMotion> movers{level.mover_count()};  ///< How they go in the next step.
+  std::vector<MoverMotion> movers{level.mover_count()};  ///< How they go in the next step.
 };
 
 }  // namespace paperproof::test

@@ -4,7 +4,6 @@
 #include "support/random_runs.hpp"
 
 #include <paperproof/controller.hpp>
-#include <paperproof/level.hpp>
 
 #include <gtest/gtest.h>
 
@@ -82,15 +81,15 @@ TEST(SharedController, gives_each_thread_what_it_gives_one_alone) {
 }
 
 /// A lift, and planks that turn.
-std::vector<PoseMotion> poses_in(int step) {
-  const auto pose = [](MoverIndex mover, double time) -> Pose {
-    if (mover == 0) return {{0, 2 * std::sin(time)}, 0};
-    return {{8.0 * mover - 16, -9}, time * mover};
-  };
-  std::vector<PoseMotion> poses;
-  for (MoverIndex mover = 0; mover < 4; ++mover)
-    poses.push_back({pose(mover, step * dt), pose(mover, (step + 1) * dt)});
-  return poses;
+std::vector<MoverMotion> motions_in(int step) {
+  const double begin = step * dt;
+  const double end = (step + 1) * dt;
+  std::vector<MoverMotion> motions{{{0, 2 * std::sin(begin)}, {0, 2 * std::sin(end)}}};
+  for (MoverIndex mover = 1; mover < 4; ++mover) {
+    const Vec2d place{8.0 * mover - 16, -9};
+    motions.push_back({place, place, begin * mover, end * mover});
+  }
+  return motions;
 }
 
 TEST(SharedLevel, gives_each_thread_what_it_gives_one_alone) {
@@ -99,10 +98,11 @@ TEST(SharedLevel, gives_each_thread_what_it_gives_one_alone) {
   for (const ColliderDef& collider : play_level(PlayLevel::platforms, random).colliders) level.add(collider);
   for (MoverIndex mover = 0; mover < 4; ++mover) level.add(compare::box(-3, -0.1, 3, 0.1, mover));
   expect_the_same_in_threads([&] {
-    return [controller = LevelController(level, CharacterDef{}), report = StepReport()](
+    return [controller = Controller(level, CharacterDef{}), scratch = Scratch(), report = StepReport()](
                CharacterState& state, const Input& input, int step) mutable {
-      const std::vector<PoseMotion> poses = poses_in(step);
-      controller.step(state, input, {gravity, dt, poses}, report);
+      if (scratch.maker.expired()) scratch = controller.make_scratch();
+      const std::vector<MoverMotion> motions = motions_in(step);
+      controller.step(state, input, {gravity, dt, motions}, scratch, report);
     };
   });
 }

@@ -37,12 +37,44 @@ namespace octagon_sweep {
 class SweepInParts;
 struct StepRequest;
 }  // namespace octagon_sweep
+namespace turning {
+class TurningStep;
+struct Wish;
+}  // namespace turning
 class OneWayChains;
 class Crowd;
+struct Moving;
+
+/// How a collider went in a step: between two instants each vertex goes evenly on a straight line.
+struct TurnedCollider {
+  ColliderIndex collider = no_collider;
+  std::vector<double> instants;  ///< Fractions of the step, ascending from 0 to 1.
+  /// At each instant: the points of its definition, then those of its holes [m]; of a circle its centre.
+  std::vector<std::vector<Vec2d>> vertices;
+};
 
 /// Steps characters of one kind through one scenery, by `octagon_sweep`. Const and shareable between threads.
+///
+/// **What turns.** A step among movers that turn consists of 1, 2, 4, ... or 32 shorter steps, so many that nothing
+/// near the character is turned by more than `most_turned` at once. Each begins with a millionth of its time in which
+/// each mover turns by its angle about a pivot, every vertex on a straight line, while everything else stands. The
+/// pivot is the corner of the character that will be nearest to the mover, or a corner of the mover beneath it. If it
+/// comes to overlap the character, the character goes straight to the nearest free position meanwhile. Then all movers
+/// go straight to their places. So what is near the character turns under its foot, and `turned` gives every vertex at
+/// all times.
+///
+/// A circle does not turn in this sense: its centre goes straight, and its surface carries like a conveyor.
+///
+/// That the character's way is clear of what turns is proved for each step. Where no number of parts has a proof, the
+/// character goes straight to a free position, or stays in place, and what reaches it crushes it. Among movers that
+/// turn, gravity acts in each of the shorter steps; the report says what was requested as if the first of them were the
+/// whole. One-way colliders that turn are not proved.
 class Controller {
  public:
+  /// How far a point near the character goes at most where a mover turns at once [m]. Zero: many short steps. Large:
+  /// the far side of a plank is ahead of its near side.
+  static constexpr double most_turned = 0.05;
+
   /// `scenery` must outlive the controller.
   /// @throws InvalidCharacter for an impossible character, std::invalid_argument for iterations out of range.
   Controller(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep = {});
@@ -64,9 +96,22 @@ class Controller {
   StepStatus move(CharacterState& state, const Vec2d& displacement, const StepContext& context, Scratch& scratch,
                   StepReport& report) const noexcept;
 
+  /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
+  /// @return `crushed` if something reached the character, else `stuck` if something overlaps it at the end, else
+  /// `moved`.
+  StepStatus wait(CharacterState& state, const StepContext& context, Scratch& scratch, StepReport& report) const;
+
+  /// How what moves near the character went in the last step; empty where nothing near it has an angle. Only where
+  /// `Scratch::notes_turned` is set.
+  [[nodiscard]] static std::span<const TurnedCollider> turned(const Scratch& scratch) noexcept;
+
+  /// What a step can touch: only a way out of solids may lead farther.
+  [[nodiscard]] Box2 reach(const CharacterState& state, const StepContext& context) const noexcept;
+
   // Questions about the surroundings of a character of this kind. They move nothing. They read
-  // only the movers, the filter and up of the context. No question is answered with a scratch of another controller,
-  // with another number of movers than the scenery's, or about numbers that are out of range.
+  // only the movers, the filter and up of the context. Movers have the angles with which they begin. No question is
+  // answered with a scratch of another controller, with fewer movers than the scenery's, or about numbers that are out
+  // of range.
 
   /// The first contact of a straight displacement, if there is one: where the character would touch, with the exact
   /// normal and the time of impact as a fraction of the displacement. Movers move at the same time, as in a step; for
@@ -99,6 +144,12 @@ class Controller {
     return found[0];
   }
 
+  /// The sensors that the character would be in at a position, as the events of steps say it. Movers are where their
+  /// motions begin.
+  /// @param found as many of them as it has room for. @return how many they are.
+  [[nodiscard]] std::size_t sensors_at(const Vec2d& position, const StepContext& context, Scratch& scratch,
+                                       std::span<ColliderIndex> found) const noexcept;
+
   [[nodiscard]] Scratch make_scratch() const;
   /// Makes a scratch ready for positions in a box: then steps and questions there allocate nothing. Else they allocate
   /// where a piece of the scenery comes near for the first time.
@@ -108,11 +159,18 @@ class Controller {
  private:
   using StepRequest = octagon_sweep::StepRequest;
 
+  friend class turning::TurningStep;
+  /// Whether a mover has an angle; or what the state names is gone, and it must be told.
+  [[nodiscard]] bool is_divided(const CharacterState& state, const StepContext& context,
+                                const Scratch& scratch) const noexcept;
+  StepStatus step_in_parts(CharacterState& state, const turning::Wish& wish, const StepContext& context,
+                           Scratch& scratch, StepReport& report) const noexcept;
   friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
                                              const SweepDef& sweep);
   /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
   Controller(const Scenery& scenery, const CharacterDef& character,
              std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search);
+  [[nodiscard]] Moving moving_in(const StepContext& context, const Scratch& scratch) const noexcept;
   [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
                              const StepContext& context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
@@ -122,18 +180,16 @@ class Controller {
   /// @param crushers of the state as it was; must outlive the request, as `context`.
   [[nodiscard]] StepRequest request_of(const CharacterState& state, const Crushers& crushers, const Vec2d& displacement,
                                        const Vec2d& velocity, double steered, bool drop, bool jumps,
-                                       const StepContext& context) const noexcept;
+                                       const StepContext& context, const Moving& moving) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
   [[nodiscard]] StepRequest begin_step(const Crushers& crushers, const Input& input, const StepContext& context,
-                                       bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
+                                       const Moving& moving, bool wall_ahead, CharacterState& state,
+                                       StepReport& report) const noexcept;
   [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
   void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
                 StepReport& report) const noexcept;
-  [[nodiscard]] bool rides(const CharacterState& state) const noexcept {
-    return state.ride.ground != Ride::none && scenery_->has(state.ride.ground);
-  }
   /// Null: all colliders are there.
   [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const noexcept {
     static constexpr ColliderFilter usual{};
@@ -150,8 +206,9 @@ class Controller {
   /// Whether a question about a position can be answered.
   [[nodiscard]] bool can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                                 const Scratch& scratch) const noexcept;
-  [[nodiscard]] StepRequest question(const Vec2d& position, const Vec2d& displacement,
-                                     const StepContext& context) const noexcept;
+  template <class Ask>
+  [[nodiscard]] auto answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
+                            Scratch& scratch, const Ask& ask) const noexcept;
 
   const Scenery* scenery_;
   bool asks_all_;  ///< See `PieceSearch::none`.

@@ -6,8 +6,6 @@
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/filter.hpp>
-#include <paperproof/level.hpp>
-#include <paperproof/local_controller.hpp>
 #include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/saved_state.hpp>

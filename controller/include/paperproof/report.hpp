@@ -95,8 +95,8 @@ enum class StepStatus : std::uint8_t {
   crushed,       ///< See MoveStatus.
   out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
-  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
-  /// that differs from the scenery's, an up that is no unit vector, scratch memory that another controller made, a
+  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, fewer movers
+  /// than the scenery has, an up that is no unit vector, scratch memory that another controller made, a
   /// filter or an up that another technique does not read. Nothing changed at all.
   invalid_input,
 };

@@ -35,7 +35,8 @@ struct ColliderFilter : Filter {
 struct StepContext {
   Vec2d gravity{Vec2d::Zero()};  ///< [m/s²]
   double dt = 0;                 ///< Duration of the step, above zero [s].
-  /// One for each mover of the scenery, within +-2e6 m.
+  /// One for each mover of the scenery, or more; within +-2e6 m, and where they have an angle within +-1e6 m and
+  /// radians.
   std::span<const MoverMotion> movers{};
   /// The filter of the characters. If it is null, a default filter is used. A step is as if the colliders that the
   /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.

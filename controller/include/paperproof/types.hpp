@@ -16,8 +16,8 @@ namespace paperproof {
 using Vec2d = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec2f = Eigen::Matrix<float, 2, 1, Eigen::DontAlign>;
 
-/// Position of a collider in `SceneryDef::colliders`, or its id in a `Level` or of a `NearCollider`. A collider is what
-/// a user placed: one polygon, chain or circle.
+/// Position of a collider in `SceneryDef::colliders`, or its id in a `Level`. A collider is what a user placed: one
+/// polygon, chain or circle.
 using ColliderIndex = std::uint32_t;
 
 /// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.
@@ -28,17 +28,21 @@ using MoverIndex = std::uint32_t;
 inline constexpr MoverIndex no_mover = ~MoverIndex{0};
 inline constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 
-/// The motion of a mover during one step: linear, from one offset to another. Offsets are relative to the place where
-/// the mover's colliders were defined [m].
+/// The motion of a mover during one step, from one pose to another: a point v of its colliders is at
+/// offset + R(angle) v. Offset and angle change evenly.
 struct MoverMotion {
-  Vec2d from{Vec2d::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
-  Vec2d to{Vec2d::Zero()};    ///< When it ends.
+  Vec2d from{Vec2d::Zero()};  ///< Offset when the step begins: `to` of the step before, bit for bit [m].
+  Vec2d to{Vec2d::Zero()};    ///< When it ends [m].
+  double from_angle = 0;      ///< Counter-clockwise, when the step begins: `to_angle` of the step before [rad].
+  double to_angle = 0;        ///< When it ends [rad].
 
   /// The offset at a fraction of the step. It is not rounded at the end, because the next step begins there.
   [[nodiscard]] Vec2d at(double fraction) const noexcept {
     if (!(fraction < 1)) return to;
     return from + (to - from) * fraction;
   }
+  [[nodiscard]] bool has_angle() const noexcept { return from_angle != 0 || to_angle != 0; }
+  [[nodiscard]] double turn() const noexcept { return to_angle - from_angle; }
 };
 
 /// The side of the *character* that a contact is on: standing on the ground is a `bottom` contact.

@@ -53,7 +53,7 @@ inline void set_crushers(const auto& crushers, const SweepRules& rules, Characte
 /// part.
 class PathPlanner {
  public:
-  explicit PathPlanner(CrowdStep& step) noexcept : step_(step) {}
+  explicit PathPlanner(CrowdStep& step) noexcept : step_(step), moving_{step.memory.motions} {}
 
   /// Plans the path of a character from a moment on.
   /// @param at where the path begins; becomes the moment in which it ends.
@@ -168,7 +168,7 @@ class PathPlanner {
             .drop = member.drops,
             .next_dt = member.next_dt,
             .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
-            .movers = step_.memory.motions,
+            .moving = &moving_,
             .filter = step_.filter,
             .dt = duration,
             .up = step_.up,
@@ -234,6 +234,7 @@ class PathPlanner {
   }
 
   CrowdStep& step_;
+  Moving moving_;
 };
 
 }  // namespace paperproof::crowd

@@ -105,8 +105,10 @@ void ConfigurationSpace::follow_edits() {
   for (const Edit& edit : *edits) {
     for (PieceIndex piece = edit.pieces.first; piece < edit.pieces.end; ++piece) drop(piece);
     neighbours_.clear();
+    // What has an angle may be near along any direction.
+    const Vec2d near = edit.mover == no_mover ? reach() : Vec2d::Constant(reach().norm());
     if (edit.mover == no_mover || edit.mover < scenery().mover_count())
-      solids_.find(edit.mover, {edit.box.lower - reach(), edit.box.upper + reach()}, neighbours_);
+      solids_.find(edit.mover, {edit.box.lower - near, edit.box.upper + near}, neighbours_);
     for (const PieceIndex piece : neighbours_) drop(piece);
   }
 }
@@ -114,8 +116,9 @@ void ConfigurationSpace::follow_edits() {
 void ConfigurationSpace::drop(PieceIndex source) {
   PieceIndex& index = index_of_[source];
   if (index == 0) return;
-  const Obstacle& obstacle = obstacles_[index - 1];
+  Obstacle& obstacle = obstacles_[index - 1];
   free_own_.give(obstacle.first_own, obstacle.own_count);
+  obstacle.own_count = 0;
   free_obstacles_.push_back(index - 1);
   index = 0;
 }
@@ -123,6 +126,7 @@ void ConfigurationSpace::drop(PieceIndex source) {
 /// One-way chains may be joined otherwise.
 void ConfigurationSpace::drop_all() {
   surfaces_ = OneWaySurfaces(scenery(), shape_);
+  turned_surfaces_.clear();
   std::fill(index_of_.begin(), index_of_.end(), 0);
   obstacles_.clear();
   free_obstacles_.clear();
@@ -130,44 +134,75 @@ void ConfigurationSpace::drop_all() {
   free_own_ = {};
 }
 
-Real ConfigurationSpace::support_offset(PieceIndex source, const Vec2d& normal) const noexcept {
-  const double radius = scenery().pieces()[source].is_circle() ? scenery().circle(source).radius : 0;
-  return static_cast<Real>(radius - least_along(scenery().vertices_of(source), -normal) - least_along(hull(), normal));
+/// Of the one-way segments of a mover that has this angle, or of all others.
+const OneWaySurfaces& ConfigurationSpace::surfaces_of(MoverIndex mover, double angle) {
+  if (angle == 0) return surfaces_;
+  const auto known = turned_surfaces_.find(mover);
+  if (known != turned_surfaces_.end() && known->second.angle == angle) return known->second.surfaces;
+  TurnedSurfaces now{angle, OneWaySurfaces(scenery(), shape_, mover, angle)};
+  return turned_surfaces_.insert_or_assign(mover, std::move(now)).first->second.surfaces;
 }
 
-void ConfigurationSpace::prepare(std::span<PieceIndex> pieces) {
+Real ConfigurationSpace::support_offset(const Obstacle& of, const Vec2d& normal) const noexcept {
+  const double radius = of.source.is_circle() ? scenery().circle(of.piece).radius : 0;
+  return static_cast<Real>(radius - least_along(vertices_of(of), -normal) - least_along(hull(), normal));
+}
+
+void ConfigurationSpace::prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) {
   for (PieceIndex& piece : pieces) {
-    piece = make(piece);
+    piece = make(piece, angle);
+    obstacles_[piece].source.mover = mover;
     if (!obstacles_[piece].knows_its_seams) find_seams(piece);
   }
 }
 
-/// Makes the obstacle of a piece, unless it is there. @return its index.
-PieceIndex ConfigurationSpace::make(PieceIndex source) {
+/// Makes the obstacle of a piece, unless it is there with the same angle. @return its index.
+PieceIndex ConfigurationSpace::make(PieceIndex source, double angle) {
   PieceIndex& index = index_of_[source];
-  if (index > 0) return index - 1;
+  if (index == 0) {
+    if (free_obstacles_.empty()) {
+      free_obstacles_.push_back(static_cast<PieceIndex>(obstacles_.size()));
+      obstacles_.emplace_back();
+    }
+    index = free_obstacles_.back() + 1;
+    free_obstacles_.pop_back();
+    fill(obstacles_[index - 1], source, angle);
+  } else if (obstacles_[index - 1].angle != angle) {
+    fill(obstacles_[index - 1], source, angle);
+  }
+  return index - 1;
+}
+
+/// @param obstacle a free one, or that of the piece at another angle.
+void ConfigurationSpace::fill(Obstacle& obstacle, PieceIndex source, double angle) {
   const std::span<const PieceInfo> pieces = scenery().pieces();
   const PieceInfo& info = pieces[source];
   const auto same = [&](PieceIndex other) { return pieces[other].collider == info.collider; };
-  if (free_obstacles_.empty()) {
-    free_obstacles_.push_back(static_cast<PieceIndex>(obstacles_.size()));
-    obstacles_.emplace_back();
+  obstacle = {.offsets = {},
+              .box = scenery().box(source),
+              .source = info,
+              .collider = &scenery().collider(info.collider),
+              .piece = source,
+              .first_own = obstacle.first_own,
+              .own_count = obstacle.own_count,
+              .angle = angle,
+              .turned = std::move(obstacle.turned)};
+  obstacle.whole_collider = !(source > 0 && same(source - 1)) && !(source + 1 < pieces.size() && same(source + 1));
+  obstacle.turned.clear();
+  if (info.mover != no_mover) obstacle.turned.reserve(info.vertex_count);
+  if (angle != 0) {
+    const PieceVertices vertices = scenery().vertices_of(source);
+    geometry::place({vertices.begin(), vertices.end()}, {.angle = angle}, obstacle.turned);
+    obstacle.box = Box2::around(obstacle.turned);
+    if (info.is_circle()) obstacle.box = obstacle.box.inflated(scenery().circle(source).radius);
+    obstacle.source.rectangle_corner = PieceInfo::no_rectangle;
   }
-  index = free_obstacles_.back() + 1;
-  free_obstacles_.pop_back();
-  Obstacle& made = obstacles_[index - 1];
-  made = {.offsets = {},
-          .box = scenery().box(source),
-          .source = info,
-          .collider = &scenery().collider(info.collider),
-          .piece = source};
-  made.whole_collider = !(source > 0 && same(source - 1)) && !(source + 1 < pieces.size() && same(source + 1));
   if (info.one_way) {
-    made.surface = surfaces_.of(source);
-    made.bent_surface = !surfaces_.is_straight(made.surface);
+    obstacle.surfaces = &surfaces_of(info.mover, angle);
+    obstacle.surface = obstacle.surfaces->of(source);
+    obstacle.bent_surface = !obstacle.surfaces->is_straight(obstacle.surface);
   }
-  find_axes(made);
-  return index - 1;
+  find_axes(obstacle);
 }
 
 void ConfigurationSpace::find_axes(Obstacle& obstacle) {
@@ -183,12 +218,12 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
     const double y = axes_.y[k];
     const double furthest = (std::max(x, 0.0) * upper.x() + std::min(x, 0.0) * lower.x()) +
                             (std::max(y, 0.0) * upper.y() + std::min(y, 0.0) * lower.y());
-    obstacle.offsets.all[k] = k < 4 || source.is_rectangle() ? static_cast<Real>(furthest - axes_.low[k])
-                                                             : support_offset(obstacle.piece, {x, y});
+    obstacle.offsets.all[k] =
+        k < 4 || source.is_rectangle() ? static_cast<Real>(furthest - axes_.low[k]) : support_offset(obstacle, {x, y});
   }
-  if (source.is_rectangle()) return;  // its normals are all shared
+  if (source.is_rectangle()) return keep_own(obstacle);  // its normals are all shared
   const auto add = [&](const Vec2& n) {
-    own_.push_back({n, support_offset(obstacle.piece, n.cast<double>()), face_along(n)});
+    own_.push_back({n, support_offset(obstacle, n.cast<double>()), face_along(n)});
     return axes_.lanes + own_.size() - 1;
   };
   const auto axis_of = [&](const Vec2d& normal) -> std::size_t {
@@ -201,7 +236,7 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
     add({0, 1});
     return keep_own(obstacle);
   }
-  const PieceVertices vertices = scenery().vertices_of(obstacle.piece);
+  const PieceVertices vertices = vertices_of(obstacle);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d edge = vertices[(j + 1) % vertices.size()] - vertices[j];
     const std::size_t axis = axis_of(unit_normal_right_of(edge));
@@ -212,10 +247,13 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
 }
 
 void ConfigurationSpace::keep_own(Obstacle& obstacle) {
-  obstacle.own_count = static_cast<std::uint8_t>(own_.size());
-  const std::optional<std::uint32_t> free = free_own_.take(obstacle.own_count);
-  obstacle.first_own = free.value_or(static_cast<std::uint32_t>(own_axes_.size()));
-  if (!free) own_axes_.resize(own_axes_.size() + own_.size());
+  if (obstacle.own_count != own_.size()) {
+    free_own_.give(obstacle.first_own, obstacle.own_count);
+    obstacle.own_count = static_cast<std::uint8_t>(own_.size());
+    const std::optional<std::uint32_t> free = free_own_.take(obstacle.own_count);
+    obstacle.first_own = free.value_or(static_cast<std::uint32_t>(own_axes_.size()));
+    if (!free) own_axes_.resize(own_axes_.size() + own_.size());
+  }
   std::copy(own_.begin(), own_.end(), own_axes_.begin() + obstacle.first_own);
 }
 
@@ -228,9 +266,12 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   const double furthest = std::max(around.lower.cwiseAbs().maxCoeff(), around.upper.cwiseAbs().maxCoeff());
   const double noise = std::max(least_noise, noise_in_ulps * furthest * double{std::numeric_limits<Real>::epsilon()});
   neighbours_.clear();
-  solids_.find(info(piece).source.mover, around, neighbours_);
-  for (PieceIndex& other : neighbours_) other = make(other);
+  const double angle = info(piece).angle;
+  const MoverIndex mover = scenery().pieces()[info(piece).piece].mover;
+  solids_.find(mover, angle == 0 ? around : geometry::Turn(-angle)(around), neighbours_);
+  for (PieceIndex& other : neighbours_) other = make(other, angle);
   std::erase_if(neighbours_, [&](PieceIndex other) { return other == piece || !may_cover(other, piece, noise); });
+  if (neighbours_.empty()) return;
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
     if (is_unused(axis)) continue;
     const Facet here = facet(piece, axis, noise);
@@ -291,7 +332,7 @@ bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner
       const double out = normal(other, k).cast<double>().dot(corner.from) - static_cast<double>(offset(other, k));
       if (out > corner.noise) return false;
     }
-    return static_cast<double>(support_offset(info(other).piece, n)) > n.dot(corner.from) + corner.noise;
+    return static_cast<double>(support_offset(info(other), n)) > n.dot(corner.from) + corner.noise;
   });
 }
 

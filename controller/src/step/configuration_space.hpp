@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -99,9 +100,9 @@ struct SharedAxes {
 struct Obstacle {
   static constexpr std::uint8_t not_one_way = 255;
 
-  PerAxis offsets;  ///< Along the shared axes [m].
-  Box2 box;         ///< Of the piece [m].
-  PieceInfo source;
+  PerAxis offsets;   ///< Along the shared axes [m].
+  Box2 box;          ///< Of the piece [m].
+  PieceInfo source;  ///< Its mover is the index of its motion: see `Moving`.
   const ColliderInfo* collider = nullptr;
   PieceIndex piece = 0;         ///< In the scenery.
   std::uint32_t first_own = 0;  ///< Of its own axes.
@@ -109,12 +110,15 @@ struct Obstacle {
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
   bool whole_collider = false;              ///< Its collider has no other piece.
-  OneWaySurfaces::Index surface = OneWaySurfaces::none;  ///< Of a one-way segment.
+  OneWaySurfaces::Index surface = OneWaySurfaces::none;  ///< Of a one-way segment,
+  const OneWaySurfaces* surfaces = nullptr;              ///< and which one that is.
   /// Bit per shared axis: the facet lies inside other obstacles, so nothing free ever touches it. An edge shared by two
   /// pieces or covered by an abutting tile is such a facet: no contact may have its normal.
   std::uint16_t covered = 0;
   std::uint16_t hidden = 0;      ///< Of the covered ones those of which less is open than counts as closed.
   bool knows_its_seams = false;  ///< What is covered and hidden is known.
+  double angle = 0;              ///< Of its mover [rad].
+  std::vector<Vec2d> turned{};   ///< Its vertices, if there is an angle.
 
   [[nodiscard]] bool is_one_way() const noexcept { return one_way_axis != not_one_way; }
 };
@@ -131,13 +135,12 @@ class ConfigurationSpace {
   ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids);
 
   /// Makes the obstacles of pieces, and writes their indices in the places of the pieces.
-  void prepare(std::span<PieceIndex> pieces);
+  void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle);
   /// Forgets the obstacles of pieces that came or went, and of those near them.
   void follow_edits();
 
   [[nodiscard]] const PieceFinder& solids() const noexcept { return solids_; }
   [[nodiscard]] const Scenery& scenery() const noexcept { return solids_.scenery(); }
-  [[nodiscard]] const OneWaySurfaces& surfaces() const noexcept { return surfaces_; }
   /// Hull of the character, counter-clockwise [m].
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return axes_.hull(); }
   /// Box of the hull, around position zero.
@@ -173,10 +176,8 @@ class ConfigurationSpace {
   }
   /// A circle has an axis of its own, a tangent like any other: where a piece has none, nothing more is asked.
   [[nodiscard]] bool is_circle(PieceIndex piece) const noexcept { return info(piece).source.is_circle(); }
-  [[nodiscard]] Circle circle(PieceIndex piece) const noexcept { return scenery().circle(info(piece).piece); }
-  [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept {
-    return scenery().vertices_of(info(piece).piece);
-  }
+  [[nodiscard]] Circle circle(PieceIndex piece) const noexcept { return circle(info(piece)); }
+  [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept { return vertices_of(info(piece)); }
   /// Where the character at p is nearest to a circle.
   [[nodiscard]] geometry::NearCircle near_circle(PieceIndex piece, const Vec2& p) const noexcept {
     return geometry::near_circle(hull(), p, circle(piece));
@@ -229,14 +230,25 @@ class ConfigurationSpace {
     return direction_of(direction).cast<Real>();
   }
   [[nodiscard, gnu::cold, gnu::noinline]] Real offset_along(PieceIndex piece, std::size_t direction) const noexcept {
-    return support_offset(info(piece).piece, direction_of(direction));
+    return support_offset(info(piece), direction_of(direction));
   }
-  [[nodiscard]] Real support_offset(PieceIndex source, const Vec2d& normal) const noexcept;
+  [[nodiscard]] Circle circle(const Obstacle& of) const noexcept {
+    const Circle circle = scenery().circle(of.piece);
+    return of.angle == 0 ? circle : Circle{of.turned[0], circle.radius};
+  }
+  [[nodiscard]] PieceVertices vertices_of(const Obstacle& of) const noexcept {
+    if (of.angle != 0) [[unlikely]]
+      return std::span<const Vec2d>(of.turned);
+    return scenery().vertices_of(of.piece);
+  }
+  [[nodiscard]] Real support_offset(const Obstacle& of, const Vec2d& normal) const noexcept;
 
   /// A lane that no axis has.
   [[nodiscard]] bool is_unused(std::size_t axis) const noexcept { return axis >= axes_.count && axis < axes_.lanes; }
   [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.upper - axes_.box.lower; }
-  [[nodiscard]] PieceIndex make(PieceIndex source);
+  [[nodiscard]] const OneWaySurfaces& surfaces_of(MoverIndex mover, double angle);
+  [[nodiscard]] PieceIndex make(PieceIndex source, double angle);
+  void fill(Obstacle& obstacle, PieceIndex source, double angle);
   void drop(PieceIndex source);
   void drop_all();
   void find_axes(Obstacle& obstacle);
@@ -253,6 +265,12 @@ class ConfigurationSpace {
   const PieceFinder& solids_;
   CharacterShape shape_;
   OneWaySurfaces surfaces_;
+  /// Of movers that have an angle.
+  struct TurnedSurfaces {
+    double angle;
+    OneWaySurfaces surfaces;
+  };
+  std::map<MoverIndex, TurnedSurfaces> turned_surfaces_;
   SharedAxes axes_;
   std::vector<Obstacle> obstacles_;
   std::vector<PieceIndex> free_obstacles_;

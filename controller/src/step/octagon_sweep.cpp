@@ -42,9 +42,6 @@ class OctagonSweep final : public SweepInParts {
         settings_(settings_for(def, character)) {}
 
   [[nodiscard]] const PieceFinder& finder() const noexcept override { return finder_; }
-  [[nodiscard]] const OneWaySurfaces& surfaces(const Scratch& scratch) const noexcept override {
-    return static_cast<const StepMemory&>(*scratch.own).space.surfaces();
-  }
 
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
@@ -53,32 +50,46 @@ class OctagonSweep final : public SweepInParts {
   }
 
   void reserve(const Box2& positions, Scratch& scratch) const override {
-    Nearby(finder_, scratch.solids, {}, nullptr, &static_cast<StepMemory&>(*scratch.own)).reserve(positions);
+    Nearby(finder_, scratch.solids, nullptr, nullptr, &static_cast<StepMemory&>(*scratch.own)).reserve(positions);
   }
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
-    if (!in_range(request) || request.movers.size() != finder_.scenery().mover_count() ||
-        (!request.movers.empty() && !(request.dt > 0)))
+    if (!in_range(request) || request.moving->mover_count() != finder_.scenery().mover_count() ||
+        (!request.moving->motions.empty() && !(request.dt > 0)))
       return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers =
-        !request.movers.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
+        !request.moving->motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
     const bool rides = request.ride.ground != Ride::none;
-    Step step(settings_,
-              {finder_, scratch.solids, looks_at_movers ? request.movers : std::span<const MoverMotion>{},
-               request.filter, &memory},
-              {request.movers, request.dt, has_conveyors(finder_.scenery()) || rides || looks_at_movers}, memory,
+    Step step(settings_, {finder_, scratch.solids, looks_at_movers ? request.moving : nullptr, request.filter, &memory},
+              {*request.moving, request.dt, has_conveyors(finder_.scenery()) || rides || looks_at_movers}, memory,
               request.up, result);
     solve(step, part, request);
+  }
+
+  void find_passed(const StepRequest& at, std::span<const PathPoint> path, const OneWayChains& chains, Scratch& scratch,
+                   std::vector<ColliderIndex>& passed) const noexcept override {
+    auto& memory = static_cast<StepMemory&>(*scratch.own);
+    const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
+      const Obstacle& obstacle = memory.space.info(piece);
+      if (!obstacle.is_one_way()) return std::nullopt;
+      const PieceVertices ends = memory.space.vertices_of(piece);
+      return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
+    };
+    chains.find_passed(path, at.moving->motions, {finder_, scratch.solids, at.moving, at.filter, &memory}, segment_of,
+                       passed);
   }
 
   template <class Question>
   [[nodiscard]] auto ask(const StepRequest& at, Scratch& scratch, const Question& question) const noexcept {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
-    Surroundings around{memory.space, {finder_, scratch.solids, at.movers, at.filter, &memory}, at.movers, at.up};
+    Surroundings around{
+        memory.space, {finder_, scratch.solids, at.moving, at.filter, &memory}, at.moving->motions, at.up};
+    const Box2 before = scratch.solids.box;
     const auto answer = question(around);
-    around.near.forget();  // a wide question would make the next steps slow
+    // A wide question would make the next steps slow.
+    if (before.lower != scratch.solids.box.lower || before.upper != scratch.solids.box.upper) around.near.forget();
     return answer;
   }
 
@@ -122,10 +133,7 @@ class OctagonSweep final : public SweepInParts {
     const Vec2& at = request.position;
     const Real reach =
         request.displacement.cwiseAbs().sum() + settings_.snap + settings_.step_height + 2 * tolerances.look;
-    const Box2 touched = space.touched_from(Box2{at, at}.inflated(reach));
-    for (MoverIndex mover = 0; mover < request.movers.size(); ++mover)
-      if (PieceFinder::seen_by(touched, request.movers[mover]).overlaps(finder_.whole(mover))) return true;
-    return false;
+    return finder_.any_comes_into(space.touched_from(Box2{at, at}.inflated(reach)), *request.moving);
   }
 
   PieceFinder finder_;

@@ -6,7 +6,7 @@
 #include <paperproof/scratch.hpp>
 #include <paperproof/up_frame.hpp>
 
-#include "one_way_surfaces.hpp"
+#include "one_way_chains.hpp"
 #include "piece_finder.hpp"
 
 #include <memory>
@@ -31,8 +31,7 @@ struct StepRequest {
   /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
   double next_dt = 0;
   std::span<const Crusher> crushers{};  ///< See `CharacterState::crushers`.
-  /// One for each mover of the scenery.
-  std::span<const MoverMotion> movers{};
+  const Moving* moving = &nothing_moves;
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   double dt = 0;                           ///< [s]
   UpFrame up{};                            ///< See `StepContext::up`.
@@ -59,14 +58,17 @@ class SweepInParts {
   virtual void reserve(const Box2& positions, Scratch& scratch) const = 0;
   /// Of solid pieces.
   [[nodiscard]] virtual const PieceFinder& finder() const noexcept = 0;
-  [[nodiscard]] virtual const OneWaySurfaces& surfaces(const Scratch& scratch) const noexcept = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
   virtual void move_part(Part part, const StepRequest& request, Scratch& scratch,
                          MoveResult& result) const noexcept = 0;
 
+  /// See `OneWayChains`. @param at its motions and filter count.
+  virtual void find_passed(const StepRequest& at, std::span<const PathPoint> path, const OneWayChains& chains,
+                           Scratch& scratch, std::vector<ColliderIndex>& passed) const noexcept = 0;
+
   /// See the calls of these names in `Controller`.
-  /// @param at its position and displacement, its movers and filter count.
+  /// @param at its position and displacement, what moves and its filter count.
   [[nodiscard]] virtual std::optional<Contact> cast(const StepRequest& at, Scratch& scratch) const noexcept = 0;
   [[nodiscard]] virtual std::size_t overlaps(const StepRequest& at, Scratch& scratch,
                                              std::span<ColliderIndex> found) const noexcept = 0;

@@ -16,7 +16,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     if (apart >= certain) return true;
     if (apart <= -certain) return false;
   }
-  return space.surfaces().is_above(info.surface, p, rest);
+  return info.surfaces->is_above(info.surface, p, rest);
 }
 
 /// Whether a one-way segment can stop a motion: one that begins above its surface. From a gap on, a motion that does

@@ -166,7 +166,7 @@ struct Step {
 
 /// Displacement of the mover of a collider in the step [m].
 [[nodiscard]] inline Vec2 displacement_of(const Step& step, ColliderIndex collider) noexcept {
-  return step.movers.displacement(step.space.scenery().collider(collider).mover);
+  return step.movers.displacement(step.movers.of(step.space.scenery(), collider));
 }
 
 [[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) noexcept {
@@ -191,8 +191,18 @@ struct Step {
   return step.up.up_of(ground) < -step.settings.max_fall_speed;
 }
 
+/// What the turning of a circle adds to the speed of its surface [m/s].
+[[nodiscard, gnu::cold, gnu::noinline]] inline Real speed_of_rim(const Step& step, PieceIndex piece) noexcept {
+  const double turn = step.movers.moving.motions[mover_of(step, piece)].turn();
+  return static_cast<Real>(-turn / static_cast<double>(step.movers.dt) * step.space.circle(piece).radius);
+}
+
 [[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) noexcept {
-  return static_cast<Real>(step.space.info(piece).collider->surface_speed);
+  const Obstacle& obstacle = step.space.info(piece);
+  Real speed = static_cast<Real>(obstacle.collider->surface_speed);
+  if (obstacle.source.is_circle() && obstacle.source.mover != no_mover && obstacle.collider->carries) [[unlikely]]
+    speed += speed_of_rim(step, piece);
+  return speed;
 }
 
 /// The mover that takes along what stands on a piece, if one does.

@@ -25,7 +25,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
           .last_free = {},
           .crushers = step.memory.crushers,
           .entered_from = step.moving.last_free,
-          .movers = step.movers.motions,
+          .movers = step.movers.moving.motions,
           .drops = step.drops,
           .gap = gap,
           .reach = 0};

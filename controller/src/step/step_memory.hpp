@@ -62,7 +62,9 @@ struct Reported {
 struct StepMemory final : OwnMemory, PieceUser {
   StepMemory(const CharacterShape& shape, const PieceFinder& solids) : space(shape, solids) { fit_to_scenery(); }
 
-  void prepare(std::span<PieceIndex> pieces) override { space.prepare(pieces); }
+  void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) override {
+    space.prepare(pieces, mover, angle);
+  }
   void follow_edits() override {
     space.follow_edits();
     fit_to_scenery();
@@ -113,19 +115,26 @@ struct StepMemory final : OwnMemory, PieceUser {
 /// The movers of one step. Of `no_mover`, which is what stands still, each answer is zero, and `relative` the motion
 /// itself.
 struct MoversInStep {
-  std::span<const MoverMotion> motions;
+  const Moving& moving;
   Real dt;      ///< [s]
   bool active;  ///< A mover comes near the step, or there may be a conveyor.
 
+  /// The index of a collider's motion.
+  [[nodiscard]] MoverIndex of(const Scenery& scenery, ColliderIndex collider) const noexcept {
+    const auto is_it = [&](PieceIndex circle) { return scenery.pieces()[circle].collider == collider; };
+    const auto circle = std::find_if(moving.circles.begin(), moving.circles.end(), is_it);
+    if (circle == moving.circles.end()) return scenery.collider(collider).mover;
+    return static_cast<MoverIndex>(moving.mover_count() + static_cast<std::size_t>(circle - moving.circles.begin()));
+  }
   /// Displacement of a mover in the step [m].
   [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept {
-    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(motions[mover].to - motions[mover].from);
+    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(moving.motions[mover].to - moving.motions[mover].from);
   }
   /// [m/s]
   [[nodiscard]] Vec2 velocity(MoverIndex mover) const noexcept { return displacement(mover) / dt; }
   /// Its offset at a fraction of the step [m].
   [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const noexcept {
-    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(motions[mover].at(time));
+    return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(moving.motions[mover].at(time));
   }
   /// What is left of its displacement after a fraction of the step [m].
   [[nodiscard]] Vec2 remaining(MoverIndex mover, Real time) const noexcept { return displacement(mover) * (1 - time); }
@@ -137,7 +146,7 @@ struct MoversInStep {
     constexpr Real noise = std::numeric_limits<Real>::epsilon() * 8;
     const Vec2 whole = displacement(mover);
     // Each offset is rounded: at a constant speed the displacement of a mover differs by an ulp from step to step.
-    const Vec2 furthest = motions[mover].from.cwiseAbs().cwiseMax(motions[mover].to.cwiseAbs());
+    const Vec2 furthest = moving.motions[mover].from.cwiseAbs().cwiseMax(moving.motions[mover].to.cwiseAbs());
     Vec2 result = motion - remaining(mover, time);
     for (Eigen::Index i = 0; i < 2; ++i)
       if (std::abs(result[i]) <= noise * std::max({std::abs(motion[i]), std::abs(whole[i]), furthest[i]}))

@@ -193,8 +193,8 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 }
 
 inline void look_at_movers(Step& step) noexcept {
-  step.near.look_at(step.movers.motions);
-  step.movers.active = step.movers.active || !step.movers.motions.empty();
+  step.near.look_at(step.movers.moving);
+  step.movers.active = step.movers.active || !step.movers.moving.motions.empty();
 }
 
 inline void solve(Step& step, Part part, const StepRequest& request) noexcept {

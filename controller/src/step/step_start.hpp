@@ -28,7 +28,7 @@ inline void remember(Step& step, const Crusher& now) noexcept {
     return false;
   const MoverIndex mover = mover_of(step, piece);
   if (mover != no_mover)
-    return overlaps_exactly(step.space, piece, ExactPosition(position, step.movers.motions[mover], step.time));
+    return overlaps_exactly(step.space, piece, ExactPosition(position, step.movers.moving.motions[mover], step.time));
   return overlaps_exactly(step.space, piece, at);
 }
 
@@ -81,8 +81,10 @@ inline void note_colliders_left(Step& step) noexcept {
     if (!overlaps(step, piece, step.position)) return;
     const Vec2 shift = offset(step, piece);
     const PieceRange solid = step.space.scenery().pieces_of(collider_of(step, piece));
+    const double angle = step.space.info(piece).angle;
     for (PieceIndex part = solid.first; part < solid.end; ++part) {
-      const Box2& box = step.space.scenery().box(part);
+      Box2 box = step.space.scenery().box(part);
+      if (angle != 0) box = geometry::Turn(angle)(box);
       whole = whole.merged({box.lower + shift, box.upper + shift});
     }
   });
@@ -147,7 +149,7 @@ template <class Condition>
                           .last_free = {},
                           .crushers = step.memory.crushers,
                           .entered_from = {},
-                          .movers = request.movers,
+                          .movers = request.moving->motions,
                           .drops = request.drop,
                           .gap = {},
                           .reach = {}};

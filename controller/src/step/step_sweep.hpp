@@ -83,7 +83,7 @@ template <class Condition>
   Motion motion = make_motion(step.space, from, Vec2(to - from));
   motion.lost = lost_by(begin, offset(step, piece));
   if (!in_way(step, motion, piece)) return true;
-  return clear_of_exactly(step.space, piece, step.movers.motions, begin, step.time, target, end);
+  return clear_of_exactly(step.space, piece, step.movers.moving.motions, begin, step.time, target, end);
 }
 
 /// Whether a straight motion that takes no time is clear of every piece, exactly.

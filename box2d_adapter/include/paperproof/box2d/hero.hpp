@@ -93,10 +93,9 @@ struct HeroSave {
   b2Vec2 body_velocity{0, 0};        ///< with its weight and push [m/s].
   bool is_bullet = true;
   Vec2d struck{Vec2d::Zero()};  ///< The velocity with which its body strikes what stopped the hero at once [m/s].
-  Box2 reach{};                 ///< See `LocalController::reach`.
 };
 
-/// A character in a game's own `b2World`, moved by a `LocalController`. Each frame the world steps, then the hero:
+/// A character in a game's own `b2World`, moved by a `Controller`. Each frame the world steps, then the hero:
 ///
 ///     world.Step(dt, 8, 3);
 ///     hero.step({.move = 1.0}, dt);
@@ -108,7 +107,7 @@ struct HeroSave {
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
 ///   are now, and carry, push and crush it on this way. A body that went half a metre farther than its velocity
 ///   explains, or turned by half a radian more, was put there by the game.
-/// - A body that turns does so at the beginning of the step, or of several shorter ones: see `LocalController`. Each
+/// - A body that turns does so at the beginning of the step, or of several shorter ones: see `Controller`. Each
 /// step proves that nothing passes through the hero, and names what crushed it.
 /// - Polygons, edges, chains and circles are exact, without Box2D's skin; a circle that is a ledge is a polygon of 32
 ///   corners around it.

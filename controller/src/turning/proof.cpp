@@ -1,4 +1,4 @@
-#include "level/turn.hpp"
+#include "turning/proof.hpp"
 
 #include "geometry/circle.hpp"
 #include "geometry/vectors.hpp"
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace paperproof::level {
+namespace paperproof::turning {
 namespace {
 
 using geometry::cross;
@@ -25,9 +25,11 @@ struct Linear {
   friend Linear operator-(const Linear& a, const Linear& b) { return {a.from - b.from, a.to - b.to}; }
 };
 
+using Vertices = FixedVector<Linear, PieceWay::most_vertices>;
+
 /// Character and piece during one part of the time. All places are relative to the character's first.
 struct Scene {
-  std::vector<Linear> piece;
+  Vertices piece;
   std::span<const Vec2d> hull;
   Linear character;
   double margin;  ///< Least distance that counts as apart [m].
@@ -41,7 +43,7 @@ bool stays_right(const Linear& edge, const Linear& at, const Linear& point, doub
          (cross(edge.from, way.to) + cross(edge.to, way.from)) / 2 > least;
 }
 
-bool some_line_separates(const Scene& scene, const std::vector<Linear>& piece, const Linear& character) {
+bool some_line_separates(const Scene& scene, const Vertices& piece, const Linear& character) {
   const auto corner = [&](std::size_t i) {
     const Vec2d& o = scene.hull[i % scene.hull.size()];
     return Linear{character.from + o, character.to + o};
@@ -63,7 +65,7 @@ bool some_line_separates(const Scene& scene, const std::vector<Linear>& piece, c
 }
 
 bool stay_apart_between(const Scene& scene, double begin, double end, int halvings) {
-  std::vector<Linear> piece;
+  Vertices piece;
   for (const Linear& vertex : scene.piece) piece.push_back(vertex.between(begin, end));
   const Linear character = scene.character.between(begin, end);
   if (some_line_separates(scene, piece, character)) return true;
@@ -109,11 +111,14 @@ bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
 
 Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull, const Vec2d& position) {
   Approach best{std::numeric_limits<double>::infinity(), {0, 1}};
+  double least_square = best.distance;
   const auto offer = [&](const Vec2d& a, const Vec2d& b, const Vec2d& point, double side) {
     const double share = nearest_share(a, b, point);
     const Vec2d away = point - (a + (b - a) * share);
+    if (!(away.squaredNorm() < least_square)) return;
     const double distance = away.norm();
     if (!(distance < best.distance)) return;
+    least_square = away.squaredNorm();
     // Of an edge the normal is known, however small the distance is.
     Vec2d normal = share > 0 && share < 1 ? Vec2d(b.y() - a.y(), a.x() - b.x()) : away;
     if (normal.dot(away) < 0) normal = -normal;
@@ -145,4 +150,4 @@ std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed,
   return vertex;
 }
 
-}  // namespace paperproof::level
+}  // namespace paperproof::turning

@@ -8,16 +8,12 @@
 #include <span>
 #include <vector>
 
-namespace paperproof::level {
+namespace paperproof::turning {
 
-/// Vertices counter-clockwise, or the two ends of a segment, or the centre of a circle.
-struct ConvexPiece {
-  std::vector<Vec2d> vertices;
-  double radius = 0;  ///< Of a circle [m].
-};
-
-/// The way of a convex piece: each vertex goes evenly from one place to another.
+/// The way of a convex piece: each vertex goes evenly from one place to another. Vertices are counter-clockwise, or the
+/// two ends of a segment, or the centre of a circle.
 struct PieceWay {
+  static constexpr std::size_t most_vertices = 32;
   std::vector<Vec2d> from;
   std::vector<Vec2d> to;
   double radius = 0;  ///< Of a circle [m].
@@ -56,4 +52,4 @@ struct Approach {
 /// within an edge is.
 [[nodiscard]] std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed, const Vec2d& point);
 
-}  // namespace paperproof::level
+}  // namespace paperproof::turning

@@ -1,11 +1,12 @@
-#include "level/local_controller_impl.hpp"
+#include "turning/turning_step.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace paperproof {
+namespace paperproof::turning {
 
-using namespace level;
+using geometry::Pose;
+using geometry::pose_at;
 
 namespace {
 
@@ -18,65 +19,72 @@ int rank(MoveStatus status) noexcept {
 }  // namespace
 
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
-void LocalController::Impl::note_pushes(const StepPart& part, const StepContext& context) {
-  MoveResult& move = of_part->move;
+void TurningStep::note_pushes(const Part& part) {
+  MoveResult& move = memory_.of_part.move;
   if (move.path.size() < 2 || move.path[1].fraction > 0) return;
   std::size_t last = 1;
   while (last + 1 < move.path.size() && move.path[last + 1].fraction == 0) ++last;
-  std::array<Contact, MoveResult::max_contacts> touched;
-  const std::size_t count = scenery.controller().contacts_at(
-      move.path[last].position, Tolerances{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
+  std::array<Contact, MoveResult::max_contacts> room;
   std::ptrdiff_t pushes = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const NearCollider& collider = scenery.at(touched[i].collider);
-    const auto is_known = [&](const Contact& contact) { return contact.collider == touched[i].collider; };
-    if (!scenery.turns(collider)) continue;
+  for (const Contact& touched : contacts_at(move.path[last].position, part, room)) {
+    const MovingCollider* collider = find_moving(touched.collider);
+    const auto is_known = [&](const Contact& contact) { return contact.collider == touched.collider; };
+    if (collider == nullptr || collider->by_itself || !memory_.turns[collider->mover]) continue;
     if (std::any_of(move.contacts.begin(), move.contacts.end(), is_known)) continue;
     // They come first: nothing else is met before any time has passed.
-    move.contacts.insert(move.contacts.begin() + pushes++, touched[i]);
+    move.contacts.insert(move.contacts.begin() + pushes++, touched);
   }
 }
 
 /// Reports the sensors that came over the character, or left it, as they turned at the beginning of a part. The sweep
 /// sees how they go on.
-/// @param position where the part begins. @param report of the part, by ids.
-void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2d& position,
-                                                const ColliderFilter* filter, StepReport& report) {
-  if (!scenery.any_sensor_turns()) return;
+/// @param position where the part begins. @param report of the part.
+void TurningStep::note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const {
+  if (!any_sensor_turns_) return;
   const auto later = report.sensors;
   report.sensors.clear();
-  for (const NearCollider& collider : scenery.colliders()) {
-    const bool turns = collider.mover != no_mover && collider.motion.from.angle != collider.motion.to.angle;
-    if (!collider.def->sensor || !turns || !scenery.is_in_scenery(collider.id) || !is_there(collider, filter)) continue;
-    const bool before = overlaps(collider, pose_at(collider.motion, part.begin), position);
-    const bool after = overlaps(collider, turned_pose(collider, part), position);
+  for (const MovingCollider& collider : memory_.moving) {
+    if (!scenery_.collider(collider.id).sensor || collider.motion.turn() == 0 || !is_there(collider.id)) continue;
+    const bool before = overlaps(collider.id, pose_at(collider.motion, part.begin), position);
+    const bool after = overlaps(collider.id, turned_pose(collider, part), position);
     if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
   }
   for (const SensorEvent& event : later) report.sensors.push_back(event);
 }
 
 /// Where everything that moves is when the step begins.
-void LocalController::Impl::note_begin() {
-  turned_.clear();
-  for (const NearCollider& collider : scenery.colliders())
-    if (collider.mover != no_mover)
-      turned_.push_back({collider.id, {0}, {vertices_at(*collider.def, collider.motion.from)}});
+void TurningStep::note_begin() {
+  memory_.turned.clear();
+  memory_.turned_defs.clear();
+  if (!scratch_.notes_turned) return;
+  for (const MovingCollider& collider : memory_.moving) {
+    memory_.turned_defs.push_back(scenery_.as_run(collider.id));
+    memory_.turned.push_back({collider.id, {}, {}});
+  }
+  for (std::size_t i = 0; i < memory_.moving.size(); ++i) note_vertices(pose_at(memory_.moving[i].motion, 0), i, 0);
 }
 
-void LocalController::Impl::note_vertices(const StepPart& part) {
-  std::size_t next = 0;
-  for (const NearCollider& collider : scenery.colliders()) {
-    if (collider.mover == no_mover) continue;
-    TurnedCollider& way = turned_[next++];
-    way.instants.insert(way.instants.end(), {part.turned(), part.end});
-    way.vertices.push_back(vertices_at(*collider.def, turned_pose(collider, part)));
-    way.vertices.push_back(vertices_at(*collider.def, pose_at(collider.motion, part.end)));
+/// @param which in `Memory::moving`.
+void TurningStep::note_vertices(const Pose& pose, std::size_t which, double instant) {
+  TurnedCollider& way = memory_.turned[which];
+  const ColliderDef& def = memory_.turned_defs[which];
+  way.instants.push_back(instant);
+  std::vector<Vec2d>& vertices = way.vertices.emplace_back();
+  geometry::place(def.points, pose, vertices);
+  for (const std::vector<Vec2d>& hole : def.holes) geometry::place(hole, pose, vertices);
+}
+
+void TurningStep::note_vertices(const Part& part) {
+  for (std::size_t i = 0; i < memory_.turned.size(); ++i) {
+    note_vertices(turned_pose(memory_.moving[i], part), i, part.turned());
+    note_vertices(pose_at(memory_.moving[i].motion, part.end), i, part.end);
   }
 }
 
-/// Adds a part to the report of the step. @param added names colliders by ids.
-void LocalController::Impl::append(const StepReport& added, const StepPart& part, StepReport& report) const {
+/// Adds a part to the report of the step.
+void TurningStep::append(const StepReport& added, const Part& part) {
   const MoveResult& from = added.move;
+  StepReport& report = report_;
   MoveResult& to = report.move;
   const auto when = [&](double fraction) {
     return fraction < 1 ? part.turned() + (part.end - part.turned()) * fraction : part.end;
@@ -121,4 +129,4 @@ void LocalController::Impl::append(const StepReport& added, const StepPart& part
   to.crushers = from.crushers;
 }
 
-}  // namespace paperproof
+}  // namespace paperproof::turning

@@ -1,0 +1,66 @@
+/// Where the points of a mover are.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace paperproof::geometry {
+
+/// A turn by an angle about the origin, counter-clockwise.
+class Turn {
+ public:
+  explicit Turn(double angle) noexcept : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+
+  [[nodiscard]] Vec2d operator()(const Vec2d& v) const noexcept {
+    return {cosine_ * v.x() - sine_ * v.y(), sine_ * v.x() + cosine_ * v.y()};
+  }
+  /// Around the turned box.
+  [[nodiscard]] Box2 operator()(const Box2& box) const noexcept {
+    const Vec2d middle = (*this)(box.middle());
+    const Vec2d half = box.upper - box.middle();
+    const Vec2d reach{std::abs(cosine_) * half.x() + std::abs(sine_) * half.y(),
+                      std::abs(sine_) * half.x() + std::abs(cosine_) * half.y()};
+    return {middle - reach, middle + reach};
+  }
+
+ private:
+  double cosine_;
+  double sine_;
+};
+
+/// A point v of a mover is at position + R(angle) v.
+struct Pose {
+  Vec2d position{Vec2d::Zero()};  ///< [m]
+  double angle = 0;               ///< Counter-clockwise [rad].
+};
+
+/// @param points to which those in the pose are appended.
+inline void place(std::span<const Vec2d> given, const Pose& pose, std::vector<Vec2d>& points) {
+  const Turn turn(pose.angle);
+  for (const Vec2d& point : given) points.push_back(pose.position + turn(point));
+}
+
+/// The pose at a fraction of a step.
+[[nodiscard]] inline Pose pose_at(const MoverMotion& motion, double fraction) noexcept {
+  if (fraction == 0) return {motion.from, motion.from_angle};
+  if (fraction == 1) return {motion.to, motion.to_angle};
+  return {motion.from + (motion.to - motion.from) * fraction,
+          motion.from_angle + (motion.to_angle - motion.from_angle) * fraction};
+}
+
+/// Encloses the way of a box's content during a step, whatever point it turns about that is not farther from the
+/// mover's origin than it is. (About a corner of the character, which may be farther, nothing of it comes nearer.)
+[[nodiscard]] inline Box2 swept_box(const Box2& box, const MoverMotion& motion) noexcept {
+  const Box2 before = Turn(motion.from_angle)(box);
+  const Box2 after = Turn(motion.to_angle)(box);
+  const Box2 both = Box2{before.lower + motion.from, before.upper + motion.from}.merged(
+      {after.lower + motion.to, after.upper + motion.to});
+  const double turn = std::min(std::abs(motion.turn()), 2.0);
+  return both.inflated(2 * turn * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm());
+}
+
+}  // namespace paperproof::geometry

@@ -1,0 +1,192 @@
+/// A step among movers that have an angle: see `Controller`. `turning_step.cpp` divides it into shorter ones,
+/// `turns.cpp` has how what is near turns and the proof of that, `turned_report.cpp` the report, and `waiting.cpp` the
+/// step of a character that only waits or leaves.
+#pragma once
+
+#include "geometry/pose.hpp"
+#include "step_parts.hpp"
+#include "turning/proof.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace paperproof::turning {
+
+/// Into so many shorter steps a step is divided at most.
+inline constexpr int most_parts = 32;
+
+/// The share of a part in which everything turns. So short that a character which waits meanwhile is not 1 um behind.
+inline constexpr double turning_share = 0x1p-20;
+
+/// What a step is asked for.
+struct Wish {
+  const Input* input;  ///< Null: a displacement.
+  Vec2d displacement;  ///< [m]
+};
+
+/// A collider that moves, and may come near the character.
+struct MovingCollider {
+  ColliderIndex id = no_collider;
+  MoverIndex mover = no_mover;
+  MoverMotion motion{};    ///< In the step. Of a circle that goes by itself: its own, without an angle.
+  bool by_itself = false;  ///< It is such a circle.
+};
+
+/// A part of a step, as fractions of it, and how everything moves in it once it has turned.
+struct Part {
+  double begin;
+  double end;
+  std::span<const MoverMotion> motions;
+  /// Of the character while everything turns, in shares of this time.
+  std::vector<PathPoint> way{};
+
+  [[nodiscard]] double turned() const noexcept { return begin + (end - begin) * turning_share; }
+};
+
+/// Of one scratch. Nothing in it but `turned` outlives a step.
+struct Memory final : OwnMemory {
+  std::vector<MoverMotion> motions;         ///< Of the present part: of movers, then of circles.
+  std::vector<MoverMotion> circle_motions;  ///< In the step, of `Scratch::circles`; with the angles of their movers.
+  std::vector<bool> turns;                  ///< Whether a mover turns near the character.
+  std::vector<MovingCollider> moving;       ///< By id.
+  std::vector<PieceIndex> pieces;
+  PieceWay way;  ///< Of the piece that is looked at,
+  PieceWay leg;  ///< and a part of it.
+  StepReport of_part;
+  std::vector<TurnedCollider> turned;
+  std::vector<ColliderDef> turned_defs;
+};
+
+/// The motion of a circle's centre, as its offset; with the angles of its mover.
+[[nodiscard]] MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noexcept;
+
+/// During a question among movers that have an angle: motions in which they keep the one with which they begin, and the
+/// circles among them.
+class CirclesOfQuestion {
+ public:
+  /// @param around what is asked about. @param context gets the motions; the same where no mover has an angle.
+  CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Scratch& scratch);
+  ~CirclesOfQuestion() { scratch_.circles.clear(); }
+  CirclesOfQuestion(const CirclesOfQuestion&) = delete;
+  CirclesOfQuestion& operator=(const CirclesOfQuestion&) = delete;
+
+ private:
+  Scratch& scratch_;
+};
+
+/// One step of one character.
+class TurningStep {
+ public:
+  TurningStep(const Controller& controller, const StepContext& context, Scratch& scratch, StepReport& report);
+  ~TurningStep() {
+    scratch_.circles.clear();
+    scratch_.is_in_part = false;
+  }
+  TurningStep(const TurningStep&) = delete;
+  TurningStep& operator=(const TurningStep&) = delete;
+
+  StepStatus step(CharacterState& state, const Wish& wish);
+  /// See `Controller::wait`.
+  StepStatus wait(CharacterState& state);
+
+ private:
+  [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
+  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
+  [[nodiscard]] Vec2d middle() const noexcept { return character().shape.box().middle(); }
+  [[nodiscard]] Box2 box_at(const Vec2d& position) const noexcept {
+    return {position + character().shape.box().lower, position + character().shape.box().upper};
+  }
+  [[nodiscard]] bool is_there(ColliderIndex collider) const;
+  [[nodiscard]] bool blocks(ColliderIndex collider) const;
+
+  void read(const Box2& needed);
+  void read(MoverIndex mover, const Box2& needed);
+  void forget_gone(CharacterState& state) const;
+  [[nodiscard]] Box2 box_along(const MoveResult& move) const;
+  StepStatus go(CharacterState& state, const Wish& wish, double share, std::span<const MoverMotion> motions,
+                StepReport& report);
+  StepStatus refuse(MoveStatus why, const CharacterState& state);
+  StepStatus step_straight(CharacterState& state, const Wish& wish);
+  StepStatus step_among_turning(CharacterState& state, const Wish& wish);
+  [[nodiscard]] std::optional<StepStatus> step_in_parts(int parts, CharacterState& state, const Wish& wish);
+  void begin_part(const Part& part, CharacterState& state) const;
+
+  // turns.cpp
+  [[nodiscard]] int parts_wanted() const;
+  [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
+  /// Where a mover is nearest to the character.
+  struct Nearest {
+    Approach approach;
+    std::vector<Vec2d> outline;  ///< Of the nearest piece.
+  };
+  [[nodiscard]] Nearest nearest_of(MoverIndex mover, double fraction, const Vec2d& position) const;
+  [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const;
+  [[nodiscard]] bool find_way(Part& part, const MoveResult& move);
+  void limit_speed(const Part& part, double wanted, double dt, MoveResult& move, CharacterState& state) const;
+  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const Part& part);
+  [[nodiscard]] std::span<const Contact> contacts_at(const Vec2d& position, const Part& part, std::span<Contact> room);
+  [[nodiscard]] bool is_proved(const Part& part, const MoveResult& move, bool of_all);
+  [[nodiscard]] bool stays_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
+                                 const Part& part) const;
+  [[nodiscard]] const PieceWay& way_of(PieceIndex piece, const geometry::Pose& from, const geometry::Pose& to) const;
+  [[nodiscard]] bool way_is_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
+                                  const HullWay& way, double least) const;
+  [[nodiscard]] geometry::Pose turned_pose(const MovingCollider& collider, const Part& part) const;
+  [[nodiscard]] bool overlaps(ColliderIndex collider, const geometry::Pose& pose, const Vec2d& position) const;
+  [[nodiscard]] bool reaches(const MovingCollider& collider, const HullWay& way, double begin, double end) const;
+  [[nodiscard]] const MovingCollider* find_moving(ColliderIndex collider) const;
+  /// Calls `look` for each collider that stands in a box, some of them more than once.
+  template <class Look>
+  void for_each_standing(const Box2& box, bool sensors, const Look& look) {
+    const Scenery::Group& group = scenery_.group_of(no_mover);
+    memory_.pieces.clear();
+    (sensors ? group.sensors : group.solids).find(box, scenery_.boxes(), memory_.pieces);
+    for (const PieceIndex piece : memory_.pieces) look(scenery_.pieces()[piece].collider);
+  }
+
+  // turned_report.cpp
+  void note_pushes(const Part& part);
+  void note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const;
+  void note_begin();
+  void note_vertices(const geometry::Pose& pose, std::size_t which, double instant);
+  void note_vertices(const Part& part);
+  void append(const StepReport& added, const Part& part);
+
+  // waiting.cpp
+  StepStatus go_straight_or_stay(CharacterState& state);
+  StepStatus stay(CharacterState& state);
+  template <class PlaceAt>
+  void note_stays(ColliderIndex sensor, const MoverMotion& motion, double begin, std::span<const double> ends,
+                  const PlaceAt& place_at);
+  void go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state);
+  [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState state);
+
+  const Controller& controller_;
+  const Scenery& scenery_;
+  StepContext context_;
+  ColliderFilter filter_;
+  Scratch& scratch_;
+  Memory& memory_;
+  StepReport& report_;
+  Box2 needed_;
+  bool any_turns_ = false;
+  bool any_sensor_turns_ = false;
+};
+
+[[nodiscard]] inline Vec2d between(const Vec2d& from, const Vec2d& to, double share) {
+  return from + (to - from) * share;
+}
+
+/// The place from which the character came goes along with what crushed it.
+/// @param middle of the character's shape, relative to its position.
+void carry(Crusher& crusher, const Vec2d& middle, const geometry::Pose& from, const geometry::Pose& to);
+
+[[nodiscard]] inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fraction) {
+  using Change = SensorEvent::Change;
+  return {sensor, enters ? Change::enter : Change::exit, fraction};
+}
+
+}  // namespace paperproof::turning

@@ -1,0 +1,251 @@
+#include "step/octagon_sweep.hpp"
+#include "turning/turning_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace paperproof::turning {
+
+using geometry::Pose;
+using geometry::pose_at;
+
+namespace {
+
+/// Nothing nearer is proved to be apart [m]. Zero: rounding hides an overlap. Large: a character that is squeezed
+/// between surfaces is crushed.
+constexpr double proved = 1e-9;
+
+/// The corner of the character that is nearest to a surface once it has turned; the one that is so before, if both are
+/// at one height then.
+Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, const Vec2d& normal_after) {
+  const auto nearest_along = [&](const Vec2d& normal) {
+    return *std::min_element(hull.begin(), hull.end(),
+                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); });
+  };
+  const Vec2d before = nearest_along(normal_before);
+  const Vec2d after = nearest_along(normal_after);
+  return (before - after).dot(normal_after) < Tolerances{}.hit ? before : after;
+}
+
+}  // namespace
+
+/// Into how many shorter steps a step must be divided.
+int TurningStep::parts_wanted() const {
+  const Box2& extent = character().shape.box();
+  const double size = (extent.upper - extent.lower).norm();
+  double most = 0;
+  for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover)
+    if (memory_.turns[mover]) most = std::max(most, std::abs(context_.movers[mover].turn()) * size);
+  int parts = 1;
+  while (parts < most_parts && most > Controller::most_turned * parts) parts *= 2;
+  return parts;
+}
+
+const MovingCollider* TurningStep::find_moving(ColliderIndex collider) const {
+  const auto& all = memory_.moving;
+  const auto place = std::lower_bound(all.begin(), all.end(), collider,
+                                      [](const MovingCollider& each, ColliderIndex id) { return each.id < id; });
+  return place != all.end() && place->id == collider ? &*place : nullptr;
+}
+
+TurningStep::Nearest TurningStep::nearest_of(MoverIndex mover, double fraction, const Vec2d& position) const {
+  Nearest best{{std::numeric_limits<double>::infinity(), {0, 1}}, {}};
+  std::vector<Vec2d> outline;
+  const Pose pose = pose_at(context_.movers[mover], fraction);
+  for (const MovingCollider& collider : memory_.moving) {
+    if (collider.mover != mover || collider.by_itself || scenery_.collider(collider.id).sensor ||
+        !is_there(collider.id))
+      continue;
+    const PieceRange pieces = scenery_.pieces_of(collider.id);
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
+      const PieceVertices vertices = scenery_.vertices_of(piece);
+      outline.clear();
+      geometry::place({vertices.begin(), vertices.end()}, pose, outline);
+      const Approach here = nearest(outline, outline.size() > 2, hull(), position);
+      if (!(here.distance < best.approach.distance)) continue;
+      best.approach = here;
+      best.outline.swap(outline);
+    }
+  }
+  return best;
+}
+
+/// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
+/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
+Vec2d TurningStep::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const {
+  const Nearest near = nearest_of(mover, begin, position);
+  const Vec2d& normal = near.approach.normal;
+  const Vec2d corner = position + nearest_corner(hull(), normal, geometry::Turn(angle)(normal));
+  if (near.outline.empty()) return corner;
+  return nearest_vertex(near.outline, near.outline.size() > 2, corner).value_or(corner);
+}
+
+/// Turns everything by its angle in a part of the step, and says how it goes on from there.
+Part TurningStep::turn(double begin, double end, const Vec2d& position) {
+  std::vector<MoverMotion>& motions = memory_.motions;
+  motions.clear();
+  for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover) {
+    const Pose from = pose_at(context_.movers[mover], begin);
+    const Pose to = pose_at(context_.movers[mover], end);
+    motions.push_back({from.position, to.position, to.angle, to.angle});
+    if (!memory_.turns[mover]) continue;
+    const double angle = to.angle - from.angle;
+    const Vec2d pivot = pivot_of(mover, begin, angle, position);
+    motions.back().from = pivot - geometry::Turn(angle)(Vec2d(pivot - from.position));
+  }
+  for (const MoverMotion& circle : memory_.circle_motions) {
+    const Pose from = pose_at(circle, begin);
+    const Pose to = pose_at(circle, end);
+    motions.push_back({from.position, to.position, from.angle, to.angle});
+  }
+  return {begin, end, motions};
+}
+
+/// Where a collider is once it has turned.
+Pose TurningStep::turned_pose(const MovingCollider& collider, const Part& part) const {
+  if (collider.by_itself) return pose_at(collider.motion, part.begin);
+  const MoverMotion& motion = part.motions[collider.mover];
+  return {motion.from, motion.to_angle};
+}
+
+/// Whether a collider overlaps the character by more than rounding.
+bool TurningStep::overlaps(ColliderIndex collider, const Pose& pose, const Vec2d& position) const {
+  return !way_is_clear(collider, pose, pose, {hull(), position, position}, -proved);
+}
+
+/// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
+/// @param move in the part; its corners at fraction 0 are that way.
+bool TurningStep::find_way(Part& part, const MoveResult& move) {
+  std::vector<Vec2d> corners;
+  for (const PathPoint& corner : move.path)
+    if (corner.fraction == 0) corners.push_back(corner.position);
+  // Mostly it goes first, and has gone before what pushes it arrives. Evenly it would be late by the square of a turn.
+  for (const double arrival : {0.5, 1.0}) {
+    part.way.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const double share = corners.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(corners.size() - 1);
+      part.way.push_back({corners[i], arrival * share});
+    }
+    if (part.way.back().fraction < 1) part.way.push_back({part.way.back().position, 1});
+    if (is_proved(part, move, false)) return true;
+    if (corners.size() == 1) return false;
+  }
+  // In a corner one wall arrives as another leaves. Then it goes a little farther out of the corner, and comes back.
+  const Vec2d& end = corners.back();
+  const Vec2d out = out_of_corner(end, part);
+  const double far = (end - corners.front()).norm();
+  for (const double share : {0.01, 0.1, 1.0}) {
+    part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances{}.stop), 0.5}, {end, 1}};
+    if (is_proved(part, move, true)) return true;
+  }
+  return false;
+}
+
+/// Unit, away from everything that is touched once everything has turned; or zero.
+Vec2d TurningStep::out_of_corner(const Vec2d& position, const Part& part) {
+  std::array<Contact, MoveResult::max_contacts> touched;
+  Vec2d out = Vec2d::Zero();
+  for (const Contact& contact : contacts_at(position, part, touched)) out += contact.normal;
+  return out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
+}
+
+/// What the character touches once everything has turned.
+std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, const Part& part, std::span<Contact> room) {
+  const Moving moving{part.motions, scratch_.circles};
+  return room.first(controller_.sweep_->contacts_at(
+      {.position = position, .moving = &moving, .filter = controller_.filter_of(context_), .up = context_.up},
+      Tolerances{}.touch, scratch_, room));
+}
+
+/// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
+/// or crushes it, it may leave.
+/// @param of_all and of what stands meanwhile; else the sweep has proved that.
+bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_all) {
+  const auto is_clear = [&](ColliderIndex collider, const Pose& from, const Pose& to) {
+    if (!blocks(collider)) return true;
+    if (std::find(move.crushed.begin(), move.crushed.end(), collider) != move.crushed.end()) return true;
+    return overlaps(collider, from, part.way[0].position) || stays_clear(collider, from, to, part);
+  };
+  for (const MovingCollider& collider : memory_.moving) {
+    if (!(of_all || (!collider.by_itself && memory_.turns[collider.mover]))) continue;
+    if (!is_clear(collider.id, pose_at(collider.motion, part.begin), turned_pose(collider, part))) return false;
+  }
+  if (!of_all) return true;
+  Box2 way = box_at(part.way[0].position);
+  for (const PathPoint& corner : part.way) way = way.merged(box_at(corner.position));
+  bool all = true;
+  for_each_standing(way, false, [&](ColliderIndex collider) { all = all && is_clear(collider, {}, {}); });
+  return all;
+}
+
+/// The same for one collider.
+bool TurningStep::stays_clear(ColliderIndex collider, const Pose& from, const Pose& to, const Part& part) const {
+  const PieceRange pieces = scenery_.pieces_of(collider);
+  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
+    const PieceWay& whole = way_of(piece, from, to);
+    for (std::size_t leg = 0; leg + 1 < part.way.size(); ++leg) {
+      const PathPoint& begin = part.way[leg];
+      const PathPoint& end = part.way[leg + 1];
+      PieceWay& way = memory_.leg;
+      way = whole;
+      for (std::size_t v = 0; v < whole.from.size(); ++v) {
+        way.from[v] = between(whole.from[v], whole.to[v], begin.fraction);
+        way.to[v] = between(whole.from[v], whole.to[v], end.fraction);
+      }
+      if (!stay_apart({hull(), begin.position, end.position}, way, proved)) return false;
+    }
+  }
+  return true;
+}
+
+/// Valid until the next call.
+const PieceWay& TurningStep::way_of(PieceIndex piece, const Pose& from, const Pose& to) const {
+  const PieceVertices vertices = scenery_.vertices_of(piece);
+  PieceWay& way = memory_.way;
+  way.from.clear();
+  way.to.clear();
+  geometry::place({vertices.begin(), vertices.end()}, from, way.from);
+  geometry::place({vertices.begin(), vertices.end()}, to, way.to);
+  way.radius = scenery_.pieces()[piece].is_circle() ? scenery_.circle(piece).radius : 0;
+  return way;
+}
+
+/// Whether the character and all pieces of a collider stay apart.
+bool TurningStep::way_is_clear(ColliderIndex collider, const Pose& from, const Pose& to, const HullWay& way,
+                               double least) const {
+  const PieceRange pieces = scenery_.pieces_of(collider);
+  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
+    if (!stay_apart(way, way_of(piece, from, to), least)) return false;
+  return true;
+}
+
+/// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
+/// leave at any speed.
+/// @param move in the part. @param wanted speed [m/s].
+void TurningStep::limit_speed(const Part& part, double wanted, double dt, MoveResult& move,
+                              CharacterState& state) const {
+  double most = wanted;
+  bool is_pushed = false;
+  for (const Contact& contact : move.contacts) {
+    const MovingCollider* collider = find_moving(contact.collider);
+    if (collider == nullptr) continue;
+    const Pose from = pose_at(collider->motion, part.begin);
+    const Pose to = pose_at(collider->motion, part.end);
+    const Vec2d before = from.position + geometry::Turn(from.angle - to.angle)(Vec2d(contact.point - to.position));
+    most = std::max(most, (contact.point - before).norm() / dt);
+    is_pushed = true;
+  }
+  const double speed = state.velocity.norm();
+  if (!is_pushed || !(speed > most)) return;
+  state.velocity *= most / speed;
+  move.velocity = state.velocity;
+}
+
+/// Whether a collider may reach a character that goes its way within a part of the step.
+bool TurningStep::reaches(const MovingCollider& collider, const HullWay& way, double begin, double end) const {
+  return !way_is_clear(collider.id, pose_at(collider.motion, begin), pose_at(collider.motion, end), way, proved);
+}
+
+}  // namespace paperproof::turning

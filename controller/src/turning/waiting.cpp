@@ -1,0 +1,143 @@
+#include "turning/turning_step.hpp"
+
+#include <algorithm>
+
+namespace paperproof::turning {
+
+using geometry::Pose;
+using geometry::pose_at;
+
+void carry(Crusher& crusher, const Vec2d& middle, const Pose& from, const Pose& to) {
+  const Vec2d came_from = crusher.last_free + crusher.displacement + middle;
+  const Vec2d there = to.position + geometry::Turn(to.angle - from.angle)(Vec2d(came_from - from.position));
+  crusher.displacement = there - middle - crusher.last_free;
+}
+
+/// Reports that the character enters and leaves a sensor, as far as instants of the step show it.
+/// @param ends the instants. @param place_at of the character, at one of them.
+template <class PlaceAt>
+void TurningStep::note_stays(ColliderIndex sensor, const MoverMotion& motion, double begin,
+                             std::span<const double> ends, const PlaceAt& place_at) {
+  const auto is_inside = [&](double when) { return overlaps(sensor, pose_at(motion, when), place_at(when)); };
+  bool inside = is_inside(begin);
+  for (const double end : ends) {
+    if (is_inside(end) == inside) continue;
+    inside = !inside;
+    report_.sensors.push_back(sensor_event(sensor, inside, end));
+  }
+}
+
+/// The rest of a step, in which the character stays, then goes straight to a place, and everything that moves turns
+/// evenly. What may reach the character crushes it.
+/// @param begin as a fraction of the step; what is before it stands in the report.
+/// @param departure when the character leaves for the place.
+void TurningStep::go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state) {
+  MoveResult& move = report_.move;
+  move.position = to;
+  move.velocity.setZero();
+  move.grounded = false;
+  move.ground = {};
+  move.ride = {};
+  move.crushers.clear();
+  if (move.path.empty()) move.path.push_back({state.position, 0});
+  if (departure > begin) move.path.push_back({state.position, departure});
+  move.path.push_back({to, 1});
+  if (begin == 0) note_begin();
+  std::vector<double> ends;
+  for (int part = 1; part < most_parts; ++part) ends.push_back(begin + (1 - begin) * part / most_parts);
+  if (departure > begin) ends.push_back(departure);
+  ends.push_back(1);
+  const auto place_at = [&](double fraction) {
+    return fraction < 1 ? between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure)) : to;
+  };
+  std::vector<ColliderIndex> standing_sensors;
+  for_each_standing(needed_, true, [&](ColliderIndex sensor) { standing_sensors.push_back(sensor); });
+  std::sort(standing_sensors.begin(), standing_sensors.end());
+  standing_sensors.erase(std::unique(standing_sensors.begin(), standing_sensors.end()), standing_sensors.end());
+  for (const ColliderIndex sensor : standing_sensors)
+    if (is_there(sensor)) note_stays(sensor, {}, begin, ends, place_at);
+  for (const MovingCollider& collider : memory_.moving)
+    if (scenery_.collider(collider.id).sensor && is_there(collider.id))
+      note_stays(collider.id, collider.motion, begin, ends, place_at);
+  std::stable_sort(report_.sensors.begin(), report_.sensors.end(),
+                   [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  for (std::size_t i = 0; i < memory_.turned.size(); ++i)
+    for (const double end : ends) note_vertices(pose_at(memory_.moving[i].motion, end), i, end);
+  for (const MovingCollider& collider : memory_.moving) {
+    if (!blocks(collider.id)) continue;
+    const Pose from = pose_at(collider.motion, begin);
+    const Pose at_end = pose_at(collider.motion, 1);
+    bool is_reached = false;
+    double last = begin;
+    for (const double end : ends) {
+      is_reached = is_reached || reaches(collider, {hull(), place_at(last), place_at(end)}, last, end);
+      last = end;
+    }
+    if (!is_reached) continue;
+    const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
+                                    [&](const Crusher& crusher) { return crusher.collider == collider.id; });
+    Crusher crusher{collider.id, state.position};
+    if (known != state.crushers.end()) crusher = *known;
+    carry(crusher, middle(), from, at_end);
+    const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
+    if (!is_named && !overlaps(collider.id, from, state.position)) move.crushed.push_back(collider.id);
+    if (overlaps(collider.id, at_end, to)) move.crushers.push_back(crusher);
+  }
+}
+
+/// Where a character that stays in place would leave what overlaps it at the end of the step.
+std::optional<Vec2d> TurningStep::way_out_at_end(CharacterState state) {
+  (void)turn(0, 1, state.position);
+  for (MoverIndex mover = 0; mover < memory_.motions.size(); ++mover) {
+    MoverMotion& motion = memory_.motions[mover];
+    motion.from = motion.to;
+    motion.from_angle = motion.to_angle;
+  }
+  state.ride = {};
+  for (Crusher& crusher : state.crushers)
+    if (const MovingCollider* collider = find_moving(crusher.collider))
+      carry(crusher, middle(), pose_at(collider->motion, 0), pose_at(collider->motion, 1));
+  const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.motions, memory_.of_part);
+  if (status != StepStatus::moved) return std::nullopt;
+  return memory_.of_part.move.position;
+}
+
+/// A step for a character that no division of the step brings to a free position. It goes straight to one, if it can,
+/// in the course of the step or at its end; else it stays in place.
+StepStatus TurningStep::go_straight_or_stay(CharacterState& state) {
+  const std::optional<Vec2d> out = way_out_at_end(state);
+  MoveResult& move = report_.move;
+  const auto goes_out = [&](double departure) {
+    report_.clear();
+    go_straight(0, departure, *out, state);
+    return move.crushed.empty() && move.crushers.empty();
+  };
+  if (!out || !(goes_out(0) || goes_out(1 - turning_share))) return stay(state);
+  step_parts::adopt(character(), context_.up, move, state);
+  return report_.status = step_parts::status_of(move.status);
+}
+
+/// A step in which the character stays in place, and what reaches it crushes it.
+StepStatus TurningStep::stay(CharacterState& state) {
+  MoveResult& move = report_.move;
+  report_.clear();
+  go_straight(0, 0, state.position, state);
+  bool is_held = !move.crushers.empty();
+  for_each_standing(box_at(state.position), false, [&](ColliderIndex collider) {
+    is_held = is_held || (blocks(collider) && overlaps(collider, {}, state.position));
+  });
+  move.status = is_held ? MoveStatus::stuck : MoveStatus::moved;
+  if (!move.crushed.empty()) move.status = MoveStatus::crushed;
+  step_parts::adopt(character(), context_.up, move, state);
+  return report_.status = step_parts::status_of(move.status);
+}
+
+StepStatus TurningStep::wait(CharacterState& state) {
+  if (!step_parts::in_range(state.position)) return refuse(MoveStatus::out_of_range, state);
+  memory_.turned.clear();
+  read(box_at(state.position));
+  forget_gone(state);
+  return stay(state);
+}
+
+}  // namespace paperproof::turning
