@@ -465,6 +465,94 @@ TEST(LevelTurning, a_step_depends_on_its_state_alone) {
   EXPECT_GE(pushed, 300);
 }
 
+/// What is made turned needs no angle. Sensors, one-way colliders and questions among them.
+TEST(LevelTurning, a_mover_that_keeps_its_angle_is_as_one_that_was_made_turned) {
+  const int runs = steps_wanted("PAPERPROOF_KEPT_ANGLES", sampled(400));
+  int ridden = 0;
+  int sensed = 0;
+  int asked = 0;
+  int dropped = 0;
+  for (int seed = 1; seed <= runs; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    SceneryDef as_given = room;
+    SceneryDef made_turned = room;
+    std::vector<double> angles;
+    for (MoverIndex mover = 0; mover < 3; ++mover) {
+      angles.push_back(random.angle());
+      const geometry::Turn turn(angles.back());
+      const int colliders = random.integer(1, 2);
+      for (int i = 0; i < colliders; ++i) {
+        const double half = random.between(0.2, 2);
+        const double x = random.between(-1, 1);
+        const double thick = random.between(0.1, 0.4);
+        ColliderDef def = box(x - half, -thick, x + half, thick, mover);
+        if (random.chance(0.4)) def.points.erase(def.points.begin());
+        if (random.chance(0.2)) def.sensor = true;
+        if (!def.sensor && random.chance(0.3)) def.one_way = geometry::Turn(-angles.back())(Vec2d(0, 1));
+        // In a wedge of two equal slopes the order of what is made decides which of them carries.
+        if (!def.sensor && colliders == 1) def.surface_speed = random.between(-2, 2);
+        as_given.colliders.push_back(def);
+        for (Vec2d& point : def.points) point = turn(point);
+        if (def.one_way) def.one_way = turn(*def.one_way);
+        made_turned.colliders.push_back(def);
+      }
+    }
+    Played one(as_given, {random.between(-5, 5), 6});
+    Played other(made_turned, one.state.position);
+    std::vector<Vec2d> places;
+    std::vector<Vec2d> ways;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      places.emplace_back(random.between(-5, 5), random.between(1, 3));
+      ways.push_back(random.point(1));
+    }
+    const auto ridden_by = [](const Played& played) {
+      const ColliderIndex ground = played.state.ride.ground;
+      return ground == Ride::none ? no_mover : played.level.collider(ground).mover;
+    };
+    Input input;
+    for (int step = 0; step < 150; ++step) {
+      if (step % 15 == 0) input = random_input(random);
+      input.drop = random.chance(0.1);
+      for (std::size_t i = 0; i < angles.size(); ++i) {
+        const Vec2d there = places[i] + ways[i] * std::sin(0.03 * (step + 1));
+        one.movers[i] = {step == 0 ? there : one.movers[i].to, there, angles[i], angles[i]};
+        other.movers[i] = {one.movers[i].from, there};
+      }
+      one.step(input);
+      other.step(input);
+      const auto where = [&] { return "seed " + std::to_string(seed) + ", step " + std::to_string(step); };
+      ASSERT_TRUE(same_bits(one.state.position, other.state.position)) << where();
+      ASSERT_TRUE(same_bits(one.state.velocity, other.state.velocity)) << where();
+      ASSERT_EQ(one.report.status, other.report.status) << where();
+      ASSERT_EQ(ridden_by(one), ridden_by(other)) << where();
+      ASSERT_EQ(one.report.move.contacts.size(), other.report.move.contacts.size()) << where();
+      ASSERT_EQ(one.report.dropped_through, other.report.dropped_through) << where();
+      ASSERT_EQ(one.report.sensors.size(), other.report.sensors.size()) << where();
+      const Vec2d beside = one.state.position + random.point(1);
+      const Vec2d way = random.point(3);
+      const auto hit = one.controller.cast(beside, way, one.context(), one.scratch);
+      const auto expected = other.controller.cast(beside, way, other.context(), other.scratch);
+      ASSERT_EQ(hit.has_value(), expected.has_value()) << where();
+      ASSERT_TRUE(!hit || hit->fraction == expected->fraction) << where() << hit->fraction << " " << expected->fraction;
+      ASSERT_EQ(one.controller.overlaps(beside, one.context(), one.scratch),
+                other.controller.overlaps(beside, other.context(), other.scratch))
+          << where();
+      std::array<ColliderIndex, 8> inside{};
+      ASSERT_EQ(one.controller.sensors_at(beside, one.context(), one.scratch, inside),
+                other.controller.sensors_at(beside, other.context(), other.scratch, inside))
+          << where();
+      asked += hit.has_value();
+      ridden += one.state.ride.ground != Ride::none;
+      sensed += !one.report.sensors.empty();
+      dropped += !one.report.dropped_through.empty();
+    }
+  }
+  EXPECT_GE(ridden, runs);
+  EXPECT_GE(sensed, runs / 10);
+  EXPECT_GE(asked, runs * 10);
+  EXPECT_GE(dropped, runs / 20);
+}
+
 TEST(LevelTurning, what_the_filter_leaves_out_changes_nothing) {
   ColliderDef spinner = box(-1, 1.5, 1, 1.6, 0);
   spinner.filter.category = 2;
