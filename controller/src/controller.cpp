@@ -169,7 +169,8 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
 
 [[gnu::always_inline]] inline Moving Controller::moving_in(const StepContext& context,
                                                            const Scratch& scratch) const noexcept {
-  return {context.movers.first(scenery_->mover_count() + scratch.circles.size()), scratch.circles};
+  const std::vector<PieceIndex>& circles = turning::memory_of(scratch).circles;
+  return {context.movers.first(scenery_->mover_count() + circles.size()), circles};
 }
 
 [[gnu::always_inline]] inline bool Controller::accepts(const CharacterState& state, const Input& input,
@@ -301,7 +302,7 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
 
 bool Controller::is_divided(const CharacterState& state, const StepContext& context,
                             const Scratch& scratch) const noexcept {
-  if (scratch.is_in_part) return false;
+  if (turning::memory_of(scratch).is_in_part) return false;
   const bool all_there =
       state.crushers.empty() || std::all_of(state.crushers.begin(), state.crushers.end(),
                                             [&](const Crusher& crusher) { return scenery_->has(crusher.collider); });
@@ -323,7 +324,7 @@ StepStatus Controller::wait(CharacterState& state, const StepContext& context, S
 }
 
 std::span<const TurnedCollider> Controller::turned(const Scratch& scratch) noexcept {
-  return static_cast<const turning::Memory&>(*scratch.turning).turned;
+  return scratch.turning == nullptr ? std::span<const TurnedCollider>{} : turning::memory_of(scratch).turned;
 }
 
 Box2 Controller::reach(const CharacterState& state, const StepContext& context) const noexcept {
@@ -354,7 +355,7 @@ auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double
   const Vec2d end = position + displacement;
   const Box2 around{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
   StepContext posed = context;
-  const turning::CirclesOfQuestion circles(*scenery_, around.inflated(within), posed, scratch);
+  const turning::CirclesOfQuestion circles(*scenery_, around.inflated(within), posed, turning::memory_of(scratch));
   const Moving moving = moving_in(posed, scratch);
   return ask(StepRequest{.position = position,
                          .displacement = displacement,

@@ -35,7 +35,7 @@ struct ColliderDef {
   /// A polygon blocks as one-way chains do, which are made of its outer edges that face where this vector points: see
   /// `one_way_lines`. Nothing else of it blocks, so a character jumps up through a platform and lands on its top.
   std::optional<Vec2d> one_way{};
-  /// The mover that moves this collider; `points` then hold while the mover's offset is zero.
+  /// The mover that moves this collider; `points` and `one_way` then hold while the mover's offset and angle are zero.
   MoverIndex mover = no_mover;
   /// Blocks nothing: the controller reports when the character enters and leaves it. Not with `one_way`.
   bool sensor = false;

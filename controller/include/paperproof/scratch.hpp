@@ -43,10 +43,6 @@ struct Scratch {
   std::unique_ptr<OwnMemory> sensors;
   std::unique_ptr<OwnMemory> turning;
   bool notes_turned = false;  ///< See `Controller::turned`.
-  /// In a shorter step among movers that have an angle: circles whose centres go straight. Their motions follow those
-  /// of the movers.
-  std::vector<PieceIndex> circles;
-  bool is_in_part = false;  ///< In such a shorter step.
   /// The maker of this memory: a controller refuses memory that another controller made. The mark expires with its
   /// controller, so it never matches a later controller at the same address.
   std::weak_ptr<const void> maker;

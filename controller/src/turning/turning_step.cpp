@@ -14,11 +14,10 @@ MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noex
   return {offset(pose_at(mover, 0)), offset(pose_at(mover, 1)), mover.from_angle, mover.to_angle};
 }
 
-CirclesOfQuestion::CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Scratch& scratch)
-    : scratch_(scratch) {
+CirclesOfQuestion::CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Memory& memory)
+    : memory_(memory) {
   if (!step_parts::any_angle(context.movers)) return;
-  auto& memory = static_cast<Memory&>(*scratch.turning);
-  memory.motions.assign(context.movers.begin(), context.movers.begin() + std::ssize(context.movers));
+  memory.motions.assign(context.movers.begin(), context.movers.end());
   memory.motions.resize(scenery.mover_count());
   for (MoverMotion& motion : memory.motions) motion.to_angle = motion.from_angle;
   for (MoverIndex mover = 0; mover < scenery.mover_count(); ++mover) {
@@ -31,7 +30,7 @@ CirclesOfQuestion::CirclesOfQuestion(const Scenery& scenery, const Box2& around,
         grid->find(grid->whole(), scenery.boxes(), memory.pieces);
     for (const PieceIndex piece : memory.pieces) {
       if (!scenery.pieces()[piece].is_circle()) continue;
-      scratch.circles.push_back(piece);
+      memory.circles.push_back(piece);
       memory.motions.push_back(motion_of_centre(scenery.circle(piece).centre, motion));
       memory.motions.back().from_angle = memory.motions.back().to_angle = 0;
     }
@@ -45,10 +44,10 @@ TurningStep::TurningStep(const Controller& controller, const StepContext& contex
       context_(context),
       filter_(context.filter == nullptr ? ColliderFilter{} : *context.filter),
       scratch_(scratch),
-      memory_(static_cast<Memory&>(*scratch.turning)),
+      memory_(memory_of(scratch)),
       report_(report) {
   context_.movers = context.movers.first(scenery_.mover_count());
-  scratch_.is_in_part = true;
+  memory_.is_in_part = true;
 }
 
 bool TurningStep::is_there(ColliderIndex collider) const { return filter_(scenery_, collider); }
@@ -67,7 +66,7 @@ void TurningStep::read(const Box2& needed) {
   memory_.turns.assign(context_.movers.size(), false);
   memory_.moving.clear();
   memory_.circle_motions.clear();
-  scratch_.circles.clear();
+  memory_.circles.clear();
   for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover) read(mover, needed);
   std::sort(memory_.moving.begin(), memory_.moving.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
 }
@@ -88,7 +87,7 @@ void TurningStep::read(MoverIndex mover, const Box2& needed) {
     MovingCollider collider{info.collider, mover, motion, by_itself};
     if (by_itself) {
       collider.motion = motion_of_centre(scenery_.circle(piece).centre, motion);
-      scratch_.circles.push_back(piece);
+      memory_.circles.push_back(piece);
       memory_.circle_motions.push_back(collider.motion);
       collider.motion.from_angle = collider.motion.to_angle = 0;
     }

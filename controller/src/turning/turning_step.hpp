@@ -48,8 +48,10 @@ struct Part {
 
 /// Of one scratch. Nothing in it but `turned` outlives a step.
 struct Memory final : OwnMemory {
-  std::vector<MoverMotion> motions;         ///< Of the present part: of movers, then of circles.
-  std::vector<MoverMotion> circle_motions;  ///< In the step, of `Scratch::circles`; with the angles of their movers.
+  std::vector<PieceIndex> circles;   ///< In a part, or a question: those that go by themselves. See `Moving::circles`.
+  bool is_in_part = false;           ///< The controller makes a shorter step.
+  std::vector<MoverMotion> motions;  ///< Of the present part: of movers, then of circles.
+  std::vector<MoverMotion> circle_motions;  ///< In the step, of `circles`; with the angles of their movers.
   std::vector<bool> turns;                  ///< Whether a mover turns near the character.
   std::vector<MovingCollider> moving;       ///< By id.
   std::vector<PieceIndex> pieces;
@@ -60,6 +62,11 @@ struct Memory final : OwnMemory {
   std::vector<ColliderDef> turned_defs;
 };
 
+/// @param scratch made by a controller.
+[[nodiscard]] inline Memory& memory_of(const Scratch& scratch) noexcept {
+  return static_cast<Memory&>(*scratch.turning);
+}
+
 /// The motion of a circle's centre, as its offset; with the angles of its mover.
 [[nodiscard]] MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noexcept;
 
@@ -68,13 +75,13 @@ struct Memory final : OwnMemory {
 class CirclesOfQuestion {
  public:
   /// @param around what is asked about. @param context gets the motions; the same where no mover has an angle.
-  CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Scratch& scratch);
-  ~CirclesOfQuestion() { scratch_.circles.clear(); }
+  CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Memory& memory);
+  ~CirclesOfQuestion() { memory_.circles.clear(); }
   CirclesOfQuestion(const CirclesOfQuestion&) = delete;
   CirclesOfQuestion& operator=(const CirclesOfQuestion&) = delete;
 
  private:
-  Scratch& scratch_;
+  Memory& memory_;
 };
 
 /// One step of one character.
@@ -82,8 +89,8 @@ class TurningStep {
  public:
   TurningStep(const Controller& controller, const StepContext& context, Scratch& scratch, StepReport& report);
   ~TurningStep() {
-    scratch_.circles.clear();
-    scratch_.is_in_part = false;
+    memory_.circles.clear();
+    memory_.is_in_part = false;
   }
   TurningStep(const TurningStep&) = delete;
   TurningStep& operator=(const TurningStep&) = delete;
