@@ -19,6 +19,8 @@ ROWS = [
     ("one character among 10,000 sensors", "sensors/10000", "paperproof", "sensors/10000", "box2d", "ns", 0),
     *[(f"10,000 characters, each, {words}", f"characters/{how}", "paperproof", f"characters/{how}", "box2d", "ns", 0)
       for words, how in (("own scratch", "own_scratch"), ("one scratch", "shared_scratch"))],
+    ("one character on a plank that turns", "plank/on", "paperproof", "plank/on", "box2d", "ns", 0),
+    ("one character beside it", "plank/beside", "paperproof", "plank/beside", "box2d", "ns", 0),
     ("a start inside, 1,000,000 pieces", "start_inside/surface", "paperproof", "start_inside/surface", "box2d", "ns", 0),
     ("a start deep inside", "start_inside/deep", "paperproof", "start_inside/deep", "box2d", "ns", 0),
     ("set-up of 1,000,000 pieces", "setup/octagon_sweep/1000000", "all_ms", "setup/box2d/1000000", "all_ms", "ms", 0),
@@ -30,7 +32,7 @@ def measured(program, processes):
     """Every counter by name of benchmark and counter, the least of all processes."""
     least = {}
     for _ in range(processes):
-        output = subprocess.run([program, "--benchmark_filter=table/.*(pieces|sensors|characters|start|1000000)",
+        output = subprocess.run([program, "--benchmark_filter=table/.*(pieces|sensors|characters|plank|start|1000000)",
                                  "--benchmark_format=json"], check=True, stdout=subprocess.PIPE).stdout
         for run in json.loads(output)["benchmarks"]:
             name = run["name"].removeprefix("table/").split("/iterations:")[0]

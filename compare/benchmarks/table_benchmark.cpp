@@ -7,9 +7,12 @@
 #include <paperproof/controller.hpp>
 
 #include <benchmark/benchmark.h>
+#include <box2d/b2_fixture.h>
+#include <box2d/b2_polygon_shape.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -190,6 +193,83 @@ void many_characters(benchmark::State& state, std::size_t scratches) {
   report(state, paperproof, box2d, many);
 }
 
+/// A plank of 3 m that turns, 1 m above the ground.
+constexpr double half_of_plank = 1.5;
+constexpr double half_thickness = 0.1;
+constexpr double plank_above_ground = 1;
+constexpr double where_nothing_is_above = 14.35;
+/// Whoever stands on it: it rocks so far, so fast.
+constexpr double rocks_by = 0.1;      // [rad]
+constexpr double rocks_faster = 0.5;  // [rad/s]
+/// Whoever stands beside it: it turns round so fast.
+constexpr double turns_by = 2;  // [rad/s]
+
+/// Where the plank is when a step begins [rad].
+double angle_at(int step, bool rocks) {
+  const double time = step * frame;
+  return rocks ? rocks_by * std::sin(rocks_faster / rocks_by * time) : turns_by * time;
+}
+
+/// A character that stands while the plank turns.
+/// @param aside of the middle of the plank [m]; zero: it stands on the plank, which rocks.
+void plank(benchmark::State& state, double aside) {
+  const bool is_on_it = aside == 0;
+  const Level level = make_level(pieces_of_many);
+  const Vec2d middle = level.start() + Vec2d(where_nothing_is_above, plank_above_ground);
+  const Vec2d start =
+      is_on_it ? Vec2d(middle + Vec2d(0, 0.8)) : Vec2d(level.start() + Vec2d(where_nothing_is_above + aside, 0));
+  Scenery scenery(level.scenery);
+  ColliderDef def{.points = {{-half_of_plank, -half_thickness},
+                             {half_of_plank, -half_thickness},
+                             {half_of_plank, half_thickness},
+                             {-half_of_plank, half_thickness}}};
+  def.mover = 0;
+  scenery.add(def);
+  const Controller controller(scenery, CharacterDef{});
+  Scratch scratch = controller.make_scratch();
+  StepReport report_of_step;
+  CharacterState character;
+  const auto run = [&] {
+    character = {};
+    character.position = start;
+    for (int step = 0; step < walked_steps; ++step) {
+      const MoverMotion motion{middle, middle, angle_at(step, is_on_it), angle_at(step + 1, is_on_it)};
+      controller.step(character, {.move = 0.0}, {{0, gravity_y}, frame, {&motion, 1}}, scratch, report_of_step);
+    }
+  };
+
+  const std::unique_ptr<b2World> world = make_box2d_level(level);
+  b2BodyDef kinematic;
+  kinematic.type = b2_kinematicBody;
+  kinematic.position = box2d::rounded(middle);
+  b2Body& body_of_plank = *world->CreateBody(&kinematic);
+  b2PolygonShape shape;
+  shape.SetAsBox(static_cast<float>(half_of_plank), static_cast<float>(half_thickness));
+  body_of_plank.CreateFixture(&shape, 0);
+  b2Body& body = add_box2d_character(*world, CharacterDef{}, start);
+  const auto run_box2d = [&] {
+    body.SetTransform(box2d::rounded(start), 0);
+    body_of_plank.SetTransform(box2d::rounded(middle), 0);
+    body.SetLinearVelocity({0, 0});
+    body.SetAwake(true);
+    for (int step = 0; step < walked_steps; ++step) {
+      const double turn = angle_at(step + 1, is_on_it) - angle_at(step, is_on_it);
+      body_of_plank.SetAngularVelocity(static_cast<float>(turn / frame));
+      body.SetLinearVelocity({0, body.GetLinearVelocity().y + static_cast<float>(gravity_y * frame)});
+      world->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+    }
+  };
+  Least paperproof;
+  Least box2d;
+  for ([[maybe_unused]] auto _ : state) {
+    paperproof.note(nanoseconds_of(run));
+    if (!character.grounded || (character.position.y() > middle.y()) != is_on_it)
+      return state.SkipWithError("the character stands elsewhere");
+    box2d.note(nanoseconds_of(run_box2d));
+  }
+  report(state, paperproof, box2d, walked_steps);
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -242,6 +322,8 @@ void register_table_benchmarks() {
       [](benchmark::State& state) { one_character(state, make_level_with_sensors(pieces_of_many, 10'000)); });
   add("characters/own_scratch", 40, [](benchmark::State& state) { many_characters(state, many); });
   add("characters/shared_scratch", 40, [](benchmark::State& state) { many_characters(state, 1); });
+  add("plank/on", 20, [](benchmark::State& state) { plank(state, 0); });
+  add("plank/beside", 20, [](benchmark::State& state) { plank(state, 2.2); });
   add("start_inside/surface", 200, [](benchmark::State& state) { start_inside(state, 0.1, StepStatus::moved); });
   add("start_inside/deep", 200, [](benchmark::State& state) { start_inside(state, 3, StepStatus::stuck); });
 }
