@@ -58,7 +58,7 @@ Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noex
   return positions;
 }
 
-/// Appends those that are there, by the names that their user has for them.
+/// Appends those that are there.
 /// @param box as the mover sees it, apart from its angle.
 void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const noexcept {
   const std::size_t first = found.size();
@@ -69,11 +69,11 @@ void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<P
   if (mover != no_mover && moving_ != nullptr && !moving_->circles.empty()) [[unlikely]]
     found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), goes_by_itself),
                 found.end());
-  name(first, mover, angle, found);
+  arrange(first, found);
 }
 
-/// Leaves out what is not there, sorts the rest, and names it.
-void Nearby::name(std::size_t first, MoverIndex mover, double angle, std::vector<PieceIndex>& found) const noexcept {
+/// Removes the pieces that are not there, and sorts the others.
+void Nearby::arrange(std::size_t first, std::vector<PieceIndex>& found) const noexcept {
   const auto before = static_cast<std::ptrdiff_t>(first);
   if (filter_ != nullptr) {
     const Scenery& scenery = finder_.scenery();
@@ -82,7 +82,12 @@ void Nearby::name(std::size_t first, MoverIndex mover, double angle, std::vector
   }
   std::sort(found.begin() + before, found.end(),
             [&](PieceIndex a, PieceIndex b) { return finder_.scenery().comes_before(a, b); });
-  if (user_ != nullptr) user_->prepare({found.begin() + before, found.end()}, mover, angle);
+}
+
+/// Writes the names that the user has for pieces in their places.
+void Nearby::name(std::span<PieceIndex> pieces, MoverIndex motion) const noexcept {
+  const bool has_motion = motion != no_mover && moving_ != nullptr && motion < moving_->mover_count();
+  if (user_ != nullptr) user_->prepare(pieces, motion, has_motion ? moving_->motions[motion].to_angle : 0);
 }
 
 void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
@@ -95,6 +100,7 @@ void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
       positions.merged({positions.lower + ahead, positions.upper + ahead}).inflated(finder_.look_ahead() * sides);
   known_.pieces.clear();
   find(no_mover, finder_.touched_from(known_.box), 0, known_.pieces);
+  name(known_.pieces, no_mover);
   known_.valid = true;
 }
 
@@ -105,12 +111,17 @@ void Nearby::find_moving(const Box2& positions) noexcept {
   known_.moving.clear();
   known_.of_movers.clear();
   for (MoverIndex mover = 0; mover < moving_->motions.size(); ++mover) add_moving(mover, touched);
-  // By their motions, so that movers that are alike give the same bits, whatever their numbers are.
+  // By motion and content, so that movers that are alike give the same bits, whatever their numbers are.
   const auto key = [&](const Candidates::OfMover& each) {
     const MoverMotion& motion = moving_->motions[each.mover];
-    return std::tuple(motion.from.x(), motion.from.y(), motion.to.x(), motion.to.y(), motion.to_angle, each.mover);
+    return std::tuple(motion.from.x(), motion.from.y(), motion.to.x(), motion.to.y(), motion.to_angle);
   };
-  std::sort(known_.moving.begin(), known_.moving.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  std::sort(known_.moving.begin(), known_.moving.end(), [&](const auto& a, const auto& b) {
+    if (key(a) != key(b)) return key(a) < key(b);
+    return finder_.scenery().comes_before(known_.of_movers[a.first], known_.of_movers[b.first]);
+  });
+  for (const auto& [mover, first, end] : known_.moving)
+    name(std::span(known_.of_movers).subspan(first, end - first), mover);
   known_.moving_valid = true;
 }
 
@@ -124,7 +135,7 @@ void Nearby::add_moving(MoverIndex mover, const Box2& touched) noexcept {
     const PieceIndex circle = moving_->circles[mover - moving_->mover_count()];
     if (!finder_.has(circle) || !box.overlaps(finder_.scenery().box(circle))) return;
     found.push_back(circle);
-    name(first, mover, 0, found);
+    arrange(first, found);
   } else {
     find(mover, box, motion.to_angle, found);
   }
@@ -146,8 +157,10 @@ void Nearby::reserve(const Box2& positions) {
   known_.of_movers.clear();
   for (MoverIndex mover = 0; mover < finder_.scenery().mover_count(); ++mover)
     find(mover, finder_.whole(mover), 0, known_.of_movers);
+  name(known_.of_movers, 0);
   known_.pieces.clear();
   find(no_mover, finder_.touched_from(positions.inflated(2 * finder_.look_ahead())), 0, known_.pieces);
+  name(known_.pieces, no_mover);
   known_.pieces.reserve(known_.pieces.size() + known_.of_movers.size());
   forget();
 }

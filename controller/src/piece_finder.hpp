@@ -148,7 +148,8 @@ class Nearby {
   void follow_edits() noexcept;
   void find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const noexcept;
   void add_moving(MoverIndex mover, const Box2& touched) noexcept;
-  void name(std::size_t first, MoverIndex mover, double angle, std::vector<PieceIndex>& found) const noexcept;
+  void arrange(std::size_t first, std::vector<PieceIndex>& found) const noexcept;
+  void name(std::span<PieceIndex> pieces, MoverIndex motion) const noexcept;
 
   const PieceFinder& finder_;
   Candidates& known_;

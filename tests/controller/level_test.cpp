@@ -600,16 +600,23 @@ TEST(ControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
 }
 
 TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
-  ColliderDef right = box(-10, -1, 10, 0);
-  right.surface_speed = 2;
-  ColliderDef left = right;
-  left.surface_speed = -3;
-  Played one({{right, left}});
-  Played other({{left, right}});
-  one.steps(60);
-  other.steps(60);
-  EXPECT_EQ(one.state.position, other.state.position);
-  EXPECT_GT(one.state.position.norm(), 1) << "on either belt";
+  for (const bool move : {false, true}) {
+    ColliderDef right = box(-10, -1, 10, 0);
+    right.surface_speed = 2;
+    ColliderDef left = right;
+    left.surface_speed = -3;
+    const auto end_on = [&](ColliderDef first, ColliderDef second) {
+      if (move) {  // movers that go alike
+        first.mover = 0;
+        second.mover = 1;
+      }
+      Played played({{first, second}});
+      played.steps(60);
+      return played.state.position;
+    };
+    EXPECT_EQ(end_on(right, left), end_on(left, right));
+    EXPECT_GT(end_on(right, left).norm(), 1) << "on either belt";
+  }
 }
 
 // The proof.

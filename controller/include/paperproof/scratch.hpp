@@ -27,7 +27,7 @@ struct Candidates {
   Box2 box;                        ///< Positions of the character for which they are complete, if `valid`.
   bool valid = false;
   std::vector<PieceIndex> of_movers;
-  std::vector<OfMover> moving;  ///< Ascending.
+  std::vector<OfMover> moving;  ///< In the order of their motions.
   Box2 moving_box;              ///< The same for pieces of movers, in this step alone.
   bool moving_valid = false;
   std::uint64_t edit = 0;   ///< After so many edits of the scenery.
