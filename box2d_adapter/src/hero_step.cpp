@@ -62,7 +62,7 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   return report.status;
 }
 
-/// Reads what is near. The box depends on the state alone, so that the hero does after a roll-back what it did before.
+/// Reads what is near. The box follows from the state alone, so a roll-back gives the same steps again.
 void Hero::Impl::read_near(const Box2& needed) {
   const auto before = [](double x) { return (std::floor(x / read_ahead) - 1) * read_ahead; };
   const auto after = [](double x) { return (std::ceil(x / read_ahead) + 1) * read_ahead; };
@@ -70,10 +70,9 @@ void Hero::Impl::read_near(const Box2& needed) {
       {{before(needed.lower.x()), before(needed.lower.y())}, {after(needed.upper.x()), after(needed.upper.y())}});
 }
 
-/// A step within what was read. Where the hero went farther, more is read, and it steps again.
+/// Makes the step. If it leads beyond what was read, reads more and makes it again.
 StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
   const CharacterState before = state;
-  const Box2& extent = def.character.shape.box();
   Box2 needed = controller.reach(state, context);
   for (;;) {
     if (!(needed.lower.minCoeff() > -farthest && needed.upper.maxCoeff() < farthest))
@@ -83,9 +82,7 @@ StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
     state = before;
     const StepStatus status = go(context);
     if (is_refused(status)) return status;
-    Box2 way{state.position, state.position};
-    for (const PathPoint& corner : report.move.path) way = way.merged({corner.position, corner.position});
-    way = Box2{way.lower + extent.lower, way.upper + extent.upper}.inflated(Controller::most_turned);
+    const Box2 way = controller.reach(report.move);
     if (needed.contains(way)) return status;
     needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));
   }

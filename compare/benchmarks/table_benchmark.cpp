@@ -198,10 +198,10 @@ constexpr double half_of_plank = 1.5;
 constexpr double half_thickness = 0.1;
 constexpr double plank_above_ground = 1;
 constexpr double where_nothing_is_above = 14.35;
-/// Whoever stands on it: it rocks so far, so fast.
+/// How far and how fast it rocks under a character.
 constexpr double rocks_by = 0.1;      // [rad]
 constexpr double rocks_faster = 0.5;  // [rad/s]
-/// Whoever stands beside it: it turns round so fast.
+/// How fast it turns round beside a character.
 constexpr double turns_by = 2;  // [rad/s]
 
 /// Where the plank is when a step begins [rad].

@@ -339,6 +339,13 @@ Box2 Controller::reach(const CharacterState& state, const StepContext& context) 
       reach);
 }
 
+Box2 Controller::reach(const MoveResult& move) const noexcept {
+  Box2 positions{move.position, move.position};
+  for (const PathPoint& corner : move.path) positions = positions.merged({corner.position, corner.position});
+  const Box2& extent = character_.shape.box();
+  return Box2{positions.lower + extent.lower, positions.upper + extent.upper}.inflated(most_turned);
+}
+
 bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                             const Scratch& scratch) const noexcept {
   return is_made_by(sweep_, scratch.maker) && in_range(position) && in_range(Vec2d(position + displacement)) &&

@@ -32,7 +32,7 @@ class OneWayChains {
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
   /// finds is left out.
   /// @param path straight between its corners. @param motions of the movers. @param near the solid pieces.
-  /// @param segment_of called with a piece: what it is, if it is a one-way segment.
+  /// @param segment_of gives the one-way segment that a piece is, or nothing.
   template <class SegmentOf>
   void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> motions, Nearby near,
                    const SegmentOf& segment_of, Passed& passed) const {

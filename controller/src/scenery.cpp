@@ -407,7 +407,6 @@ void Scenery::log(ColliderIndex id) {
   if (range.size() > 0) box = boxes_[range.first];
   for (PieceIndex piece = range.first; piece < range.end; ++piece) box = box.merged(boxes_[piece]);
   edits_.add({range, box, info.mover, info.one_way.has_value()});
-  colliders_[slot_of(id)].version = edits_.count();
 }
 
 PieceGrid& Scenery::grid_of(PieceIndex piece) {

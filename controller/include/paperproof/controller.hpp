@@ -60,15 +60,14 @@ struct TurnedCollider {
 /// each mover turns by its angle about a pivot, every vertex on a straight line, while everything else stands. The
 /// pivot is the corner of the character that will be nearest to the mover, or a corner of the mover beneath it. If it
 /// comes to overlap the character, the character goes straight to the nearest free position meanwhile. Then all movers
-/// go straight to their places. So what is near the character turns under its foot, and `turned` gives every vertex at
-/// all times.
+/// go straight to their places. So a plank turns under the character's foot. `turned` gives every vertex at all times.
 ///
 /// A circle does not turn in this sense: its centre goes straight, and its surface carries like a conveyor.
 ///
 /// That the character's way is clear of what turns is proved for each step. Where no number of parts has a proof, the
 /// character goes straight to a free position, or stays in place, and what reaches it crushes it. Among movers that
-/// turn, gravity acts in each of the shorter steps; the report says what was requested as if the first of them were the
-/// whole. One-way colliders that turn are not proved.
+/// turn, gravity acts in each of the shorter steps; `StepReport::requested` is that of the first of them, scaled to the
+/// whole step. One-way colliders that turn are not proved.
 class Controller {
  public:
   /// How far a point near the character goes at most where a mover turns at once [m]. Zero: many short steps. Large:
@@ -107,6 +106,8 @@ class Controller {
 
   /// What a step can touch: only a way out of solids may lead farther.
   [[nodiscard]] Box2 reach(const CharacterState& state, const StepContext& context) const noexcept;
+  /// What decided a move. A game that loads only what is near loads more where this leads beyond it, and steps again.
+  [[nodiscard]] Box2 reach(const MoveResult& move) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing. They read
   // only the movers, the filter and up of the context. Movers have the angles with which they begin. No question is

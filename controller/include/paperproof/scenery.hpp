@@ -141,13 +141,13 @@ struct PieceRange {
 };
 
 /// Finds pieces by boxes. There are grids with squares of 1 m, 2 m, 4 m, 0.5 m and so on. A piece is in the finest grid
-/// whose squares are larger than the piece, and so it meets four squares at most.
+/// whose squares are larger than the piece. So it meets four squares at most.
 class PieceGrid {
  public:
   void add(PieceIndex piece, const Box2& box);
   /// @param box as it was added with.
   void remove(PieceIndex piece, const Box2& box);
-  /// Appends the pieces whose boxes meet `box`. Their order means nothing. @param boxes of all pieces.
+  /// Appends the pieces whose boxes meet `box`, in no order. @param boxes of all pieces.
   void find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const;
   /// Makes `whole` as small as it can be, after a piece with this box was removed. @param boxes of all pieces.
   void shrink(const Box2& removed, std::span<const Box2> boxes);
@@ -272,8 +272,6 @@ class Scenery {
   [[nodiscard]] bool has(ColliderIndex id) const noexcept;
   /// The definition of a collider as it runs, if it is there.
   [[nodiscard]] std::optional<ColliderDef> find(ColliderIndex id) const;
-  /// Another number after each change of a collider that is there.
-  [[nodiscard]] std::uint64_t version_of(ColliderIndex id) const noexcept { return colliders_[slot_of(id)].version; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] const EditLog& edits() const noexcept { return edits_; }
   [[nodiscard]] const SceneryCounts& counts() const noexcept { return counts_; }
@@ -349,7 +347,6 @@ class Scenery {
     std::uint32_t shape = piece;  ///< Or into `shapes_`.
     std::uint8_t generation = 0;
     bool is_used = false;
-    std::uint64_t version = 1;  ///< See `version_of`. Zero: nobody knows it yet.
   };
   /// What colliders that are alike have in common.
   struct Kind {

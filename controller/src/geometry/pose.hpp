@@ -52,8 +52,8 @@ inline void place(std::span<const Vec2d> given, const Pose& pose, std::vector<Ve
           motion.from_angle + (motion.to_angle - motion.from_angle) * fraction};
 }
 
-/// Encloses the way of a box's content during a step, whatever point it turns about that is not farther from the
-/// mover's origin than it is. (About a corner of the character, which may be farther, nothing of it comes nearer.)
+/// Encloses what is in a box during a step. The box turns about any point that is no farther from the mover's origin
+/// than the box is. (A corner of the character may be farther: nothing that turns about it comes nearer to it.)
 [[nodiscard]] inline Box2 swept_box(const Box2& box, const MoverMotion& motion) noexcept {
   const Box2 before = Turn(motion.from_angle)(box);
   const Box2 after = Turn(motion.to_angle)(box);

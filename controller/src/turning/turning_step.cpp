@@ -7,6 +7,19 @@ namespace paperproof::turning {
 using geometry::Pose;
 using geometry::pose_at;
 
+namespace {
+
+/// Finds the solids and sensors of a mover, if some of them may come into a box.
+void find_pieces(const Scenery& scenery, MoverIndex mover, const MoverMotion& motion, const Box2& box,
+                 std::vector<PieceIndex>& found) {
+  found.clear();
+  const Scenery::Group& group = scenery.group_of(mover);
+  for (const PieceGrid* grid : {&group.solids, &group.sensors})
+    if (geometry::swept_box(grid->whole(), motion).overlaps(box)) grid->find(grid->whole(), scenery.boxes(), found);
+}
+
+}  // namespace
+
 MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noexcept {
   const auto offset = [&](const Pose& pose) {
     return Vec2d(pose.position + geometry::Turn(pose.angle)(centre) - centre);
@@ -22,12 +35,8 @@ CirclesOfQuestion::CirclesOfQuestion(const Scenery& scenery, const Box2& around,
   for (MoverMotion& motion : memory.motions) motion.to_angle = motion.from_angle;
   for (MoverIndex mover = 0; mover < scenery.mover_count(); ++mover) {
     const MoverMotion motion = memory.motions[mover];
-    const Scenery::Group& group = scenery.group_of(mover);
     if (motion.from_angle == 0) continue;
-    memory.pieces.clear();
-    for (const PieceGrid* grid : {&group.solids, &group.sensors})
-      if (geometry::swept_box(grid->whole(), motion).overlaps(around))
-        grid->find(grid->whole(), scenery.boxes(), memory.pieces);
+    find_pieces(scenery, mover, motion, around, memory.pieces);
     for (const PieceIndex piece : memory.pieces) {
       if (!scenery.pieces()[piece].is_circle()) continue;
       memory.circles.push_back(piece);
@@ -73,11 +82,7 @@ void TurningStep::read(const Box2& needed) {
 
 void TurningStep::read(MoverIndex mover, const Box2& needed) {
   const MoverMotion& motion = context_.movers[mover];
-  const Scenery::Group& group = scenery_.group_of(mover);
-  memory_.pieces.clear();
-  for (const PieceGrid* grid : {&group.solids, &group.sensors})
-    if (geometry::swept_box(grid->whole(), motion).overlaps(needed))
-      grid->find(grid->whole(), scenery_.boxes(), memory_.pieces);
+  find_pieces(scenery_, mover, motion, needed, memory_.pieces);
   std::sort(memory_.pieces.begin(), memory_.pieces.end());  // the pieces of a collider follow each other
   ColliderIndex last = no_collider;
   for (const PieceIndex piece : memory_.pieces) {
@@ -110,13 +115,6 @@ void TurningStep::forget_gone(CharacterState& state) const {
   state.crushed = state.crushed && !state.crushers.empty();
 }
 
-/// The box that everything which decides a move is in. A way out of solids may lead farther than was read.
-Box2 TurningStep::box_along(const MoveResult& move) const {
-  Box2 way = box_at(move.path[0].position);
-  for (const PathPoint& corner : move.path) way = way.merged(box_at(corner.position));
-  return way.inflated(Controller::most_turned);
-}
-
 StepStatus TurningStep::go(CharacterState& state, const Wish& wish, double share, std::span<const MoverMotion> motions,
                            StepReport& report) {
   StepContext context = context_;
@@ -138,7 +136,7 @@ StepStatus TurningStep::step(CharacterState& state, const Wish& wish) {
       state = before;
       return status;
     }
-    const Box2 way = box_along(report_.move);
+    const Box2 way = controller_.reach(report_.move);
     if (needed.contains(way)) return status;
     state = before;
     needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));

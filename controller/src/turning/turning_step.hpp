@@ -112,7 +112,6 @@ class TurningStep {
   void read(const Box2& needed);
   void read(MoverIndex mover, const Box2& needed);
   void forget_gone(CharacterState& state) const;
-  [[nodiscard]] Box2 box_along(const MoveResult& move) const;
   StepStatus go(CharacterState& state, const Wish& wish, double share, std::span<const MoverMotion> motions,
                 StepReport& report);
   StepStatus refuse(MoveStatus why, const CharacterState& state);
