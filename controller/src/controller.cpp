@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "inlining.hpp"
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
 #include "step/octagon_sweep.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 using namespace step_parts;
 
-[[gnu::always_inline]] inline double steered(const CharacterDef& character, const CharacterState& state, double move,
-                                             double dt) noexcept {
+PAPERPROOF_INLINE double steered(const CharacterDef& character, const CharacterState& state, double move,
+                                 double dt) noexcept {
   const double acceleration =
       state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
   const double target = std::clamp(move, -1.0, 1.0) * character.walk_speed;
@@ -47,8 +48,8 @@ void note_press(const CharacterDef& character, bool pressed, double dt, Characte
 }
 
 /// The upward speed after the button was pressed or released, or a press is pending. Kept out of most steps.
-[[gnu::cold, gnu::noinline]] double use_button(const CharacterDef& character, const Input& input, bool wall_ahead,
-                                               double dt, CharacterState& state, double upwards) noexcept {
+PAPERPROOF_COLD double use_button(const CharacterDef& character, const Input& input, bool wall_ahead, double dt,
+                                  CharacterState& state, double upwards) noexcept {
   note_press(character, input.jump, dt, state);
   const bool released = state.jump_held && !input.jump;
   if (released && state.jumping && upwards > 0) upwards *= character.jump_cut;
@@ -67,8 +68,7 @@ void note_press(const CharacterDef& character, bool pressed, double dt, Characte
 /// leave the ground with the speed of its climb otherwise. A rise that is steeper than walkable ground is no climb, nor
 /// is the speed of ground that moved and is gone.
 /// @param walk speed of the walk from now on.
-[[gnu::cold, gnu::noinline]] double slowed_climb(const CharacterDef& character, const CharacterState& state,
-                                                 double walk) noexcept {
+PAPERPROOF_COLD double slowed_climb(const CharacterDef& character, const CharacterState& state, double walk) noexcept {
   const Vec2d& before = state.velocity;
   const double cosine = character.walkable_cosine();
   const double steepest = std::sqrt(1 - cosine * cosine) / cosine;
@@ -84,9 +84,9 @@ void count_down_coyote(const CharacterDef& character, double dt, CharacterState&
 }
 
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
-[[gnu::always_inline]] inline DesiredVelocity wanted_velocity(const CharacterDef& character, const Vec2d& gravity,
-                                                              const Input& input, double dt, bool wall_ahead,
-                                                              CharacterState& state) noexcept {
+PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character, const Vec2d& gravity,
+                                                  const Input& input, double dt, bool wall_ahead,
+                                                  CharacterState& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
   double x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const double change = x - state.velocity.x();
@@ -167,21 +167,21 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   static_cast<Sensors&>(*scratch.sensors).reserve(positions);
 }
 
-[[gnu::always_inline]] inline Moving Controller::moving_in(const StepContext& context,
-                                                           const Scratch& scratch) const noexcept {
+PAPERPROOF_INLINE Moving Controller::moving_in(const StepContext& context, const Scratch& scratch) const noexcept {
   const std::vector<PieceIndex>& circles = turning::memory_of(scratch).circles;
   return {context.movers.first(scenery_->mover_count() + circles.size()), circles};
 }
 
-[[gnu::always_inline]] inline bool Controller::accepts(const CharacterState& state, const Input& input,
-                                                       const StepContext& context) const noexcept {
+PAPERPROOF_INLINE bool Controller::accepts(const CharacterState& state, const Input& input,
+                                           const StepContext& context) const noexcept {
   return context.dt > 0 && context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
          finite(state, input, context.gravity, context.dt, context.movers);
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
-[[gnu::noinline]] bool Controller::has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
-                                                  Scratch& scratch, MoveResult& tried) const noexcept {
+PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& state, double move,
+                                                      const StepContext& context, Scratch& scratch,
+                                                      MoveResult& tried) const noexcept {
   const double reach = character_.wall_reach;
   const UpFrame up = context.up;
   const Vec2d there = up.in_world({move < 0 ? -reach : reach, 0});
@@ -193,9 +193,11 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
-[[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::request_of(
-    const CharacterState& state, const Crushers& crushers, const Vec2d& displacement, const Vec2d& velocity,
-    double steered, bool drop, bool jumps, const StepContext& context, const Moving& moving) const noexcept {
+PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::request_of(const CharacterState& state,
+                                                                    const Crushers& crushers, const Vec2d& displacement,
+                                                                    const Vec2d& velocity, double steered, bool drop,
+                                                                    bool jumps, const StepContext& context,
+                                                                    const Moving& moving) const noexcept {
   return {.position = state.position,
           .displacement = displacement,
           .velocity = velocity,
@@ -214,9 +216,10 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
           .ride = state.ride};
 }
 
-[[gnu::always_inline]] inline octagon_sweep::StepRequest Controller::begin_step(
-    const Crushers& crushers, const Input& input, const StepContext& context, const Moving& moving, bool wall_ahead,
-    CharacterState& state, StepReport& report) const noexcept {
+PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Crushers& crushers, const Input& input,
+                                                                    const StepContext& context, const Moving& moving,
+                                                                    bool wall_ahead, CharacterState& state,
+                                                                    StepReport& report) const noexcept {
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
   const UpFrame up = context.up;
@@ -231,13 +234,13 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
                     moving);
 }
 
-[[nodiscard, gnu::always_inline]] inline bool Controller::may_pass_something(bool drop) const noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
   return asks_all_ || scenery_->counts().sensors > 0 || (drop && has_one_way_chains(*scenery_));
 }
 
 /// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.
-[[gnu::noinline]] void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
-                                               StepReport& report) const noexcept {
+PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
+                                                   StepReport& report) const noexcept {
   const std::span<const PathPoint> path = report.move.path;
   const Moving moving = moving_in(context, scratch);
   static_cast<Sensors&>(*scratch.sensors).observe(path, moving, report.sensors, filter_of(context));
@@ -246,14 +249,14 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
                         report.dropped_through);
 }
 
-[[gnu::always_inline]] inline void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
-                                                        CharacterState& state, StepReport& report) const noexcept {
+PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
+                                            CharacterState& state, StepReport& report) const noexcept {
   if (may_pass_something(drop)) note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
 }
 
-[[gnu::flatten]] StepStatus Controller::step(CharacterState& state, const Input& input, const StepContext& context,
-                                             Scratch& scratch, StepReport& report) const noexcept {
+PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Input& input, const StepContext& context,
+                                               Scratch& scratch, StepReport& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
@@ -310,9 +313,9 @@ bool Controller::is_divided(const CharacterState& state, const StepContext& cont
          any_angle(context.movers);
 }
 
-[[gnu::cold, gnu::noinline]] StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,
-                                                                  const StepContext& context, Scratch& scratch,
-                                                                  StepReport& report) const noexcept {
+PAPERPROOF_COLD StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,
+                                                     const StepContext& context, Scratch& scratch,
+                                                     StepReport& report) const noexcept {
   return turning::TurningStep(*this, context, scratch, report).step(state, wish);
 }
 

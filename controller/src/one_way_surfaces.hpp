@@ -8,6 +8,8 @@
 /// segment blocks any other character.
 #pragma once
 
+#include "inlining.hpp"
+
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
 
@@ -40,8 +42,8 @@ class OneWaySurfaces {
   /// Whether the octagon at `position` (relative to the offset of the surface's mover) is above the surface; exact for
   /// position + rest. A binary search finds the edges that the octagon covers across `one_way`; only these are tested.
   /// @param rest the rounding error of the subtraction of the mover's offset: see `lost_by`.
-  [[nodiscard, gnu::noinline]] bool is_above(Index surface, const Vec2d& position,
-                                             const Vec2d& rest = Vec2d::Zero()) const noexcept;
+  [[nodiscard]] PAPERPROOF_NOT_INLINE bool is_above(Index surface, const Vec2d& position,
+                                                    const Vec2d& rest = Vec2d::Zero()) const noexcept;
   /// The same for a position that may be wrong by `slack` [m]: true wherever it could be above.
   [[nodiscard]] bool may_be_above(Index surface, const Vec2d& position, double slack) const noexcept;
 

@@ -7,6 +7,7 @@
 #include <paperproof/scratch.hpp>
 
 #include "geometry/pose.hpp"
+#include "inlining.hpp"
 
 #include <span>
 #include <vector>
@@ -113,13 +114,12 @@ class Nearby {
   /// Calls `look(pieces, mover)` for those that stand still, and for each motion that some have, at any time of the
   /// step. `look` may ask again for the same positions, or fewer.
   template <class Look>
-  [[gnu::always_inline]] inline void for_each_group(const Box2& positions, const Vec2d& way,
-                                                    const Look& look) noexcept {
+  PAPERPROOF_INLINE void for_each_group(const Box2& positions, const Vec2d& way, const Look& look) noexcept {
     look(standing(positions, way), no_mover);
     for_each_moving(positions, look);
   }
   template <class Look>
-  [[gnu::always_inline]] inline void for_each_moving(const Box2& positions, const Look& look) noexcept {
+  PAPERPROOF_INLINE void for_each_moving(const Box2& positions, const Look& look) noexcept {
     if (moving_ == nullptr) return;
     if (!known_.moving_valid || !known_.moving_box.contains(positions)) find_moving(positions);
     for (const Candidates::OfMover& each : known_.moving)

@@ -75,7 +75,7 @@ struct MoveResult {
     contacts.reserve(count);
     crushed.reserve(count);
   }
-  [[gnu::always_inline]] void clear() noexcept {
+  void clear() noexcept {
     status = MoveStatus::moved;
     technique_memory.setZero();
     grounded = false;

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "geometry/circle.hpp"
+#include "inlining.hpp"
 #include "step/real.hpp"
 
 #include "one_way_surfaces.hpp"
@@ -40,8 +41,8 @@ struct PerAxis {
   std::array<Real, 12> all;
 
   [[nodiscard]] Real operator[](std::size_t axis) const noexcept { return all[axis]; }
-  [[nodiscard, gnu::always_inline]] auto group(std::size_t k) const noexcept { return Four::Map(all.data() + 4 * k); }
-  [[nodiscard, gnu::always_inline]] auto group(std::size_t k) noexcept { return Four::Map(all.data() + 4 * k); }
+  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) const noexcept { return Four::Map(all.data() + 4 * k); }
+  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) noexcept { return Four::Map(all.data() + 4 * k); }
 };
 
 /// What of the octagon faces a piece along an axis with normal n: its lowest points along n.
@@ -156,7 +157,7 @@ class ConfigurationSpace {
   /// Calls `visit(0)`, `visit(1)` and, for 12 axes, `visit(2)`: most shapes have 8, and a loop took a fifth more
   /// instructions.
   template <class Visit>
-  [[gnu::always_inline]] inline void for_each_group(const Visit& visit) const noexcept {
+  PAPERPROOF_INLINE void for_each_group(const Visit& visit) const noexcept {
     visit(0);
     visit(1);
     if (axes_.lanes == SharedAxes::most) [[unlikely]]
@@ -186,7 +187,7 @@ class ConfigurationSpace {
     return axis_along(near.normal);
   }
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return axes_.lanes + info(piece).own_count; }
-  [[nodiscard, gnu::always_inline]] inline Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] PAPERPROOF_INLINE Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < axes_.lanes) return {axes_.x[axis], axes_.y[axis]};
     if (is_direction(axis)) [[unlikely]]
       return normal_along(axis);
@@ -210,8 +211,7 @@ class ConfigurationSpace {
     return ((info(piece).hidden >> axis) & 1U) != 0;
   }
   /// Separation along one axis at p [m].
-  [[nodiscard, gnu::always_inline]] inline Real separation(PieceIndex piece, std::size_t axis,
-                                                           const Vec2& p) const noexcept {
+  [[nodiscard]] PAPERPROOF_INLINE Real separation(PieceIndex piece, std::size_t axis, const Vec2& p) const noexcept {
     const Vec2 n = normal(piece, axis);
     return n.x() * p.x() + n.y() * p.y() - offset(piece, axis);
   }
@@ -226,10 +226,10 @@ class ConfigurationSpace {
     double noise;   ///< Of rounding, in what is compared with it [m].
   };
 
-  [[nodiscard, gnu::cold, gnu::noinline]] static Vec2 normal_along(std::size_t direction) noexcept {
+  [[nodiscard]] PAPERPROOF_COLD static Vec2 normal_along(std::size_t direction) noexcept {
     return direction_of(direction).cast<Real>();
   }
-  [[nodiscard, gnu::cold, gnu::noinline]] Real offset_along(PieceIndex piece, std::size_t direction) const noexcept {
+  [[nodiscard]] PAPERPROOF_COLD Real offset_along(PieceIndex piece, std::size_t direction) const noexcept {
     return support_offset(info(piece), direction_of(direction));
   }
   [[nodiscard]] Circle circle(const Obstacle& of) const noexcept {

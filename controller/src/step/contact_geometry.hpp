@@ -2,6 +2,7 @@
 /// stays accurate far from the origin.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/narrow_phase.hpp"
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
@@ -14,8 +15,7 @@ struct PieceFace {
 };
 
 /// Along a box direction, of a rectangle: three of four contacts.
-[[nodiscard, gnu::always_inline]] inline PieceFace rectangle_face(const Box2& box, const Vec2& n,
-                                                                  const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE PieceFace rectangle_face(const Box2& box, const Vec2& n, const Vec2& p) noexcept {
   const Vec2& corner = n.x() + n.y() > 0 ? box.upper : box.lower;
   const bool upright = n.x() == 0;
   const Real high = upright ? n.y() * (corner.y() - p.y()) : n.x() * (corner.x() - p.x());
@@ -26,8 +26,8 @@ struct PieceFace {
 
 /// From differences of coordinates: relative accuracy of a few ulp, also where the offset of the axis has lost its last
 /// digits far from the origin. @param n normal of the axis.
-[[nodiscard, gnu::always_inline]] inline PieceFace piece_face(const ConfigurationSpace& space, PieceIndex piece,
-                                                              std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE PieceFace piece_face(const ConfigurationSpace& space, PieceIndex piece,
+                                                     std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
   constexpr Real flat = tolerances.hit;  // points this close to the highest belong to the face
   if (axis < 4 && space.info(piece).source.is_rectangle()) return rectangle_face(space.info(piece).box, n, p);
   PieceFace face{-std::numeric_limits<Real>::infinity(), 0, 0};
@@ -52,17 +52,17 @@ struct PieceFace {
 }
 
 /// See `time_of_impact`.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Real time_of_impact_with_arc(const ConfigurationSpace& space, Vec2 from,
-                                                                            Real approach, PieceIndex piece, Vec2 n,
-                                                                            Real level) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real time_of_impact_with_arc(const ConfigurationSpace& space, Vec2 from,
+                                                                  Real approach, PieceIndex piece, Vec2 n,
+                                                                  Real level) noexcept {
   return std::clamp((separation_along(space, piece, n, from) - level) / approach, Real(0), Real(1));
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
-[[nodiscard, gnu::always_inline]] inline Real time_of_impact(const ConfigurationSpace& space, const Vec2& from,
-                                                             const Vec2& displacement, PieceIndex piece,
-                                                             const EntryAxes& axes) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Real time_of_impact(const ConfigurationSpace& space, const Vec2& from,
+                                                    const Vec2& displacement, PieceIndex piece,
+                                                    const EntryAxes& axes) noexcept {
   if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
   const Real level = axes.missed ? tolerances.hit : Real(0);
   const Vec2 n = space.normal(piece, axes.impact);
@@ -81,16 +81,15 @@ struct ContactPlace {
 };
 
 /// The point of a circle's arc that faces the octagon.
-[[nodiscard, gnu::cold, gnu::noinline]] inline ContactPlace place_on_arc(const ConfigurationSpace& space,
-                                                                         PieceIndex piece, Vec2 n, Vec2 p) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline ContactPlace place_on_arc(const ConfigurationSpace& space, PieceIndex piece,
+                                                               Vec2 n, Vec2 p) noexcept {
   const Circle circle = space.circle(piece);
   return {circle.centre + n * circle.radius, separation_along(space, piece, n, p)};
 }
 
 /// @param n normal of the axis.
-[[nodiscard, gnu::always_inline]] inline ContactPlace contact_place(const ConfigurationSpace& space, PieceIndex piece,
-                                                                    std::size_t axis, const Vec2& n,
-                                                                    const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE ContactPlace contact_place(const ConfigurationSpace& space, PieceIndex piece,
+                                                           std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
   if (is_direction(axis)) [[unlikely]]
     return place_on_arc(space, piece, n, p);
   const PieceFace there = piece_face(space, piece, axis, n, p);

@@ -6,6 +6,7 @@
 
 #include "geometry/time_below.hpp"
 #include "geometry/vectors.hpp"
+#include "inlining.hpp"
 #include "step/configuration_space.hpp"
 
 #include <paperproof/tolerances.hpp>
@@ -43,8 +44,8 @@ struct Motion {
 
 /// In place: a motion is large.
 /// @param look how far beyond the end of the motion the sweep looks [m].
-[[gnu::always_inline]] inline void set_motion(Motion& motion, const ConfigurationSpace& space, const Vec2& from,
-                                              const Vec2& displacement, Real look = tolerances.look) noexcept {
+PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& space, const Vec2& from,
+                                  const Vec2& displacement, Real look = tolerances.look) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Real shortest = std::numeric_limits<Real>::min() * Real(1e8);
   motion.from = from;
@@ -54,7 +55,7 @@ struct Motion {
   const Real larger = std::max(std::abs(displacement.x()), std::abs(displacement.y()));
   motion.reach = 1 + look / std::max(larger, shortest);
   motion.extended = displacement * motion.reach;
-  space.for_each_group([&](std::size_t k) __attribute__((always_inline)) {
+  space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     motion.at.group(k) = space.shared_x(k) * from.x() + space.shared_y(k) * from.y();
     motion.along.group(k) = space.shared_x(k) * motion.extended.x() + space.shared_y(k) * motion.extended.y();
   });
@@ -62,9 +63,8 @@ struct Motion {
   motion.known_surface = OneWaySurfaces::none;
 }
 
-[[nodiscard, gnu::always_inline]] inline Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
-                                                            const Vec2& displacement,
-                                                            Real look = tolerances.look) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
+                                                   const Vec2& displacement, Real look = tolerances.look) noexcept {
   Motion motion;
   set_motion(motion, space, from, displacement, look);
   return motion;
@@ -89,9 +89,9 @@ struct AxisRanges {
   std::array<Real, ConfigurationSpace::max_axes> end;
 };
 
-[[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
-                                               const Clearance& clear, AxisRanges& f) noexcept {
-  space.for_each_group([&](std::size_t k) __attribute__((always_inline)) {
+PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
+                                   const Clearance& clear, AxisRanges& f) noexcept {
+  space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     Four::Map(f.start.data() + 4 * k) = clear.shared_starts.group(k);
     Four::Map(f.end.data() + 4 * k) = clear.shared_starts.group(k) + motion.along.group(k);
   });
@@ -105,27 +105,28 @@ struct AxisRanges {
 
 /// How far away one of the box directions alone, which are the first shared axes, keeps a piece during the whole motion
 /// [m]. With most pieces that is further than `hit`: looking at these axes first saves half of a sweep.
-[[nodiscard, gnu::always_inline]] inline Real kept_by_box(const ConfigurationSpace& space, const Motion& motion,
-                                                          PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Real kept_by_box(const ConfigurationSpace& space, const Motion& motion,
+                                                 PieceIndex piece) noexcept {
   const Four start = motion.at.group(0) - space.offsets(piece, 0);
   const Four least = start.min(start + motion.along.group(0));
   return least.maxCoeff();
 }
 
 /// Separation of a circle before the motion, and the one that the axis of this separation keeps over the whole motion.
-[[nodiscard, gnu::cold, gnu::noinline]] inline std::pair<Real, Real> clearance_of_circle(
-    const ConfigurationSpace& space, const Motion& motion, PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline std::pair<Real, Real> clearance_of_circle(const ConfigurationSpace& space,
+                                                                               const Motion& motion,
+                                                                               PieceIndex piece) noexcept {
   const geometry::NearCircle near = space.near_circle(piece, motion.from);
   const Real along = near.normal.x() * motion.extended.x() + near.normal.y() * motion.extended.y();
   return {near.separation, near.separation + std::min(along, Real(0))};
 }
 
-[[nodiscard, gnu::always_inline]] inline Clearance clearance(const ConfigurationSpace& space, const Motion& motion,
-                                                             PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Clearance clearance(const ConfigurationSpace& space, const Motion& motion,
+                                                    PieceIndex piece) noexcept {
   Clearance result;
   Four start;
   Four kept;
-  space.for_each_group([&](std::size_t k) __attribute__((always_inline)) {
+  space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     const Four here = motion.at.group(k) - space.offsets(piece, k);
     const Four least = here.min(here + motion.along.group(k));
     start = k == 0 ? here : Four(start.max(here));
@@ -222,8 +223,7 @@ inline constexpr Real covered_share = Real(0.5);
 /// surface has nowhere: who flies up a slope and over its crest would lose its speed to the side of the next tile. So
 /// the hidden facet stops later, and only where nothing stops the motion that covers it.
 /// @param tau see `Clearance`.
-[[nodiscard, gnu::cold, gnu::noinline]] inline std::optional<Real> sweep_covered(const AxisRanges& f,
-                                                                                 Real tau) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline std::optional<Real> sweep_covered(const AxisRanges& f, Real tau) noexcept {
   if (!entry_below(f, std::min(tau, tolerances.hit * covered_share))) return std::nullopt;
   const Real start = *std::max_element(f.start.begin(), f.start.begin() + f.count);
   if (start <= tolerances.touch * covered_share) return Real(0);
@@ -233,9 +233,8 @@ inline constexpr Real covered_share = Real(0.5);
 /// A circle is entered along the tangent that it has where the motion is stopped. From each slide along a tangent it is
 /// a little further away: where that counted as touching up to the whole gap of a touch, a walk over a circle of 100 km
 /// would be in the air in one step of four.
-[[nodiscard, gnu::cold, gnu::noinline]] inline PieceHit sweep_circle(const ConfigurationSpace& space,
-                                                                     const Motion& motion, PieceIndex piece,
-                                                                     Real start) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline PieceHit sweep_circle(const ConfigurationSpace& space, const Motion& motion,
+                                                           PieceIndex piece, Real start) noexcept {
   const auto approach = [&](Real level) {
     return geometry::approach(space.hull(), motion.from, motion.extended, space.circle(piece), level);
   };
@@ -269,9 +268,9 @@ enum class Covered : std::uint8_t { as_any, yields };
 /// impact is ill-conditioned, but the separations are not.
 /// @param up decides which of two facets counts that are entered at once.
 template <Covered covered = Covered::yields>
-[[nodiscard, gnu::always_inline]] inline PieceHit sweep_piece(const ConfigurationSpace& space, const Motion& motion,
-                                                              PieceIndex piece, const Clearance& clear,
-                                                              const UpFrame& up = {}) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE PieceHit sweep_piece(const ConfigurationSpace& space, const Motion& motion,
+                                                     PieceIndex piece, const Clearance& clear,
+                                                     const UpFrame& up = {}) noexcept {
   AxisRanges f;
   find_ranges(space, motion, piece, clear, f);
   if (f.count > space.lanes() && space.is_circle(piece)) [[unlikely]]
@@ -350,17 +349,17 @@ struct BestAxis {
   Real separation = 0;
 };
 
-[[nodiscard, gnu::cold, gnu::noinline]] inline BestAxis best_axis_of_circle(const ConfigurationSpace& space,
-                                                                            PieceIndex piece, const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline BestAxis best_axis_of_circle(const ConfigurationSpace& space, PieceIndex piece,
+                                                                  const Vec2& p) noexcept {
   const geometry::NearCircle near = space.near_circle(piece, p);
   return {space.axis_of(near), near.separation};
 }
 
-[[nodiscard, gnu::always_inline]] inline BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece,
-                                                            const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece,
+                                                   const Vec2& p) noexcept {
   PerAxis f;
   Four largest;
-  space.for_each_group([&](std::size_t k) __attribute__((always_inline)) {
+  space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     const Four here = space.shared_x(k) * p.x() + space.shared_y(k) * p.y() - space.offsets(piece, k);
     largest = k == 0 ? here : Four(largest.max(here));
     f.group(k) = here;

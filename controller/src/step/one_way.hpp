@@ -1,14 +1,15 @@
 /// When a one-way segment blocks.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/narrow_phase.hpp"
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether the octagon at p + rest, as its mover sees it, is above the surface of a one-way segment. Near the line of a
 /// straight one that is decided exactly; elsewhere a product tells.
-[[nodiscard, gnu::always_inline]] inline bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
-                                                       const Vec2& rest) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
+                                              const Vec2& rest) noexcept {
   constexpr Real certain = tolerances.certain;
   const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
@@ -22,8 +23,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether a one-way segment can stop a motion: one that begins above its surface. From a gap on, a motion that does
 /// not go against a straight segment is clear of it. Nearer than that the segment is looked at, whatever the direction:
 /// its separation counts.
-[[nodiscard, gnu::noinline]] inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
-                                                        PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
+                                                               PieceIndex piece) noexcept {
   const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Vec2 n = space.normal(piece, info.one_way_axis);
@@ -39,8 +40,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// Whether a piece can stop a motion at all. A solid always can.
-[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace& space, const Motion& motion,
-                                                     PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool blocks(const ConfigurationSpace& space, const Motion& motion,
+                                            PieceIndex piece) noexcept {
   return !space.info(piece).is_one_way() || one_way_blocks(space, motion, piece);
 }
 

@@ -39,6 +39,7 @@
 #pragma once
 
 #include "geometry/vectors.hpp"
+#include "inlining.hpp"
 #include "step/half_planes.hpp"
 
 #include <paperproof/up_frame.hpp>
@@ -78,11 +79,11 @@ struct Surface {
 };
 
 /// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
-[[nodiscard, gnu::always_inline]] inline Vec2 follow(Real x, const Vec2& n) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 follow(Real x, const Vec2& n) noexcept {
   return {x, -x * n.x() / n.y() + Real(0)};
 }
 
-[[nodiscard, gnu::always_inline]] inline Vec2 slide(const Vec2& w, const Vec2& n) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 slide(const Vec2& w, const Vec2& n) noexcept {
   const Real into = dot(w, n);
   return {w.x() - into * n.x() + Real(0), w.y() - into * n.y() + Real(0)};
 }
@@ -96,7 +97,7 @@ struct Surface {
 }
 
 /// The response on steep ground and walls, without steering: rules 1 and 2 above.
-[[nodiscard, gnu::always_inline]] inline Vec2 impact(Vec2 w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 impact(Vec2 w, const Surface& at) noexcept {
   if (w.x() * at.normal.x() < 0) {
     w.x() = 0;
     if (at.after_walk) w.y() = std::min(w.y(), Real(0));
@@ -105,14 +106,14 @@ struct Surface {
 }
 
 /// Under a ceiling.
-[[nodiscard, gnu::always_inline]] inline Vec2 bump(const Vec2& w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 bump(const Vec2& w, const Surface& at) noexcept {
   const Vec2& n = at.normal;
   if (w.y() > 0) return at.after_walk ? Vec2(Vec2::Zero()) : slide(w, n);
   return {-w.y() * n.y() / n.x() + Real(0), w.y() + Real(0)};
 }
 
 /// The response without steering.
-[[nodiscard, gnu::always_inline]] inline Vec2 respond(const Vec2& w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 respond(const Vec2& w, const Surface& at) noexcept {
   if (dot(w, at.normal) >= 0) return w;
   if (at.walkable) return follow(w.x(), at.normal);
   return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
@@ -120,8 +121,7 @@ struct Surface {
 
 /// Rule 3: where steering presses in.
 /// @param unsteered the motion without steering, and @param result what became of it at this surface.
-[[nodiscard, gnu::always_inline]] inline Vec2 press(const Vec2& unsteered, const Vec2& result,
-                                                    const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 press(const Vec2& unsteered, const Vec2& result, const Surface& at) noexcept {
   if (dot(unsteered, at.normal) < 0) return result;
   const Real y = at.after_walk ? std::min(result.y(), Real(0)) : result.y();
   return {-y * at.normal.y() / at.normal.x() + Real(0), y + Real(0)};
@@ -129,8 +129,7 @@ struct Surface {
 
 /// The response to a surface that is entered, of what is wanted and of what there is without steering.
 /// @param steered the horizontal part that this step's steering added to what was wanted.
-[[nodiscard, gnu::always_inline]] inline Desired respond(const Desired& desired, Real steered,
-                                                         const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Desired respond(const Desired& desired, Real steered, const Surface& at) noexcept {
   if (dot(desired.wanted, at.normal) >= 0) return desired;
   const Vec2 unsteered = respond(desired.unsteered, at);
   if (steered == 0) return {unsteered, unsteered};
@@ -148,14 +147,14 @@ struct Surface {
 }
 
 /// The response of a character with any up. Motions and surface are those of the world.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Desired respond_turned(const UpFrame& up, const Desired& desired,
-                                                                      Real steered, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Desired respond_turned(const UpFrame& up, const Desired& desired, Real steered,
+                                                            const Surface& at) noexcept {
   const Surface seen{up.seen(at.normal), at.walkable, at.after_walk};
   const Desired result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
   return {in_world(up, result.wanted, at.normal), in_world(up, result.unsteered, at.normal)};
 }
-[[nodiscard, gnu::always_inline]] inline Desired respond(const UpFrame& up, const Desired& desired, Real steered,
-                                                         const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Desired respond(const UpFrame& up, const Desired& desired, Real steered,
+                                                const Surface& at) noexcept {
   return up.is_turned() ? respond_turned(up, desired, steered, at) : respond(desired, steered, at);
 }
 

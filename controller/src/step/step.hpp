@@ -18,6 +18,7 @@
 /// is kept out of it (3 %, and a fifth of the compile time).
 #pragma once
 
+#include "inlining.hpp"
 #include "step/free_position.hpp"
 #include "step/narrow_phase.hpp"
 #include "step/octagon_sweep.hpp"
@@ -192,7 +193,7 @@ struct Step {
 }
 
 /// What the turning of a circle adds to the speed of its surface [m/s].
-[[nodiscard, gnu::cold, gnu::noinline]] inline Real speed_of_rim(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real speed_of_rim(const Step& step, PieceIndex piece) noexcept {
   const double turn = step.movers.moving.motions[mover_of(step, piece)].turn();
   return static_cast<Real>(-turn / static_cast<double>(step.movers.dt) * step.space.circle(piece).radius);
 }
@@ -247,7 +248,7 @@ inline void note_reported(Step& step) noexcept {
   step.memory.reported_at[step.result.path.size() - 1] = {step.result.contacts.size(), step.latest_impact};
 }
 
-[[gnu::always_inline]] inline void push_corner(Step& step, Real fraction) noexcept {
+PAPERPROOF_INLINE void push_corner(Step& step, Real fraction) noexcept {
   if (!step.result.path.empty() && step.result.path.back().fraction == fraction &&
       step.result.path.back().position == step.position)
     return;

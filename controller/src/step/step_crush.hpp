@@ -7,6 +7,7 @@
 /// mover that runs into it then moves it to a free position on that side, or crushes it, too.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/step.hpp"
 #include "step/step_free_position.hpp"
 #include "step/step_start.hpp"
@@ -16,7 +17,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool goes_to_free_position(Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) noexcept {
   if (!step.result.crushed.empty()) return false;
   Real reach = 0;
   for (const TouchedSurface& surface : step.memory.surfaces)
@@ -40,8 +41,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// limited.
 /// @param wanted before the response. @param allowed by the response.
 /// @return false if they would squeeze it out so far in this step that they crush it instead.
-[[nodiscard, gnu::noinline]] inline bool limit_squeeze(const Step& step, const DesiredMotion& wanted,
-                                                       DesiredMotion& allowed) noexcept {
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_squeeze(const Step& step, const DesiredMotion& wanted,
+                                                              DesiredMotion& allowed) noexcept {
   constexpr Real farthest = 32;  // times as far as they go
   constexpr Real fastest = 8;    // times as fast as they are
   Real way = 0;
@@ -64,7 +65,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
 /// A way out of what the step began inside of is kept.
 /// @param allowed the response to what the last sweep met.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool goes_beside_circle(Step& step, const Vec2& allowed) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool goes_beside_circle(Step& step, const Vec2& allowed) noexcept {
   if (is_passed_through(step) || !circle_flings(step, Vec2(step.motion.displacement * (1 - step.found.stop)), allowed))
     return false;
   const bool has_left = std::any_of(step.memory.marked.begin(), step.memory.marked.end(),
@@ -77,7 +78,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
 /// movers that crushed, no further away than one of them moves; then nothing was crushed.
-[[gnu::cold, gnu::noinline]] inline void undo_crushes(Step& step) noexcept {
+PAPERPROOF_COLD inline void undo_crushes(Step& step) noexcept {
   step.moving.ignored &= static_cast<std::uint8_t>(~crushes);
   Real reach = 0;
   for (const ColliderIndex collider : step.result.crushed)
@@ -109,7 +110,7 @@ inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
 }
 
 /// Lets every touched surface crush that moves into the character. False if there is none.
-[[gnu::cold, gnu::noinline]] inline bool note_crushers(Step& step) noexcept {
+PAPERPROOF_COLD inline bool note_crushers(Step& step) noexcept {
   const std::size_t before = step.result.crushed.size();
   for (const TouchedSurface& surface : step.memory.surfaces)
     if (moves_in(step, surface)) crush(step, surface.piece, step.time);
@@ -131,7 +132,7 @@ inline void hand_on_crushers(Step& step) noexcept {
 
 /// Finds the movers that were ignored in this step and still overlap the character. If one of them overlapped at the
 /// start, the character is stuck, unless it was crushed in this step. Hands the list to the next step.
-[[gnu::cold, gnu::noinline]] inline void find_movers_that_still_overlap(Step& step) noexcept {
+PAPERPROOF_COLD inline void find_movers_that_still_overlap(Step& step) noexcept {
   step.moving.ignored = 0;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(step, piece);
@@ -149,7 +150,7 @@ inline void hand_on_crushers(Step& step) noexcept {
 /// The character stays where it is for the rest of the step, and movers that run into it crush it. Sweeps do not look
 /// at surfaces that are touched and do not come closer: they would hide a mover that comes later.
 /// @param may_move it moves to a free position instead, if there is one.
-[[gnu::cold, gnu::noinline]] inline void wait(Step& step, bool may_move) noexcept {
+PAPERPROOF_COLD inline void wait(Step& step, bool may_move) noexcept {
   halt(step);
   step.memory.surfaces.clear();
   step.moving.waits = true;
@@ -174,7 +175,7 @@ inline void hand_on_crushers(Step& step) noexcept {
 }
 
 /// The whole step of `Part::stay`.
-[[gnu::cold, gnu::noinline]] inline void stay_in_place(Step& step, const StepRequest& request) noexcept {
+PAPERPROOF_COLD inline void stay_in_place(Step& step, const StepRequest& request) noexcept {
   push_corner(step, 0);
   ignore_overlapping_movers(step, request);
   wait(step, false);

@@ -1,6 +1,7 @@
 /// Ground that the character touches: does it stand on it, or leave it?
 #pragma once
 
+#include "inlining.hpp"
 #include "step/step.hpp"
 #include "step/step_ride.hpp"
 #include "step/step_start.hpp"
@@ -8,12 +9,11 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-[[gnu::cold, gnu::noinline]] inline void note_ground_velocity(Step& step, PieceIndex piece) noexcept {
+PAPERPROOF_COLD inline void note_ground_velocity(Step& step, PieceIndex piece) noexcept {
   step.result.ground.velocity = ground_velocity(step, piece, step.result.ground.normal);
 }
 
-[[gnu::always_inline]] inline void note_ground(Step& step, GroundState state, PieceIndex piece,
-                                               const Vec2& normal) noexcept {
+PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex piece, const Vec2& normal) noexcept {
   step.result.grounded = state != GroundState::steep;
   step.result.ground.state = state;
   step.result.ground.collider = collider_of(step, piece);
@@ -25,8 +25,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// How fast round ground falls away below a motion that went along a tangent of it at most a step ago [m/s].
 /// @param motion relative to it [m/s].
-[[nodiscard, gnu::cold, gnu::noinline]] inline Real falls_away_from_tangent(const Step& step, PieceIndex piece,
-                                                                            Vec2 motion) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real falls_away_from_tangent(const Step& step, PieceIndex piece,
+                                                                  Vec2 motion) noexcept {
   const Real speed = length_of(motion);
   return speed * speed * step.dt / step.space.circle(piece).radius;
 }
@@ -34,7 +34,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether the motion at the end of the step leaves ground that it touches: one more step of it would part them by more
 /// than `touch`. Vertices that are rounded make seams of straight ground bend by 1e-12 or 1e-6: they are no crests. A
 /// jump leaves at any speed. Round ground falls away below a walk, which does not leave it.
-[[nodiscard, gnu::always_inline]] inline bool leaves(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool leaves(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
   const Vec2 ground = step.movers.velocity(mover_of(step, piece));
   const Real leaving = dot(Vec2(step.velocity - ground), normal);
   if (leaving <= step.leaves_ground_above) return false;
@@ -43,8 +43,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// The normal of a piece, if the character touches it now and it is walkable ground.
-[[nodiscard, gnu::always_inline]] inline std::optional<Vec2> touched_ground(const Step& step,
-                                                                            PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE std::optional<Vec2> touched_ground(const Step& step, PieceIndex piece) noexcept {
   if (passes_one_way(step, piece)) return std::nullopt;
   const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
   if (!(std::abs(best.separation) <= tolerances.touch)) return std::nullopt;
@@ -52,12 +51,12 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return walkable(step, normal) && may_block(step, piece, step.position) ? std::optional<Vec2>(normal) : std::nullopt;
 }
 
-[[nodiscard, gnu::always_inline]] inline bool stands_on(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool stands_on(const Step& step, PieceIndex piece) noexcept {
   const std::optional<Vec2> normal = touched_ground(step, piece);
   return normal && !leaves(step, piece, *normal);
 }
 
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool touches_ground(Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool touches_ground(Step& step) noexcept {
   return any_near(step, {step.position, step.position},
                   [&](PieceIndex piece) { return touched_ground(step, piece).has_value(); });
 }

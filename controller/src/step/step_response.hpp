@@ -6,6 +6,7 @@
 /// and last the nearest motion is taken that all surfaces allow.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/half_planes.hpp"
 #include "step/response.hpp"
 #include "step/step.hpp"
@@ -21,7 +22,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// @param desired a slide that enters the surface by rounding.
-[[gnu::cold, gnu::noinline]] inline void keep_on_surface(const Vec2& normal, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& desired) noexcept {
   desired = DesiredMotion::plain(rounded_slide(desired.displacement.wanted, normal),
                                  rounded_slide(desired.velocity.wanted, normal));
 }
@@ -80,7 +81,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
-[[gnu::cold, gnu::noinline]] inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
   const auto falling = nearest_allowed_to(step, step.up.in_world({0, step.fall * step.dt * (1 - step.time)}),
                                           step.up.in_world({0, step.fall}));
   if (falling && step.up.up_of(falling->displacement.wanted) < step.up.up_of(desired.displacement.wanted))
@@ -112,8 +113,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
 /// counts.
 /// @param aside unit vector, across the fall.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool shift_to_fall(Step& step, const Vec2& displacement,
-                                                                  const Vec2& aside) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool shift_to_fall(Step& step, const Vec2& displacement,
+                                                        const Vec2& aside) noexcept {
   const auto falls = [&] {
     sweep_along(step, displacement);
     return !step.found.hit || step.found.stop * step.motion.length > tolerances.touch;
@@ -134,9 +135,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// The same along one of the sides of the character, or of its box: where up is slanted a shaft of its width goes
 /// aslant.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool fall_along_a_side(Step& step, const Vec2& displacement,
-                                                                      const Vec2& velocity,
-                                                                      DesiredMotion& desired) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool fall_along_a_side(Step& step, const Vec2& displacement, const Vec2& velocity,
+                                                            DesiredMotion& desired) noexcept {
   for (std::size_t axis = 0; axis < step.space.lanes(); ++axis) {
     const Vec2 normal = step.space.normal(step.memory.surfaces[0].piece, axis);
     const Vec2 along{-normal.y(), normal.x()};
@@ -207,8 +207,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// The response to one surface that stands still: the usual case.
-[[gnu::always_inline]] inline void respond_to_surface(const Step& step, const Vec2& normal,
-                                                      DesiredMotion& desired) noexcept {
+PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, DesiredMotion& desired) noexcept {
   const Surface at{normal, walkable(step, normal), step.after_walk};
   if (step.steered == 0 && !step.up.is_turned()) {
     desired.displacement.wanted = respond(desired.displacement.wanted, at);
@@ -225,8 +224,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether steep surfaces that move apart hardly, or close in, hold a fall between them: a slope and a crate that
 /// rests, for example.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool ends_fall_in_wedge(const Step& step,
-                                                                       const DesiredMotion& desired) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool ends_fall_in_wedge(const Step& step, const DesiredMotion& desired) noexcept {
   constexpr Real hardly = Real(0.1);
   Real left = 0;
   Real right = 0;
@@ -244,7 +242,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// The response to several surfaces, or to one that moves.
-[[nodiscard, gnu::noinline]] inline bool respond_to_all(Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool respond_to_all(Step& step, DesiredMotion& desired) noexcept {
   if (step.steered == 0) desired = DesiredMotion::plain(desired.displacement.wanted, desired.velocity.wanted);
   if (!respond_one_by_one(step, desired) && !respond_in_crease(step, desired) && !respond_together(step, desired))
     return false;
@@ -279,7 +277,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
 /// present motion, with the motion of a touched surface, or at a free position.
-[[gnu::cold, gnu::noinline]] inline void last_resort(Step& step, const Vec2& displacement) noexcept {
+PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) noexcept {
   if (step.result.status == MoveStatus::moved) step.result.status = MoveStatus::dropped;
   if (!step.movers.active) return;
   const auto goes = [&](const Vec2& last) {

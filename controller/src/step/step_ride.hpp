@@ -9,6 +9,7 @@
 /// by what goes down a slope, and land again, and so on.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/step.hpp"
 #include "step/step_start.hpp"
 #include "step/step_sweep.hpp"
@@ -69,7 +70,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// From now on this ground carries the character.
-[[gnu::cold, gnu::noinline]] inline void begin_to_ride(Step& step, const TouchedSurface& ground) noexcept {
+PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& ground) noexcept {
   step.moving.ride.ground = collider_of(step, ground.piece);
   step.moving.ride.velocity = carried_velocity(step, ground.piece, ground.normal);
   step.moving.ride.place = step.position - offset(step, ground.piece);
@@ -79,7 +80,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Vec2 begin_ride(Step& step, const StepRequest& request) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Vec2 begin_ride(Step& step, const StepRequest& request) noexcept {
   constexpr Real noise = std::numeric_limits<Real>::epsilon() * 4;
   const bool riding = request.ride.ground != Ride::none;
   const bool at_rest = step.up.across_of(request.velocity) == 0 && step.up.up_of(request.velocity) <= 0;
@@ -103,14 +104,13 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// Whether ground that the character lands on without horizontal speed carries it from now on.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool carries_from_now(const Step& step,
-                                                                     const TouchedSurface& ground) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool carries_from_now(const Step& step, const TouchedSurface& ground) noexcept {
   return walkable(step, ground.normal) && carries(step, ground.piece) && step.moving.ride.ground == Ride::none &&
          !falls_away(step, carried_velocity(step, ground.piece, ground.normal));
 }
 
 /// Without gravity nothing holds the character to ground that it only touches: that does not carry it.
-[[gnu::cold, gnu::noinline]] inline void end_ride(Step& step) noexcept {
+PAPERPROOF_COLD inline void end_ride(Step& step) noexcept {
   if (!step.result.grounded || step.result.contacts.empty()) return;
   const std::optional<TouchedSurface> ground = carrier_here(step, step.moving.ride.ground, false);
   if (!ground) return;

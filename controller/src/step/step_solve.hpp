@@ -1,6 +1,7 @@
 /// The whole step, its loop of sweep and response, and the ground at its end.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/response.hpp"
 #include "step/step.hpp"
 #include "step/step_crush.hpp"
@@ -16,7 +17,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Stops a motion at ground that is touched now and at the end of the motion. Under tiny gravity a walk enters its
 /// ground by less than the sweep sees. It would leave the ground, sink until the sweep hits it, and be put back, over
 /// and over.
-[[gnu::cold, gnu::noinline]] inline void stop_at_touched_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) noexcept {
   const Vec2 from = step.position;
   const Real begin = step.time;
   step.position += step.motion.displacement;
@@ -56,7 +57,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 
 /// Ends the step here. The velocity still becomes one that the touched surfaces allow: otherwise it would grow from
 /// step to step.
-[[gnu::cold, gnu::noinline]] inline void end_at_surfaces(Step& step, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void end_at_surfaces(Step& step, DesiredMotion& desired) noexcept {
   if (respond_to_surfaces(step, desired))
     step.velocity = desired.velocity.wanted;
   else
@@ -64,7 +65,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 }
 
 /// Ends the step here, as the exact certificate or the range forbids the motion. Reports each piece that blocks it.
-[[gnu::cold, gnu::noinline]] inline void cut_short(Step& step) noexcept {
+PAPERPROOF_COLD inline void cut_short(Step& step) noexcept {
   if (step.result.status == MoveStatus::moved) step.result.status = MoveStatus::dropped;
   const Vec2 target = step.motion.from + step.motion.displacement * step.found.stop;
   const Real end = step.time + (1 - step.time) * step.found.stop;
@@ -85,7 +86,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 
 /// Advances to the earliest impact, responds to all touched surfaces, and sweeps again with what is left of the
 /// displacement.
-[[gnu::flatten]] inline void travel(Step& step) noexcept {
+PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
   const std::size_t most_corners = step.memory.most_corners - 3;
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion desired = desired_motion(step);
@@ -139,7 +140,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
   last_resort(step, displacement);
 }
 
-[[gnu::cold, gnu::noinline]] inline void look_for_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void look_for_ground(Step& step) noexcept {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (!step.result.grounded && stands_on(step, piece))
       note_ground(step, GroundState::walkable, piece, *touched_ground(step, piece));
@@ -161,7 +162,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
 /// leave, or a wedge that ended its fall; or what it slides down.
-[[gnu::always_inline]] inline void find_ground(Step& step) noexcept {
+PAPERPROOF_INLINE void find_ground(Step& step) noexcept {
   if (step.on_ground || step.wedged || (step.met_ground && stands_on(step, step.ground))) {  // the usual case
     const Vec2 normal = step.space.normal(step.ground, step.ground_axis);
     note_ground(step, walkable(step, normal) ? GroundState::walkable : GroundState::wedge, step.ground, normal);
@@ -175,7 +176,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 /// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion leaves
 /// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
 /// ceiling. Nor is a one-way surface that the step began beneath.
-[[gnu::cold, gnu::noinline]] inline void land(Step& step, const Vec2& wanted) noexcept {
+PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) noexcept {
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const Vec2 before = step.start - offset(step, piece, 0);

@@ -7,6 +7,7 @@
 /// stair. There it may rest if a little ahead, where its foot would be, there is walkable ground.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/contact_geometry.hpp"
 #include "step/step.hpp"
 #include "step/step_free_position.hpp"
@@ -23,7 +24,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// How far the hull and its foot reach to a side.
-[[nodiscard, gnu::cold, gnu::noinline]] inline FootReach foot_reach(const Step& step, Real side) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline FootReach foot_reach(const Step& step, Real side) noexcept {
   Real low = std::numeric_limits<Real>::infinity();
   for (const Vec2d& point : step.space.hull()) low = std::min<Real>(low, step.up.up_of(point));
   FootReach reach{-std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
@@ -97,8 +98,8 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
-[[gnu::cold, gnu::noinline]] inline void climb_stairs(Step& step, const StepRequest& request, const Vec2& wanted,
-                                                      Real speed) noexcept {
+PAPERPROOF_COLD inline void climb_stairs(Step& step, const StepRequest& request, const Vec2& wanted,
+                                         Real speed) noexcept {
   constexpr Real touch = tolerances.touch;
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
   if (!request.grounded || !step.climbs || step.result.status != MoveStatus::moved || is_passed_through(step)) return;
@@ -127,7 +128,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// How far a circle may fall away below a rider that this step took along a tangent of it [m]; zero where no circle
 /// carries the character.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Real falls_away_below_rider(const Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real falls_away_below_rider(const Step& step) noexcept {
   if (step.moving.ride.ground == Ride::none || !step.space.is_circle(step.moving.ridden)) return 0;
   const Vec2 motion = step.velocity - step.movers.velocity(step.moving.carrier);
   const Real radius = step.space.circle(step.moving.ridden).radius;
@@ -143,7 +144,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
 /// such a seam the walk is above its ground by up to `touch` more than before.
-[[gnu::cold, gnu::noinline]] inline void follow_ground_down(Step& step, const StepRequest& request) noexcept {
+PAPERPROOF_COLD inline void follow_ground_down(Step& step, const StepRequest& request) noexcept {
   constexpr Real bend = 4 * tolerances.touch;          // straight down: enough on ground as steep as 60 degrees
   if (is_passed_through(step)) return;                 // a crushed character does not move
   const Vec2 left_ground = step.moving.ride.velocity;  // of the ground that was walked on

@@ -1,6 +1,7 @@
 /// Depenetration. A start that overlaps something, or is nearer than `hit` to it, is made free.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/certificate.hpp"
 #include "step/step.hpp"
 #include "step/step_sweep.hpp"
@@ -181,8 +182,7 @@ template <class Condition>
 }
 
 /// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
-[[nodiscard, gnu::always_inline]] inline bool may_block(const Step& step, PieceIndex piece,
-                                                        const Vec2& position) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
   if (!step.space.info(piece).is_one_way()) return true;
   if (step.drops) return false;
   return is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece)));
@@ -238,8 +238,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
 }
 
 /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool prepare_start(Step& step, Part part,
-                                                                  const StepRequest& request) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step, Part part, const StepRequest& request) noexcept {
   if (request.has_last_free) step.moving.last_free = request.last_free;
   if (request.crushed && ignore_overlapping_movers(step, request) && part == Part::whole &&
       leaves_overlapping_movers(step, request))

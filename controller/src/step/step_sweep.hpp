@@ -1,6 +1,7 @@
 /// The sweep to the earliest impact, and the contacts there.
 #pragma once
 
+#include "inlining.hpp"
 #include "step/certificate.hpp"
 #include "step/contact_geometry.hpp"
 #include "step/step.hpp"
@@ -46,13 +47,13 @@ inline void update_surfaces(Step& step) noexcept {
   if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
 }
 
-[[gnu::cold, gnu::noinline]] inline void note_motion_on_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void note_motion_on_ground(Step& step) noexcept {
   const Vec2 relative = step.movers.relative(step.motion.displacement, step.moving.carrier, step.time);
   step.moving.anchored = relative.x() == 0 && relative.y() == 0;
 }
 
 /// Position of an anchored rider at a fraction of the step.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Vec2 anchor(const Step& step, Real time) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Vec2 anchor(const Step& step, Real time) noexcept {
   if (step.moving.carrier == no_mover) return step.position;
   return step.movers.offset(step.moving.carrier, time) + step.moving.ride.place;
 }
@@ -121,7 +122,7 @@ inline void keep_stop(Step& step, Stop stop, Real length) noexcept {
 
 /// Sweeps the last motion against what may be in its way, relative to each mover. `found` keeps the first stops.
 template <Covered covered>
-[[gnu::always_inline]] inline void sweep(Step& step) noexcept {
+PAPERPROOF_INLINE void sweep(Step& step) noexcept {
   const auto against = [&](const Motion& motion, std::span<const PieceIndex> pieces) {
     for (const PieceIndex piece : pieces) {
       const Real kept = kept_by_box(step.space, motion, piece);
@@ -144,7 +145,7 @@ template <Covered covered>
 }
 
 /// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
-[[gnu::cold, gnu::noinline]] inline void sweep_again(Step& step) noexcept { sweep<Covered::yields>(step); }
+PAPERPROOF_COLD inline void sweep_again(Step& step) noexcept { sweep<Covered::yields>(step); }
 
 /// Whether a covered facet stopped the last sweep.
 [[nodiscard]] inline bool stops_at_covered(const Step& step) noexcept {
@@ -165,7 +166,7 @@ inline void order_stops(Step& step) noexcept {
 }
 
 /// Sweeps from the present position. Motion and result are in `motion` and `found`.
-[[gnu::flatten]] inline void sweep_along(Step& step, const Vec2& displacement) noexcept {
+PAPERPROOF_FLATTEN inline void sweep_along(Step& step, const Vec2& displacement) noexcept {
   set_motion(step.motion, step.space, step.position, displacement);
   sweep<Covered::as_any>(step);
   if (stops_at_covered(step)) [[unlikely]]
@@ -180,7 +181,7 @@ inline void order_stops(Step& step) noexcept {
 
 /// Whether the straight motion to `target` is proved clear of every piece that is nearer than rounding at its start.
 /// For pieces that are further away the sweep is proof enough.
-[[nodiscard, gnu::cold, gnu::noinline]] inline bool certified(Step& step, const Vec2& target, Real end) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool certified(Step& step, const Vec2& target, Real end) noexcept {
   return !any_near(step, {step.position, step.position},
                    [&](PieceIndex piece) { return blocks_exactly(step, piece, target, end); });
 }
@@ -233,8 +234,9 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 }
 
 /// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
-[[nodiscard, gnu::noinline]] inline Real impact_with_another_piece(Step& step, const Stop& stop, const Motion& motion,
-                                                                   const Vec2& from) noexcept {
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline Real impact_with_another_piece(Step& step, const Stop& stop,
+                                                                          const Motion& motion,
+                                                                          const Vec2& from) noexcept {
   Real earliest = std::numeric_limits<Real>::infinity();
   const auto look_at = [&](PieceIndex other) {
     if (other == stop.piece || collider_of(step, other) != collider_of(step, stop.piece)) return;
@@ -269,7 +271,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 }
 
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
-[[gnu::cold, gnu::noinline]] inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
+PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
   const auto report_hit = [&](const Motion& motion, PieceIndex piece) {
     if (ignored(step, piece) || !in_way(step, motion, piece)) return;
     const Clearance clear = clearance(step.space, motion, piece);
@@ -289,8 +291,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 /// The fraction of a contact that is met before any time has passed, by a motion that other contacts have turned.
 /// Either the wanted motion comes to it before it comes to them, or it comes after the first of them.
 /// @param turned time of impact of the motion that was turned.
-[[nodiscard, gnu::cold, gnu::noinline]] inline Real fraction_after_contacts(Step& step, PieceIndex piece,
-                                                                            Real turned) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real fraction_after_contacts(Step& step, PieceIndex piece, Real turned) noexcept {
   Real first = 1;
   for (const Contact& contact : step.result.contacts) first = std::min<Real>(first, contact.fraction);
   const Vec2 at_first = offset(step, piece, 0);
@@ -308,7 +309,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 
 /// Reports the contacts of one moment, the earliest impact first.
 /// @param begin when the motion of the last sweep began.
-[[gnu::flatten]] inline void report(Step& step, Real begin) noexcept {
+PAPERPROOF_FLATTEN inline void report(Step& step, Real begin) noexcept {
   const std::size_t before = step.result.contacts.size();
   step.on_ground = false;
   for (const Stop& stop : step.found.stops) {
@@ -333,7 +334,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 }
 
 /// Puts the contacts in order of fraction; those of one fraction stay as they were met.
-[[gnu::cold, gnu::noinline]] inline void order_contacts(Step& step) noexcept {
+PAPERPROOF_COLD inline void order_contacts(Step& step) noexcept {
   const auto begin = step.result.contacts.begin();
   for (auto contact = begin; contact != step.result.contacts.end(); ++contact) {
     const auto place = std::upper_bound(begin, contact, contact->fraction,
@@ -343,7 +344,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 }
 
 /// Reports a contact with a piece that is touched now.
-[[gnu::cold, gnu::noinline]] inline void report_touched(Step& step, PieceIndex piece) noexcept {
+PAPERPROOF_COLD inline void report_touched(Step& step, PieceIndex piece) noexcept {
   const std::size_t axis = best_axis(step.space, piece, local(step, piece, step.position)).axis;
   report_contact(step, piece, axis, step.time, step.result.contacts.size());
 }
