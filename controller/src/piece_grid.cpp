@@ -12,10 +12,28 @@ constexpr int finest = -8;
 /// No piece lies there, but a box that is searched may.
 constexpr double furthest = 2e9;
 
+/// The cell of a place, in one dimension. Its lower end belongs to a cell; its upper end belongs to the next one.
 std::int32_t cell_at(double coordinate, double cells_per_metre) noexcept {
   const double place = std::clamp(coordinate * cells_per_metre, -furthest, furthest);
   const auto cell = static_cast<std::int32_t>(place);
   return cell - (place < cell ? 1 : 0);
+}
+
+/// The same, but a place between two cells belongs to the lower one.
+std::int32_t cell_below(double coordinate, double cells_per_metre) noexcept {
+  const std::int32_t cell = cell_at(coordinate, cells_per_metre);
+  return cell - (coordinate * cells_per_metre == cell ? 1 : 0);
+}
+
+/// Calls `visit` for the cells in which a piece is. Tiles that fill cells are in no others.
+template <class Visit>
+void for_each_cell_of(const Box2& box, double cells_per_metre, const Visit& visit) {
+  const std::int32_t left = cell_at(box.lower.x(), cells_per_metre);
+  const std::int32_t bottom = cell_at(box.lower.y(), cells_per_metre);
+  const std::int32_t right = std::max(left, cell_below(box.upper.x(), cells_per_metre));
+  const std::int32_t top = std::max(bottom, cell_below(box.upper.y(), cells_per_metre));
+  for (std::int32_t x = left; x <= right; ++x)
+    for (std::int32_t y = bottom; y <= top; ++y) visit(x, y);
 }
 
 }  // namespace
@@ -28,14 +46,6 @@ std::size_t PieceGrid::Layer::index_of(std::int32_t x, std::int32_t y) const noe
   std::size_t index = static_cast<std::size_t>(hash ^ hash >> 32U) & mask;
   while (cells[index].is_used && !(cells[index].x == x && cells[index].y == y)) index = (index + 1) & mask;
   return index;
-}
-
-template <class Visit>
-void PieceGrid::Layer::for_each_place(const Box2& box, const Visit& visit) const {
-  const std::int32_t right = cell_at(box.upper.x(), cells_per_metre);
-  const std::int32_t top = cell_at(box.upper.y(), cells_per_metre);
-  for (std::int32_t x = cell_at(box.lower.x(), cells_per_metre); x <= right; ++x)
-    for (std::int32_t y = cell_at(box.lower.y(), cells_per_metre); y <= top; ++y) visit(x, y);
 }
 
 /// Half of the cells are free, so that a search for one ends soon.
@@ -73,7 +83,7 @@ PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
 void PieceGrid::add(PieceIndex piece, const Box2& box) {
   whole_ = whole_.merged(box);
   Layer& layer = layer_for(box);
-  layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
+  for_each_cell_of(box, layer.cells_per_metre, [&](std::int32_t x, std::int32_t y) {
     if (2 * layer.used >= layer.cells.size()) layer.grow();
     Cell& cell = layer.cells[layer.index_of(x, y)];
     if (!cell.is_used) {
@@ -94,7 +104,7 @@ void PieceGrid::add(PieceIndex piece, const Box2& box) {
 
 void PieceGrid::remove(PieceIndex piece, const Box2& box) {
   Layer& layer = layer_for(box);
-  layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
+  for_each_cell_of(box, layer.cells_per_metre, [&](std::int32_t x, std::int32_t y) {
     const std::size_t index = layer.index_of(x, y);
     std::uint32_t* before = &layer.cells[index].first;
     while (links_[*before].piece != piece) before = &links_[*before].next;
@@ -120,8 +130,11 @@ void PieceGrid::shrink(const Box2& removed, std::span<const Box2> boxes) {
 void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<PieceIndex>& found) const {
   for (const Layer& layer : layers_) {
     const double scale = layer.cells_per_metre;
-    const std::int32_t left = cell_at(box.lower.x(), scale);
-    const std::int32_t bottom = cell_at(box.lower.y(), scale);
+    // A piece that touches the box may end where a cell does.
+    const std::int32_t left = cell_below(box.lower.x(), scale);
+    const std::int32_t bottom = cell_below(box.lower.y(), scale);
+    const std::int32_t right = cell_at(box.upper.x(), scale);
+    const std::int32_t top = cell_at(box.upper.y(), scale);
     // A piece that is in several cells is found in the first of them that the box meets.
     const auto look_into = [&](const Cell& cell) {
       if (cell.x < left || cell.y < bottom) return;
@@ -135,10 +148,11 @@ void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<P
     };
     const Vec2d places = (box.upper - box.lower) * scale + Vec2d(2, 2);
     if (places.x() * places.y() < static_cast<double>(layer.cells.size())) {
-      layer.for_each_place(box, [&](std::int32_t x, std::int32_t y) {
-        const Cell& cell = layer.cells[layer.index_of(x, y)];
-        if (cell.is_used) look_into(cell);
-      });
+      for (std::int32_t x = left; x <= right; ++x)
+        for (std::int32_t y = bottom; y <= top; ++y) {
+          const Cell& cell = layer.cells[layer.index_of(x, y)];
+          if (cell.is_used) look_into(cell);
+        }
     } else {
       for (const Cell& cell : layer.cells)
         if (cell.is_used) look_into(cell);

@@ -169,8 +169,6 @@ class PieceGrid {
   /// One grid. Its cells are in a hash table.
   struct Layer {
     [[nodiscard]] std::size_t index_of(std::int32_t x, std::int32_t y) const noexcept;
-    template <class Visit>
-    void for_each_place(const Box2& box, const Visit& visit) const;
     void grow();
     void erase(std::size_t index);
 
