@@ -186,39 +186,37 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
   const UpFrame up = context.up;
   const Vec2d there = up.in_world({move < 0 ? -reach : reach, 0});
   const Moving moving = moving_in(context, scratch);
-  StepRequest request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context, moving);
-  request.crushed = false;
-  request.crushers = {};
-  sweep_->move_part(octagon_sweep::Part::whole, request, scratch, tried);
+  CharacterState free = state;
+  free.crushed = false;
+  free.crushers.clear();
+  sweep_->move_part(octagon_sweep::Part::whole,
+                    request_of(free, there, there / context.dt, 0, false, false, context, moving), scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
+octagon_sweep::Around Controller::around(const StepContext& context, const Moving& moving) const noexcept {
+  return {&moving, filter_of(context), context.up};
+}
+
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::request_of(const CharacterState& state,
-                                                                    const Crushers& crushers, const Vec2d& displacement,
-                                                                    const Vec2d& velocity, double steered, bool drop,
-                                                                    bool jumps, const StepContext& context,
+                                                                    const Vec2d& displacement, const Vec2d& velocity,
+                                                                    double steered, bool drop, bool jumps,
+                                                                    const StepContext& context,
                                                                     const Moving& moving) const noexcept {
-  return {.position = state.position,
+  return {.state = state,
           .displacement = displacement,
           .velocity = velocity,
           .steered = steered,
-          .last_free = state.last_free,
-          .has_last_free = state.has_last_free,
           .grounded = state.grounded,
-          .crushed = state.crushed,
           .drop = drop,
           .next_dt = jumps ? 0 : context.dt,
-          .crushers = {crushers.begin(), crushers.end()},
-          .moving = &moving,
-          .filter = filter_of(context),
           .dt = context.dt,
-          .up = context.up,
-          .ride = state.ride};
+          .around = around(context, moving)};
 }
 
-PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Crushers& crushers, const Input& input,
-                                                                    const StepContext& context, const Moving& moving,
-                                                                    bool wall_ahead, CharacterState& state,
+PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,
+                                                                    const Moving& moving, bool wall_ahead,
+                                                                    CharacterState& state,
                                                                     StepReport& report) const noexcept {
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
@@ -230,8 +228,7 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Crushe
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context,
-                    moving);
+  return request_of(state, report.requested, velocity, steered, input.drop, state.jumping && !rises, context, moving);
 }
 
 [[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
@@ -244,9 +241,7 @@ PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext&
   const std::span<const PathPoint> path = report.move.path;
   const Moving moving = moving_in(context, scratch);
   static_cast<Sensors&>(*scratch.sensors).observe(path, moving, report.sensors, filter_of(context));
-  if (drop)
-    sweep_->find_passed({.moving = &moving, .filter = filter_of(context)}, path, *one_way_, scratch,
-                        report.dropped_through);
+  if (drop) sweep_->find_passed(around(context, moving), path, *one_way_, scratch, report.dropped_through);
 }
 
 PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
@@ -268,8 +263,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   const Moving moving = moving_in(context, scratch);
-  sweep_->move_part(octagon_sweep::Part::whole,
-                    begin_step(state.crushers, input, context, moving, wall_ahead, state, report), scratch,
+  sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, moving, wall_ahead, state, report), scratch,
                     report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
@@ -293,8 +287,8 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   report.requested = displacement;
   report.steered = 0;
   const Moving moving = moving_in(context, scratch);
-  StepRequest request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context, moving);
-  sweep_->move_part(octagon_sweep::Part::whole, request, scratch, report.move);
+  sweep_->move_part(octagon_sweep::Part::whole,
+                    request_of(state, displacement, velocity, 0, false, false, context, moving), scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -357,58 +351,55 @@ bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, co
 }
 
 /// Asks about a character that goes from a position.
-/// @param within [m] of its way. @param ask called with a request.
+/// @param within [m] of its way. @param ask called with what is around it.
 template <class Ask>
 auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                         Scratch& scratch, const Ask& ask) const noexcept {
   const Box2& extent = character_.shape.box();
   const Vec2d end = position + displacement;
-  const Box2 around{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
+  const Box2 box{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
   StepContext posed = context;
-  const turning::CirclesOfQuestion circles(*scenery_, around.inflated(within), posed, turning::memory_of(scratch));
+  const turning::CirclesOfQuestion circles(*scenery_, box.inflated(within), posed, turning::memory_of(scratch));
   const Moving moving = moving_in(posed, scratch);
-  return ask(StepRequest{.position = position,
-                         .displacement = displacement,
-                         .moving = &moving,
-                         .filter = filter_of(context),
-                         .up = context.up});
+  return ask(around(posed, moving));
 }
 
 std::optional<Contact> Controller::cast(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                                         Scratch& scratch) const noexcept {
   if (!can_answer(position, displacement, context, scratch)) return std::nullopt;
   return answer(position, displacement, 0, context, scratch,
-                [&](const StepRequest& at) { return sweep_->cast(at, scratch); });
+                [&](const Around& around) { return sweep_->cast(position, displacement, around, scratch); });
 }
 
 std::optional<std::size_t> Controller::overlaps(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                                 std::span<ColliderIndex> found) const noexcept {
   if (!can_answer(position, {0, 0}, context, scratch)) return std::nullopt;
   return answer(position, {0, 0}, 0, context, scratch,
-                [&](const StepRequest& at) { return sweep_->overlaps(at, scratch, found); });
+                [&](const Around& around) { return sweep_->overlaps(position, around, scratch, found); });
 }
 
 std::size_t Controller::contacts_at(const Vec2d& position, double within, const StepContext& context, Scratch& scratch,
                                     std::span<Contact> found) const noexcept {
   if (!can_answer(position, {0, 0}, context, scratch) || !(within <= Tolerances{}.range)) return 0;
   return answer(position, {0, 0}, std::max(within, 0.0), context, scratch,
-                [&](const StepRequest& at) { return sweep_->contacts_at(at, within, scratch, found); });
+                [&](const Around& around) { return sweep_->contacts_at(position, within, around, scratch, found); });
 }
 
 std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                    std::span<ColliderIndex> found) const noexcept {
   if (!can_answer(position, {0, 0}, context, scratch)) return 0;
-  return answer(position, {0, 0}, 0, context, scratch, [&](const StepRequest& at) {
-    return static_cast<Sensors&>(*scratch.sensors).around(position, *at.moving, at.filter, found);
+  return answer(position, {0, 0}, 0, context, scratch, [&](const Around& around) {
+    return static_cast<Sensors&>(*scratch.sensors).around(position, *around.moving, around.filter, found);
   });
 }
 
 bool Controller::begin_together(const CharacterState& before, const Input& input, const StepContext& context,
-                                CharacterState& state, StepRequest& request, StepReport& report) const noexcept {
+                                CharacterState& state, std::optional<StepRequest>& request,
+                                StepReport& report) const noexcept {
   if (!accepts(before, input, context) || any_angle(context.movers)) return false;
   state = before;
   if (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) state.ride = {};
-  request = begin_step(before.crushers, input, context, nothing_moves, false, state, report);
+  request.emplace(begin_step(input, context, nothing_moves, false, state, report));
   return true;
 }
 

@@ -35,6 +35,7 @@ struct DesiredVelocity {
 
 namespace octagon_sweep {
 class SweepInParts;
+struct Around;
 struct StepRequest;
 }  // namespace octagon_sweep
 namespace turning {
@@ -158,6 +159,7 @@ class Controller {
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
 
  private:
+  using Around = octagon_sweep::Around;
   using StepRequest = octagon_sweep::StepRequest;
 
   friend class turning::TurningStep;
@@ -178,14 +180,15 @@ class Controller {
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
                                     Scratch& scratch, MoveResult& tried) const noexcept;
-  /// @param crushers of the state as it was; must outlive the request, as `context`.
-  [[nodiscard]] StepRequest request_of(const CharacterState& state, const Crushers& crushers, const Vec2d& displacement,
-                                       const Vec2d& velocity, double steered, bool drop, bool jumps,
-                                       const StepContext& context, const Moving& moving) const noexcept;
+  /// @param moving must outlive the answer.
+  [[nodiscard]] Around around(const StepContext& context, const Moving& moving) const noexcept;
+  /// @param state must outlive the request, as `moving`.
+  [[nodiscard]] StepRequest request_of(const CharacterState& state, const Vec2d& displacement, const Vec2d& velocity,
+                                       double steered, bool drop, bool jumps, const StepContext& context,
+                                       const Moving& moving) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
-  [[nodiscard]] StepRequest begin_step(const Crushers& crushers, const Input& input, const StepContext& context,
-                                       const Moving& moving, bool wall_ahead, CharacterState& state,
-                                       StepReport& report) const noexcept;
+  [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Moving& moving,
+                                       bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
   [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
   void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
@@ -197,10 +200,10 @@ class Controller {
     return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
   }
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
-  /// @param before must outlive the request. @return false if the input is not accepted.
+  /// @param state must outlive the request. @return false if the input is not accepted.
   friend class Crowd;
   bool begin_together(const CharacterState& before, const Input& input, const StepContext& context,
-                      CharacterState& state, StepRequest& request, StepReport& report) const noexcept;
+                      CharacterState& state, std::optional<StepRequest>& request, StepReport& report) const noexcept;
   void end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
                     StepReport& report) const noexcept;
 

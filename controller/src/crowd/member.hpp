@@ -81,9 +81,9 @@ struct Member {
 
 /// Memory for a step of a crowd.
 struct CrowdMemory final : OwnMemory {
-  std::vector<CharacterState> states;                ///< Those handed to the step, as they will be.
-  std::vector<octagon_sweep::StepRequest> requests;  ///< What each character wants.
-  Scratch scratch;                                   ///< Of the technique.
+  std::vector<CharacterState> states;                               ///< Those handed to the step, as they will be.
+  std::vector<std::optional<octagon_sweep::StepRequest>> requests;  ///< What each character wants.
+  Scratch scratch;                                                  ///< Of the technique.
   // The rest is for `octagon_sweep`.
   std::vector<Member> members;
   std::vector<PairImpact> impacts;
@@ -101,7 +101,7 @@ struct CrowdStep {
   Vec2d gravity;  ///< [m/s²]
   double dt;      ///< [s]
   std::span<const MoverMotion> movers;
-  const ColliderFilter* filter;  ///< See `StepRequest`.
+  const ColliderFilter* filter;  ///< See `Around`.
   UpFrame up;
 
   /// What a character has done up to now.

@@ -85,9 +85,10 @@ class PathPlanner {
   void plan_to_hold_position(const Member& member, double until, MoveResult& path, Moment& at) noexcept {
     path.clear();
     set_motions({}, at.time, until);
-    octagon_sweep::StepRequest request = request_at(member, at, until);
-    request.displacement = request.velocity = Vec2d::Zero();
-    request.ride = {};
+    Moment standing = at;
+    standing.own_velocity.setZero();
+    standing.state.ride = {};
+    const octagon_sweep::StepRequest request = request_at(member, standing, until);
     move_part(octagon_sweep::Part::stay, request);
     take_part(until, path, at);
   }
@@ -157,22 +158,15 @@ class PathPlanner {
 
   [[nodiscard]] octagon_sweep::StepRequest request_at(const Member& member, const Moment& at, double end) noexcept {
     const double duration = step_.dt * (end - at.time);
-    return {.position = at.state.position,
+    return {.state = at.state,
             .displacement = at.own_velocity * duration,
             .velocity = at.own_velocity,
             .steered = at.steered,
-            .last_free = at.state.last_free,
-            .has_last_free = at.state.has_last_free,
             .grounded = member.follows_ground && !member.ground_taken && end == 1,
-            .crushed = at.state.crushed,
             .drop = member.drops,
             .next_dt = member.next_dt,
-            .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
-            .moving = &moving_,
-            .filter = step_.filter,
             .dt = duration,
-            .up = step_.up,
-            .ride = at.state.ride};
+            .around = {&moving_, step_.filter, step_.up}};
   }
 
   [[nodiscard]] bool plan_part(const Member& member, double end, MoveResult& path, Moment& at) noexcept {

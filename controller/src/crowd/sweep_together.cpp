@@ -35,11 +35,11 @@ class SweepTogether {
 
   /// The path that a character would take if it were alone. False where it would leave the range.
   [[nodiscard]] bool plan_alone(CharacterIndex i) noexcept {
-    const octagon_sweep::StepRequest& request = step_.memory.requests[i];
+    const octagon_sweep::StepRequest& request = *step_.memory.requests[i];
     Member& member = step_.members[i];
     member.now.time = 0;
     member.now.state = step_.memory.states[i];
-    set_crushers(request.crushers, step_.rules, member.now.state);
+    set_crushers(request.state.crushers, step_.rules, member.now.state);
     member.now.own_velocity = request.velocity;
     member.now.steered = request.steered;
     member.start = member.now;

@@ -55,20 +55,22 @@ class OctagonSweep final : public SweepInParts {
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
-    if (!in_range(request) || request.moving->mover_count() != finder_.scenery().mover_count() ||
-        (!request.moving->motions.empty() && !(request.dt > 0)))
+    const Moving& moving = *request.around.moving;
+    if (!in_range(request) || moving.mover_count() != finder_.scenery().mover_count() ||
+        (!moving.motions.empty() && !(request.dt > 0)))
       return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers =
-        !request.moving->motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
-    const bool rides = request.ride.ground != Ride::none;
-    Step step(settings_, {finder_, scratch.solids, looks_at_movers ? request.moving : nullptr, request.filter, &memory},
-              {*request.moving, request.dt, has_conveyors(finder_.scenery()) || rides || looks_at_movers}, memory,
-              request.up, result);
-    solve(step, part, request);
+        !moving.motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
+    const bool rides = request.state.ride.ground != Ride::none;
+    Step step(request, settings_,
+              {finder_, scratch.solids, looks_at_movers ? &moving : nullptr, request.around.filter, &memory},
+              {moving, static_cast<Real>(request.dt), has_conveyors(finder_.scenery()) || rides || looks_at_movers},
+              memory, result);
+    solve(step, part);
   }
 
-  void find_passed(const StepRequest& at, std::span<const PathPoint> path, const OneWayChains& chains, Scratch& scratch,
+  void find_passed(const Around& around, std::span<const PathPoint> path, const OneWayChains& chains, Scratch& scratch,
                    std::vector<ColliderIndex>& passed) const noexcept override {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
@@ -77,34 +79,37 @@ class OctagonSweep final : public SweepInParts {
       const PieceVertices ends = memory.space.vertices_of(piece);
       return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
     };
-    chains.find_passed(path, at.moving->motions, {finder_, scratch.solids, at.moving, at.filter, &memory}, segment_of,
-                       passed);
+    chains.find_passed(path, around.moving->motions, {finder_, scratch.solids, around.moving, around.filter, &memory},
+                       segment_of, passed);
   }
 
   template <class Question>
-  [[nodiscard]] auto ask(const StepRequest& at, Scratch& scratch, const Question& question) const noexcept {
+  [[nodiscard]] auto ask(const Around& around, Scratch& scratch, const Question& question) const noexcept {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
-    Surroundings around{
-        memory.space, {finder_, scratch.solids, at.moving, at.filter, &memory}, at.moving->motions, at.up};
+    Surroundings surroundings{memory.space,
+                              {finder_, scratch.solids, around.moving, around.filter, &memory},
+                              around.moving->motions,
+                              around.up};
     const Box2 before = scratch.solids.box;
-    const auto answer = question(around);
+    const auto answer = question(surroundings);
     // A wide question would make the next steps slow.
-    if (before.lower != scratch.solids.box.lower || before.upper != scratch.solids.box.upper) around.near.forget();
+    if (before.lower != scratch.solids.box.lower || before.upper != scratch.solids.box.upper)
+      surroundings.near.forget();
     return answer;
   }
 
-  [[nodiscard]] std::optional<Contact> cast(const StepRequest& at, Scratch& scratch) const noexcept override {
-    return ask(at, scratch,
-               [&](Surroundings& around) { return octagon_sweep::cast(around, at.position, at.displacement); });
+  [[nodiscard]] std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement, const Around& around,
+                                            Scratch& scratch) const noexcept override {
+    return ask(around, scratch, [&](Surroundings& here) { return octagon_sweep::cast(here, position, displacement); });
   }
-  [[nodiscard]] std::size_t overlaps(const StepRequest& at, Scratch& scratch,
+  [[nodiscard]] std::size_t overlaps(const Vec2d& position, const Around& around, Scratch& scratch,
                                      std::span<ColliderIndex> found) const noexcept override {
-    return ask(at, scratch, [&](Surroundings& around) { return octagon_sweep::overlaps(around, at.position, found); });
+    return ask(around, scratch, [&](Surroundings& here) { return octagon_sweep::overlaps(here, position, found); });
   }
-  [[nodiscard]] std::size_t contacts_at(const StepRequest& at, double within, Scratch& scratch,
+  [[nodiscard]] std::size_t contacts_at(const Vec2d& position, double within, const Around& around, Scratch& scratch,
                                         std::span<Contact> found) const noexcept override {
-    return ask(at, scratch,
-               [&](Surroundings& around) { return octagon_sweep::contacts_at(around, at.position, within, found); });
+    return ask(around, scratch,
+               [&](Surroundings& here) { return octagon_sweep::contacts_at(here, position, within, found); });
   }
 
  private:
@@ -112,28 +117,28 @@ class OctagonSweep final : public SweepInParts {
     constexpr Real range = tolerances.range;
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.
     const auto within = [](Real value) { return std::abs(value) <= range; };
-    return within(request.position.x()) && within(request.position.y()) &&
-           within(request.position.x() + request.displacement.x()) &&
-           within(request.position.y() + request.displacement.y());
+    const Vec2d& position = request.state.position;
+    return within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
+           within(position.y() + request.displacement.y());
   }
 
   static void refuse(const StepRequest& request, MoveResult& result) noexcept {
     result.status = MoveStatus::out_of_range;
-    result.position = request.position;
-    result.velocity = request.velocity + request.ride.velocity;
-    result.ride = request.ride;
-    result.path.push_back({request.position, 0});
-    result.path.push_back({request.position, 1});
+    result.position = request.state.position;
+    result.velocity = request.velocity + request.state.ride.velocity;
+    result.ride = request.state.ride;
+    result.path.push_back({request.state.position, 0});
+    result.path.push_back({request.state.position, 1});
   }
 
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
   /// its displacement is long, and the snap.
   [[nodiscard]] bool comes_near_a_mover(const StepRequest& request, const ConfigurationSpace& space) const noexcept {
-    if (request.ride.ground != Ride::none || request.crushed) return true;
-    const Vec2& at = request.position;
+    if (request.state.ride.ground != Ride::none || request.state.crushed) return true;
+    const Vec2d& at = request.state.position;
     const Real reach =
         request.displacement.cwiseAbs().sum() + settings_.snap + settings_.step_height + 2 * tolerances.look;
-    return finder_.any_comes_into(space.touched_from(Box2{at, at}.inflated(reach)), *request.moving);
+    return finder_.any_comes_into(space.touched_from(Box2{at, at}.inflated(reach)), *request.around.moving);
   }
 
   PieceFinder finder_;

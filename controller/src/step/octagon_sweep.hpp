@@ -15,29 +15,28 @@
 
 namespace paperproof::octagon_sweep {
 
-/// What a step wants, and what it knows of the steps before.
-struct StepRequest {
-  Vec2d position{Vec2d::Zero()};      ///< Where the step begins [m].
-  Vec2d displacement{Vec2d::Zero()};  ///< The wanted displacement [m].
-  Vec2d velocity{Vec2d::Zero()};      ///< The velocity behind the displacement [m/s].
-  /// The part of `velocity` across up that this step's steering added [m/s].
-  double steered = 0;
-  Vec2d last_free{Vec2d::Zero()};  ///< See `CharacterState::last_free`.
-  bool has_last_free = false;
-  bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
-  bool crushed = false;   ///< See `CharacterState::crushed`.
-  bool drop = false;      ///< One-way chains do not block: see `Input::drop`.
-  /// Duration of one more step [s]: a motion leaves ground if it goes away from it by more than `Tolerances::touch` in
-  /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
-  double next_dt = 0;
-  std::span<const Crusher> crushers{};  ///< See `CharacterState::crushers`.
+/// What is around a character in a step or a question.
+struct Around {
   const Moving* moving = &nothing_moves;
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
-  double dt = 0;                           ///< [s]
   UpFrame up{};                            ///< See `StepContext::up`.
-  /// The ground that carries the character, if any: `displacement` and `velocity` are then relative to this ground, and
-  /// the step adds the ground's motion.
-  Ride ride{};
+};
+
+/// What a step wants, and what it knows of the steps before.
+struct StepRequest {
+  /// As the step begins; its velocity is not read. If it rides, `displacement` and `velocity` are relative to the
+  /// ground that carries it, and the step adds the motion of that ground.
+  const CharacterState& state;
+  Vec2d displacement;  ///< The wanted displacement [m].
+  Vec2d velocity;      ///< The velocity behind the displacement [m/s].
+  double steered;      ///< The part of `velocity` across up that this step's steering added [m/s].
+  bool grounded;       ///< The last step ended on the ground, and this one does not begin with a jump.
+  bool drop;           ///< One-way chains do not block: see `Input::drop`.
+  /// Duration of one more step [s]: a motion leaves ground if it goes away from it by more than `Tolerances::touch` in
+  /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
+  double next_dt;
+  double dt;  ///< [s]
+  Around around;
 };
 
 /// Which part of a step a move makes.
@@ -63,17 +62,17 @@ class SweepInParts {
   virtual void move_part(Part part, const StepRequest& request, Scratch& scratch,
                          MoveResult& result) const noexcept = 0;
 
-  /// See `OneWayChains`. @param at its motions and filter count.
-  virtual void find_passed(const StepRequest& at, std::span<const PathPoint> path, const OneWayChains& chains,
+  /// See `OneWayChains`.
+  virtual void find_passed(const Around& around, std::span<const PathPoint> path, const OneWayChains& chains,
                            Scratch& scratch, std::vector<ColliderIndex>& passed) const noexcept = 0;
 
-  /// See the calls of these names in `Controller`.
-  /// @param at its position and displacement, what moves and its filter count.
-  [[nodiscard]] virtual std::optional<Contact> cast(const StepRequest& at, Scratch& scratch) const noexcept = 0;
-  [[nodiscard]] virtual std::size_t overlaps(const StepRequest& at, Scratch& scratch,
+  // See the calls of these names in `Controller`.
+  [[nodiscard]] virtual std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement,
+                                                    const Around& around, Scratch& scratch) const noexcept = 0;
+  [[nodiscard]] virtual std::size_t overlaps(const Vec2d& position, const Around& around, Scratch& scratch,
                                              std::span<ColliderIndex> found) const noexcept = 0;
-  [[nodiscard]] virtual std::size_t contacts_at(const StepRequest& at, double within, Scratch& scratch,
-                                                std::span<Contact> found) const noexcept = 0;
+  [[nodiscard]] virtual std::size_t contacts_at(const Vec2d& position, double within, const Around& around,
+                                                Scratch& scratch, std::span<Contact> found) const noexcept = 0;
 };
 
 /// For one scenery and one character. `scenery` must outlive it.

@@ -111,18 +111,26 @@ struct Corners {
 /// All that a step knows.
 struct Step {
   // As an aggregate, all of it would be zero first: an eighth of a step.
-  Step(const Settings& by, const Nearby& around, const MoversInStep& among, StepMemory& kept, const UpFrame& frame,
+  Step(const StepRequest& what, const Settings& by, const Nearby& around, const MoversInStep& among, StepMemory& kept,
        MoveResult& into) noexcept
-      : space(kept.space), settings(by), near(around), movers(among), memory(kept), up(frame), result(into) {
+      : request(what),
+        space(kept.space),
+        settings(by),
+        near(around),
+        movers(among),
+        memory(kept),
+        up(what.around.up),
+        result(into) {
     memory.clear();
   }
 
+  const StepRequest& request;
   const ConfigurationSpace& space;
   const Settings& settings;
   Nearby near;
   MoversInStep movers;
   StepMemory& memory;
-  UpFrame up;
+  const UpFrame& up;
   MoveResult& result;
 
   Motion motion;              ///< Of the last sweep.
@@ -133,12 +141,10 @@ struct Step {
   Vec2 position{Vec2::Zero()};
   Vec2 velocity{Vec2::Zero()};
   Real time = 0;           ///< Fraction of the step that is spent.
-  Real dt = 0;             ///< Of the step [s].
   Real latest_impact = 0;  ///< See `Reported`.
   Real fall = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Real steered = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
   Real leaves_ground_above = 0;  ///< A motion leaves ground that it goes away from faster than this [m/s].
-  bool drops = false;            ///< One-way segments do not block in this step.
   bool certify = false;          ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs = false;           ///< The step began on ground, with no more upward speed than climbing gives.
   bool after_walk = false;       ///< See `Surface`.
@@ -230,7 +236,7 @@ inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
 
 /// A one-way segment in a step that drops through them.
 [[nodiscard]] inline bool passes_one_way(const Step& step, PieceIndex piece) noexcept {
-  return step.drops && step.space.info(piece).is_one_way();
+  return step.request.drop && step.space.info(piece).is_one_way();
 }
 
 /// Whether a piece can stop a motion at all.

@@ -30,7 +30,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether a circle would drive the character farther than both go: where it squeezes the character out along its
 /// tangent, it leaves the character sooner.
 [[nodiscard]] inline bool circle_flings(const Step& step, const Vec2& wanted, const Vec2& allowed) noexcept {
-  const Real own = length_of(wanted) + std::abs(step.steered) * step.dt + tolerances.touch;
+  const Real own = length_of(wanted) + std::abs(step.steered) * step.movers.dt + tolerances.touch;
   return std::any_of(step.memory.surfaces.begin(), step.memory.surfaces.end(), [&](const TouchedSurface& surface) {
     return step.space.is_circle(surface.piece) && moves_in(step, surface) &&
            length_of(allowed) > own + length_of(remaining_of(step, surface));
@@ -54,7 +54,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     speed = std::max(speed, length_of(step.movers.velocity(surface.mover)));
   }
   if (way == 0) return true;
-  const Real own_way = length_of(wanted.displacement.wanted) + std::abs(step.steered) * step.dt;
+  const Real own_way = length_of(wanted.displacement.wanted) + std::abs(step.steered) * step.movers.dt;
   if (length_of(allowed.displacement.wanted) > own_way + way * farthest + tolerances.touch) return false;
   const Real most = std::max(length_of(wanted.velocity.wanted), speed * fastest) + std::abs(step.steered);
   const Real now = length_of(allowed.velocity.wanted);
@@ -175,9 +175,9 @@ PAPERPROOF_COLD inline void wait(Step& step, bool may_move) noexcept {
 }
 
 /// The whole step of `Part::stay`.
-PAPERPROOF_COLD inline void stay_in_place(Step& step, const StepRequest& request) noexcept {
+PAPERPROOF_COLD inline void stay_in_place(Step& step) noexcept {
   push_corner(step, 0);
-  ignore_overlapping_movers(step, request);
+  ignore_overlapping_movers(step);
   wait(step, false);
   if (!step.memory.marked.empty()) find_movers_that_still_overlap(step);
   if (step.result.status == MoveStatus::moved && overlaps(step, step.position)) step.result.status = MoveStatus::stuck;

@@ -26,7 +26,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
           .crushers = step.memory.crushers,
           .entered_from = step.moving.last_free,
           .movers = step.movers.moving.motions,
-          .drops = step.drops,
+          .drops = step.request.drop,
           .gap = gap,
           .reach = 0};
 }

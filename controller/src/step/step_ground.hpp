@@ -28,7 +28,7 @@ PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex pie
 [[nodiscard]] PAPERPROOF_COLD inline Real falls_away_from_tangent(const Step& step, PieceIndex piece,
                                                                   Vec2 motion) noexcept {
   const Real speed = length_of(motion);
-  return speed * speed * step.dt / step.space.circle(piece).radius;
+  return speed * speed * step.movers.dt / step.space.circle(piece).radius;
 }
 
 /// Whether the motion at the end of the step leaves ground that it touches: one more step of it would part them by more

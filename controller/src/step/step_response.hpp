@@ -59,7 +59,7 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
     const Desired result = respond(step.up, relative, steered, at);
     return {result.wanted + frame, result.unsteered + frame};
   };
-  return {response(desired.displacement, remaining_of(step, surface), step.steered * step.dt * (1 - step.time)),
+  return {response(desired.displacement, remaining_of(step, surface), step.steered * step.movers.dt * (1 - step.time)),
           response(desired.velocity, step.movers.velocity(surface.mover), step.steered)};
 }
 
@@ -82,7 +82,7 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
 
 /// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
 PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
-  const auto falling = nearest_allowed_to(step, step.up.in_world({0, step.fall * step.dt * (1 - step.time)}),
+  const auto falling = nearest_allowed_to(step, step.up.in_world({0, step.fall * step.movers.dt * (1 - step.time)}),
                                           step.up.in_world({0, step.fall}));
   if (falling && step.up.up_of(falling->displacement.wanted) < step.up.up_of(desired.displacement.wanted))
     desired = *falling;
@@ -169,7 +169,7 @@ PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desire
     step.ground_axis = first.axis;
   }
   if (fall >= 0 || on_ground) return true;
-  const Vec2 displacement = step.up.in_world({0, fall * step.dt * (1 - step.time)});
+  const Vec2 displacement = step.up.in_world({0, fall * step.movers.dt * (1 - step.time)});
   const Vec2 falls = step.up.in_world({0, fall});
   const std::optional<DesiredMotion> falling =
       nearest_allowed_to(step, with_body.displacement.wanted + displacement, velocity + falls);
@@ -214,7 +214,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
     desired.velocity.wanted = respond(desired.velocity.wanted, at);
   } else {
     if (step.steered == 0) desired = DesiredMotion::plain(desired.displacement.wanted, desired.velocity.wanted);
-    desired.displacement = respond(step.up, desired.displacement, step.steered * step.dt * (1 - step.time), at);
+    desired.displacement = respond(step.up, desired.displacement, step.steered * step.movers.dt * (1 - step.time), at);
     desired.velocity = respond(step.up, desired.velocity, step.steered, at);
   }
   // A slow slide may still enter the surface by rounding. A motion along walkable ground does not.

@@ -80,24 +80,26 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
 }
 
 /// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
-[[nodiscard]] PAPERPROOF_COLD inline Vec2 begin_ride(Step& step, const StepRequest& request) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Vec2 begin_ride(Step& step) noexcept {
+  const StepRequest& request = step.request;
+  const Ride& ride = request.state.ride;
   constexpr Real noise = std::numeric_limits<Real>::epsilon() * 4;
-  const bool riding = request.ride.ground != Ride::none;
+  const bool riding = ride.ground != Ride::none;
   const bool at_rest = step.up.across_of(request.velocity) == 0 && step.up.up_of(request.velocity) <= 0;
   std::optional<TouchedSurface> ground;
-  if (riding || at_rest) ground = carrier_here(step, request.ride.ground, !riding);
-  if (riding && ground && collider_of(step, ground->piece) != request.ride.ground) ground.reset();
+  if (riding || at_rest) ground = carrier_here(step, ride.ground, !riding);
+  if (riding && ground && collider_of(step, ground->piece) != ride.ground) ground.reset();
   Vec2 carried = Vec2::Zero();
   if (ground) carried = carried_velocity(step, ground->piece, ground->normal);
   if (!ground || falls_away(step, carried)) {
-    step.velocity += request.ride.velocity;
-    return request.displacement + request.ride.velocity * request.dt;
+    step.velocity += ride.velocity;
+    return request.displacement + ride.velocity * request.dt;
   }
   begin_to_ride(step, *ground);
   if (riding) {
-    const Vec2 there = offset(step, ground->piece) + request.ride.place;
+    const Vec2 there = offset(step, ground->piece) + ride.place;
     const Real size = std::max(there.cwiseAbs().maxCoeff(), offset(step, ground->piece).cwiseAbs().maxCoeff());
-    if ((there - step.position).cwiseAbs().maxCoeff() <= noise * size) step.moving.ride.place = request.ride.place;
+    if ((there - step.position).cwiseAbs().maxCoeff() <= noise * size) step.moving.ride.place = ride.place;
   }
   step.velocity += carried;
   return request.displacement + ground_rest(step, ground->piece, ground->normal);

@@ -37,10 +37,12 @@ PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) noexcept {
   order_stops(step);
 }
 
-/// Reads this step's steering, its length, and whether it begins as a walk on the ground.
-inline void begin_motion(Step& step, const StepRequest& request) noexcept {
+/// Reads what the step wants, and whether it begins as a walk on the ground.
+inline void begin_motion(Step& step) noexcept {
+  const StepRequest& request = step.request;
+  step.position = step.start = request.state.position;
+  step.velocity = request.velocity;
   step.steered = request.steered;
-  step.dt = request.dt;
   step.leaves_ground_above = request.next_dt > 0 ? tolerances.touch / static_cast<Real>(request.next_dt) : Real(0);
   // A rise that is steeper than any walkable ground is no climb.
   step.after_walk = step.climbs =
@@ -51,7 +53,7 @@ inline void begin_motion(Step& step, const StepRequest& request) noexcept {
 /// The desired motion, with and without this step's steering.
 [[nodiscard]] inline DesiredMotion desired_motion(const Step& step) noexcept {
   const Vec2 steered = step.up.in_world({step.steered, 0});
-  return {{step.motion.displacement, step.motion.displacement - steered * step.dt},
+  return {{step.motion.displacement, step.motion.displacement - steered * step.movers.dt},
           {step.velocity, step.velocity - steered}};
 }
 
@@ -198,15 +200,12 @@ inline void look_at_movers(Step& step) noexcept {
   step.movers.active = step.movers.active || !step.movers.moving.motions.empty();
 }
 
-inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
-  step.position = request.position;
-  step.velocity = request.velocity;
-  step.start = step.position;
-  step.drops = request.drop;
-  begin_motion(step, request);
+inline void solve(Step& step, Part part) noexcept {
+  const StepRequest& request = step.request;
+  begin_motion(step);
+  if (part == Part::stay) return stay_in_place(step);
   Vec2 wanted = request.displacement;
-  if (part == Part::stay) return stay_in_place(step, request);
-  if (step.movers.active) wanted = begin_ride(step, request);
+  if (step.movers.active) wanted = begin_ride(step);
   step.wanted = wanted;
   const Real walk = step.up.across_of(step.velocity);
   step.memory.reported_at[0] = {};
@@ -214,7 +213,7 @@ inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
   sweep_along(step, wanted);
   const bool near = step.found.least_separation < tolerances.hit;
   if (near) look_at_movers(step);  // the way out of a solid may be longer than the step
-  if (near && !prepare_start(step, part, request)) {
+  if (near && !prepare_start(step, part)) {
     step.result.status = MoveStatus::stuck;
     halt(step);
     if (step.movers.active) {
@@ -224,7 +223,7 @@ inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
     }
   } else {
     if (step.movers.active) {
-      if (near) step.moving.ride.place += step.position - request.position;  // the gap was restored
+      if (near) step.moving.ride.place += step.position - request.state.position;  // the gap was restored
       if (step.moving.overlapping > 0) {
         halt(step);
         wanted = Vec2::Zero();
@@ -238,8 +237,8 @@ inline void solve(Step& step, Part part, const StepRequest& request) noexcept {
     if (!step.result.crushed.empty()) undo_crushes(step);
     find_ground(step);
     if (step.result.grounded && !step.met_ground && !step.wedged) land(step, wanted);
-    if (step.settings.step_height > 0) climb_stairs(step, request, wanted, walk);
-    if (request.grounded && !step.result.grounded) follow_ground_down(step, request);
+    if (step.settings.step_height > 0) climb_stairs(step, wanted, walk);
+    if (request.grounded && !step.result.grounded) follow_ground_down(step);
     if (step.movers.active) end_ride(step);
   }
   if (!step.memory.marked.empty()) find_movers_that_still_overlap(step);

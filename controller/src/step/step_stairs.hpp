@@ -98,14 +98,14 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
-PAPERPROOF_COLD inline void climb_stairs(Step& step, const StepRequest& request, const Vec2& wanted,
-                                         Real speed) noexcept {
+PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) noexcept {
   constexpr Real touch = tolerances.touch;
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
-  if (!request.grounded || !step.climbs || step.result.status != MoveStatus::moved || is_passed_through(step)) return;
+  if (!step.request.grounded || !step.climbs || step.result.status != MoveStatus::moved || is_passed_through(step))
+    return;
   for (int stair = 0; stair < most_stairs; ++stair) {
-    const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(request.position))));
-    const bool is_steered = left * step.up.across_of(request.velocity) > 0 && std::abs(left) > touch;
+    const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(step.request.state.position))));
+    const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > touch;
     const bool is_stopped =
         std::any_of(step.result.contacts.begin(), step.result.contacts.end(), [&](const auto& contact) {
           return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&
@@ -132,7 +132,8 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const StepRequest& request,
   if (step.moving.ride.ground == Ride::none || !step.space.is_circle(step.moving.ridden)) return 0;
   const Vec2 motion = step.velocity - step.movers.velocity(step.moving.carrier);
   const Real radius = step.space.circle(step.moving.ridden).radius;
-  return std::min(falls_away_from_tangent(step, step.moving.ridden, motion) * step.dt, radius) + 2 * tolerances.touch;
+  return std::min(falls_away_from_tangent(step, step.moving.ridden, motion) * step.movers.dt, radius) +
+         2 * tolerances.touch;
 }
 
 /// Whether the motion leaves ground just below by no more than rounded vertices bend it, and gravity takes the motion
@@ -144,7 +145,7 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const StepRequest& request,
 
 /// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
 /// such a seam the walk is above its ground by up to `touch` more than before.
-PAPERPROOF_COLD inline void follow_ground_down(Step& step, const StepRequest& request) noexcept {
+PAPERPROOF_COLD inline void follow_ground_down(Step& step) noexcept {
   constexpr Real bend = 4 * tolerances.touch;          // straight down: enough on ground as steep as 60 degrees
   if (is_passed_through(step)) return;                 // a crushed character does not move
   const Vec2 left_ground = step.moving.ride.velocity;  // of the ground that was walked on
@@ -153,7 +154,8 @@ PAPERPROOF_COLD inline void follow_ground_down(Step& step, const StepRequest& re
   const Real snap =
       step.movers.active ? std::max(step.settings.snap, falls_away_below_rider(step)) : step.settings.snap;
   const Real down = std::max(snap, bend);
-  const Real walked = step.up.across_of(Vec2(step.position - Vec2(request.position) - left_ground * step.dt));
+  const Real walked =
+      step.up.across_of(Vec2(step.position - Vec2(step.request.state.position) - left_ground * step.movers.dt));
   const Real side = walked == 0 || snap == 0 ? Real(0) : std::copysign(Real(1), walked);
   const auto ground = ground_below(step, side, down, 0);
   if (ground && ((snap > 0 && step.found.stop * down <= snap) || hardly_leaves(step, *ground)))

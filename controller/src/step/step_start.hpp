@@ -40,24 +40,25 @@ inline void remember(Step& step, const Crusher& now) noexcept {
 /// Ignores the movers that overlap the character, and finds each of them in the list of the state. The list may come
 /// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
 /// if the list is full, its side is not known. True if there is a mover that was not ignored yet.
-inline bool ignore_overlapping_movers(Step& step, const StepRequest& request) noexcept {
+inline bool ignore_overlapping_movers(Step& step) noexcept {
   bool any = false;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (mover_of(step, piece) == no_mover || ignored(step, piece) || !overlaps(step, piece, step.position)) return;
     step.memory.mark(collider_of(step, piece), overlaps_since_start);
     any = true;
   });
-  const bool full = request.crushers.size() == Crushers::capacity();
+  const CharacterState& before = step.request.state;
+  const bool full = before.crushers.size() == Crushers::capacity();
   step.moving.overlapping = 0;
   for (const ColliderIndex collider : step.memory.marked) {
     if (!step.memory.is(collider, overlaps_since_start)) continue;
     ++step.moving.overlapping;
-    Crusher now{collider, request.last_free, displacement_of(step, collider), !full};
-    const auto known = std::find_if(request.crushers.begin(), request.crushers.end(),
-                                    [&](const Crusher& before) { return before.collider == collider; });
-    if (known != request.crushers.end())
+    Crusher now{collider, before.last_free, displacement_of(step, collider), !full};
+    const auto known = std::find_if(before.crushers.begin(), before.crushers.end(),
+                                    [&](const Crusher& each) { return each.collider == collider; });
+    if (known != before.crushers.end())
       now = {collider, known->last_free, known->displacement + now.displacement, known->has_side};
-    else if (!request.has_last_free && !full)
+    else if (!before.has_last_free && !full)
       continue;
     remember(step, now);
     step.moving.side_lost = step.moving.side_lost || !now.has_side;
@@ -143,18 +144,19 @@ template <class Condition>
 
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
-[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, const StepRequest& request) noexcept {
+[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step) noexcept {
   const Real whole = reach_of_solids_inside(step);
   FreePositionQuery query{.from = step.position,
                           .near = step.position,
                           .last_free = {},
                           .crushers = step.memory.crushers,
                           .entered_from = {},
-                          .movers = request.moving->motions,
-                          .drops = request.drop,
+                          .movers = step.movers.moving.motions,
+                          .drops = step.request.drop,
                           .gap = {},
                           .reach = {}};
-  if (request.has_last_free) query.last_free = request.last_free;
+  const CharacterState& before = step.request.state;
+  if (before.has_last_free) query.last_free = before.last_free;
   do {
     for (const Real gap : {tolerances.stop, tolerances.hit * Real(least_gap)}) {
       query.gap = gap;
@@ -166,10 +168,10 @@ template <class Condition>
 
 /// Leaves the movers that overlap, as any solid, to the side from which the character came. False if there is no way
 /// out.
-[[nodiscard]] inline bool leaves_overlapping_movers(Step& step, const StepRequest& request) noexcept {
+[[nodiscard]] inline bool leaves_overlapping_movers(Step& step) noexcept {
   if (step.moving.side_lost) return false;
   step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
-  const std::optional<Vec2> out = find_way_out(step, request);
+  const std::optional<Vec2> out = find_way_out(step);
   if (out) {
     note_colliders_left(step);
     for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
@@ -184,7 +186,7 @@ template <class Condition>
 /// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
 [[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
   if (!step.space.info(piece).is_one_way()) return true;
-  if (step.drops) return false;
+  if (step.request.drop) return false;
   return is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece)));
 }
 
@@ -238,26 +240,26 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
 }
 
 /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
-[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step, Part part, const StepRequest& request) noexcept {
-  if (request.has_last_free) step.moving.last_free = request.last_free;
-  if (request.crushed && ignore_overlapping_movers(step, request) && part == Part::whole &&
-      leaves_overlapping_movers(step, request))
+[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step, Part part) noexcept {
+  const CharacterState& state = step.request.state;
+  if (state.has_last_free) step.moving.last_free = state.last_free;
+  if (state.crushed && ignore_overlapping_movers(step) && part == Part::whole && leaves_overlapping_movers(step))
     return true;
   while (overlaps(step, step.position)) {  // each round ignores one more collider that moves
     // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!step.memory.crushers.empty()) return false;
-    const std::optional<Vec2> out = find_way_out(step, request);
+    const std::optional<Vec2> out = find_way_out(step);
     if (out) {
       if (step.movers.active) note_colliders_left(step);
       step.start = step.position = *out;
       // Movers that were ignored and do not overlap here are as solid as others again.
       for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
-      if (step.moving.overlapping > 0) ignore_overlapping_movers(step, request);
+      if (step.moving.overlapping > 0) ignore_overlapping_movers(step);
       push_corner(step, 0);
       return true;
     }
     // There is no free position beside the movers. Without those that overlap there may be one.
-    if (!ignore_overlapping_movers(step, request)) return false;
+    if (!ignore_overlapping_movers(step)) return false;
   }
   if (!is_passed_through(step)) {
     restore_gap(step);
