@@ -183,44 +183,44 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
                                                       const StepContext& context, Scratch& scratch,
                                                       MoveResult& tried) const noexcept {
   const double reach = character_.wall_reach;
-  const UpFrame up = context.up;
-  const Vec2d there = up.in_world({move < 0 ? -reach : reach, 0});
   const Moving moving = moving_in(context, scratch);
+  const Around here = around(context, moving);
+  const Vec2d there = here.up.in_world({move < 0 ? -reach : reach, 0});
   CharacterState free = state;
   free.crushed = false;
   free.crushers.clear();
   sweep_->move_part(octagon_sweep::Part::whole,
-                    request_of(free, there, there / context.dt, 0, false, false, context, moving), scratch, tried);
+                    request_of(free, there, there / context.dt, 0, false, false, context.dt, here), scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
-octagon_sweep::Around Controller::around(const StepContext& context, const Moving& moving) const noexcept {
+PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context,
+                                                           const Moving& moving) const noexcept {
   return {&moving, filter_of(context), context.up};
 }
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::request_of(const CharacterState& state,
                                                                     const Vec2d& displacement, const Vec2d& velocity,
-                                                                    double steered, bool drop, bool jumps,
-                                                                    const StepContext& context,
-                                                                    const Moving& moving) const noexcept {
+                                                                    double steered, bool drop, bool jumps, double dt,
+                                                                    const Around& here) noexcept {
   return {.state = state,
           .displacement = displacement,
           .velocity = velocity,
           .steered = steered,
           .grounded = state.grounded,
           .drop = drop,
-          .next_dt = jumps ? 0 : context.dt,
-          .dt = context.dt,
-          .around = around(context, moving)};
+          .next_dt = jumps ? 0 : dt,
+          .dt = dt,
+          .around = here};
 }
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,
-                                                                    const Moving& moving, bool wall_ahead,
+                                                                    const Around& here, bool wall_ahead,
                                                                     CharacterState& state,
                                                                     StepReport& report) const noexcept {
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
-  const UpFrame up = context.up;
+  const UpFrame& up = here.up;
   const double dt = context.dt;
   state.velocity = up.seen(state.velocity);
   const bool rises = state.jumping;
@@ -228,7 +228,7 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, report.requested, velocity, steered, input.drop, state.jumping && !rises, context, moving);
+  return request_of(state, report.requested, velocity, steered, input.drop, state.jumping && !rises, dt, here);
 }
 
 [[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
@@ -263,7 +263,8 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   const Moving moving = moving_in(context, scratch);
-  sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, moving, wall_ahead, state, report), scratch,
+  const Around here = around(context, moving);
+  sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, here, wall_ahead, state, report), scratch,
                     report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
@@ -287,8 +288,9 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   report.requested = displacement;
   report.steered = 0;
   const Moving moving = moving_in(context, scratch);
+  const Around here = around(context, moving);
   sweep_->move_part(octagon_sweep::Part::whole,
-                    request_of(state, displacement, velocity, 0, false, false, context, moving), scratch, report.move);
+                    request_of(state, displacement, velocity, 0, false, false, context.dt, here), scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -394,12 +396,12 @@ std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& con
 }
 
 bool Controller::begin_together(const CharacterState& before, const Input& input, const StepContext& context,
-                                CharacterState& state, std::optional<StepRequest>& request,
+                                const Around& here, CharacterState& state, std::optional<StepRequest>& request,
                                 StepReport& report) const noexcept {
   if (!accepts(before, input, context) || any_angle(context.movers)) return false;
   state = before;
   if (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) state.ride = {};
-  request.emplace(begin_step(input, context, nothing_moves, false, state, report));
+  request.emplace(begin_step(input, context, here, false, state, report));
   return true;
 }
 

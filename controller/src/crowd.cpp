@@ -58,11 +58,13 @@ StepStatus Crowd::step(std::span<CharacterState> states, std::span<const Input> 
     context.filter = &filter;
   }
   auto& memory = static_cast<crowd::CrowdMemory&>(*scratch.own);
+  const octagon_sweep::Around here{&nothing_moves, context.filter, context.up};
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i].clear(static_cast<CharacterIndex>(i));
     const bool rides = states[i].ride.ground != Ride::none;
-    if ((rides && !rules_->may_ride) || !controller_.begin_together(states[i], inputs[i], context, memory.states[i],
-                                                                    memory.requests[i], report.members[i].step))
+    if ((rides && !rules_->may_ride) ||
+        !controller_.begin_together(states[i], inputs[i], context, here, memory.states[i], memory.requests[i],
+                                    report.members[i].step))
       return report.status = StepStatus::invalid_input;
   }
   if (!crowd::sweep_together({rules_->sweep, memory, report, std::span(memory.members).first(count), context.gravity,

@@ -47,7 +47,9 @@ class FiniteCheck {
 }
 
 [[nodiscard]] inline bool any_angle(std::span<const MoverMotion> movers) noexcept {
-  return std::any_of(movers.begin(), movers.end(), [](const MoverMotion& mover) { return mover.has_angle(); });
+  // Most levels have no movers: then nothing counts them.
+  return !movers.empty() &&
+         std::any_of(movers.begin(), movers.end(), [](const MoverMotion& mover) { return mover.has_angle(); });
 }
 
 /// Whether a step can begin with these numbers.

@@ -182,12 +182,12 @@ class Controller {
                                     Scratch& scratch, MoveResult& tried) const noexcept;
   /// @param moving must outlive the answer.
   [[nodiscard]] Around around(const StepContext& context, const Moving& moving) const noexcept;
-  /// @param state must outlive the request, as `moving`.
-  [[nodiscard]] StepRequest request_of(const CharacterState& state, const Vec2d& displacement, const Vec2d& velocity,
-                                       double steered, bool drop, bool jumps, const StepContext& context,
-                                       const Moving& moving) const noexcept;
+  /// @param state must outlive the request, as `here`.
+  [[nodiscard]] static StepRequest request_of(const CharacterState& state, const Vec2d& displacement,
+                                              const Vec2d& velocity, double steered, bool drop, bool jumps, double dt,
+                                              const Around& here) noexcept;
   /// Begins an accepted step: turns the intent into a request.
-  [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Moving& moving,
+  [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Around& here,
                                        bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
   [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
   void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
@@ -200,9 +200,9 @@ class Controller {
     return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
   }
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
-  /// @param state must outlive the request. @return false if the input is not accepted.
+  /// @param state must outlive the request, as `here`. @return false if the input is not accepted.
   friend class Crowd;
-  bool begin_together(const CharacterState& before, const Input& input, const StepContext& context,
+  bool begin_together(const CharacterState& before, const Input& input, const StepContext& context, const Around& here,
                       CharacterState& state, std::optional<StepRequest>& request, StepReport& report) const noexcept;
   void end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
                     StepReport& report) const noexcept;

@@ -53,7 +53,8 @@ inline void set_crushers(const auto& crushers, const SweepRules& rules, Characte
 /// part.
 class PathPlanner {
  public:
-  explicit PathPlanner(CrowdStep& step) noexcept : step_(step), moving_{step.memory.motions} {}
+  explicit PathPlanner(CrowdStep& step) noexcept
+      : step_(step), moving_{step.memory.motions}, around_{&moving_, step.filter, step.up} {}
 
   /// Plans the path of a character from a moment on.
   /// @param at where the path begins; becomes the moment in which it ends.
@@ -166,7 +167,7 @@ class PathPlanner {
             .drop = member.drops,
             .next_dt = member.next_dt,
             .dt = duration,
-            .around = {&moving_, step_.filter, step_.up}};
+            .around = around_};
   }
 
   [[nodiscard]] bool plan_part(const Member& member, double end, MoveResult& path, Moment& at) noexcept {
@@ -229,6 +230,7 @@ class PathPlanner {
 
   CrowdStep& step_;
   Moving moving_;
+  octagon_sweep::Around around_;
 };
 
 }  // namespace paperproof::crowd

@@ -56,9 +56,7 @@ class OctagonSweep final : public SweepInParts {
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
     const Moving& moving = *request.around.moving;
-    if (!in_range(request) || moving.mover_count() != finder_.scenery().mover_count() ||
-        (!moving.motions.empty() && !(request.dt > 0)))
-      return refuse(request, result);
+    if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0))) return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers =
         !moving.motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));

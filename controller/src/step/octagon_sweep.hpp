@@ -17,7 +17,7 @@ namespace paperproof::octagon_sweep {
 
 /// What is around a character in a step or a question.
 struct Around {
-  const Moving* moving = &nothing_moves;
+  const Moving* moving = &nothing_moves;  ///< With a motion for each mover of the scenery.
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   UpFrame up{};                            ///< See `StepContext::up`.
 };
@@ -36,7 +36,7 @@ struct StepRequest {
   /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
   double next_dt;
   double dt;  ///< [s]
-  Around around;
+  const Around& around;
 };
 
 /// Which part of a step a move makes.

@@ -154,8 +154,8 @@ Vec2d TurningStep::out_of_corner(const Vec2d& position, const Part& part) {
 /// What the character touches once everything has turned.
 std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, const Part& part, std::span<Contact> room) {
   const Moving moving{part.motions, memory_.circles};
-  return room.first(controller_.sweep_->contacts_at(position, Tolerances{}.touch, controller_.around(context_, moving),
-                                                    scratch_, room));
+  return room.first(controller_.sweep_->contacts_at(
+      position, Tolerances{}.touch, {&moving, controller_.filter_of(context_), context_.up}, scratch_, room));
 }
 
 /// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
