@@ -7,9 +7,9 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/crowd.hpp>
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
+#include <paperproof/step_context.hpp>
 
 #include <optional>
 #include <string>

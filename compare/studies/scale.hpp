@@ -1,7 +1,7 @@
 /// What a step costs among more and more pieces, with the grid that finds the near ones and without.
 #pragma once
 
-#include <paperproof/octagon_sweep.hpp>
+#include <paperproof/step_context.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,9 @@
 /// Which pieces may a character meet?
 #pragma once
 
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
 
 #include "geometry/pose.hpp"
 #include "inlining.hpp"

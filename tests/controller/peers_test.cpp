@@ -2,7 +2,7 @@
 /// all of it, with the tests.
 #include "controller/stepping.hpp"
 
-#include <paperproof/contact_changes.hpp>
+#include <paperproof/report.hpp>
 
 #include <gtest/gtest.h>
 

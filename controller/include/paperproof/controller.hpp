@@ -2,9 +2,7 @@
 #pragma once
 
 #include <paperproof/character.hpp>
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
-#include <paperproof/scratch.hpp>
 #include <paperproof/step_context.hpp>
 #include <paperproof/tolerances.hpp>
 

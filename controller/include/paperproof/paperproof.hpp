@@ -2,15 +2,11 @@
 #pragma once
 
 #include <paperproof/character.hpp>
-#include <paperproof/contact_changes.hpp>
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
-#include <paperproof/filter.hpp>
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/scratch.hpp>
 #include <paperproof/step_context.hpp>
 #include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>

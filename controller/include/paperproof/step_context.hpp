@@ -1,10 +1,13 @@
-/// What all characters of a step share.
+/// What a step is given: choices, surroundings, memory.
 #pragma once
 
 #include <paperproof/scenery.hpp>
 #include <paperproof/up_frame.hpp>
 
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace paperproof {
 
@@ -48,6 +51,60 @@ struct StepContext {
   /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
   /// from 1 by more than the rounding of `double`.
   Vec2d up{0, 1};
+};
+
+/// How a step finds the pieces that it looks at. It changes the cost of a step, and never its bits.
+enum class PieceSearch : std::uint8_t {
+  grid,        ///< The grid of the scenery finds those that are near.
+  one_by_one,  ///< The box of each is compared.
+  /// The slow, honest twin of the others. Each step looks at every piece that stands and of each mover that it comes
+  /// near to, and asks for sensors, one-way chains and filters, whether the scenery has any or not.
+  none,
+};
+
+struct SweepDef {
+  PieceSearch search = PieceSearch::grid;
+  int iterations = 12;  ///< Impacts per step before the rest of the displacement is dropped; from 1 to 60.
+};
+
+/// Memory that only its owner knows how to use.
+struct OwnMemory {
+  virtual ~OwnMemory() = default;
+};
+
+/// Pieces near a character: the answer of a broad phase. That of what stands still holds for the next steps as well.
+struct Candidates {
+  /// Pieces that go with one mover: a range of `of_movers`.
+  struct OfMover {
+    MoverIndex mover;
+    std::size_t first;
+    std::size_t end;
+  };
+
+  std::vector<PieceIndex> pieces;  ///< Those that stand still.
+  std::size_t count = 0;           ///< How many of them, where a technique keeps the rest of them as room.
+  Box2 box;                        ///< Positions of the character for which they are complete, if `valid`.
+  bool valid = false;
+  std::vector<PieceIndex> of_movers;
+  std::vector<OfMover> moving;  ///< In the order of their motions.
+  Box2 moving_box;              ///< The same for pieces of movers, in this step alone.
+  bool moving_valid = false;
+  std::uint64_t edit = 0;   ///< After so many edits of the scenery.
+  bool filtered = false;    ///< Pieces that are not there are missing,
+  ColliderFilter filter{};  ///< by this filter.
+};
+
+/// Memory of a step, one per thread. It belongs to the controller that made it and carries nothing
+/// from one step to the next that could change a result.
+struct Scratch {
+  Candidates solids;
+  std::unique_ptr<OwnMemory> own;  ///< Of `octagon_sweep`, and of few other techniques.
+  std::unique_ptr<OwnMemory> sensors;
+  std::unique_ptr<OwnMemory> turning;
+  bool notes_turned = false;  ///< See `Controller::turned`.
+  /// The maker of this memory: a controller refuses memory that another controller made. The mark expires with its
+  /// controller, so it never matches a later controller at the same address.
+  std::weak_ptr<const void> maker;
 };
 
 }  // namespace paperproof

@@ -1,9 +1,8 @@
 /// The swept step: whole, in parts for crowds, and the questions that it answers.
 #pragma once
 
-#include <paperproof/octagon_sweep.hpp>
 #include <paperproof/report.hpp>
-#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
 #include <paperproof/up_frame.hpp>
 
 #include "one_way_chains.hpp"
@@ -17,7 +16,7 @@ namespace paperproof::octagon_sweep {
 
 /// What is around a character in a step or a question.
 struct Around {
-  const Moving* moving = &nothing_moves;  ///< With a motion for each mover of the scenery.
+  const Moving* moving = &nothing_moves;   ///< With a motion for each mover of the scenery.
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   UpFrame up{};                            ///< See `StepContext::up`.
 };

@@ -6,7 +6,7 @@
 
 #include <paperproof/report.hpp>
 #include <paperproof/scenery_facts.hpp>
-#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
 
 #include <algorithm>
 #include <span>

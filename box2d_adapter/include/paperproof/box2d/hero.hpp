@@ -1,8 +1,8 @@
 /// A character in a game's own `b2World`.
 #pragma once
 
-#include <paperproof/contact_changes.hpp>
 #include <paperproof/controller.hpp>
+#include <paperproof/report.hpp>
 
 #include <box2d/b2_fixture.h>
 

@@ -3,7 +3,7 @@
 
 #include <paperproof/crowd.hpp>
 #include <paperproof/report.hpp>
-#include <paperproof/scratch.hpp>
+#include <paperproof/step_context.hpp>
 
 #include <span>
 #include <string_view>
