@@ -361,7 +361,10 @@ auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double
   const Vec2d end = position + displacement;
   const Box2 box{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
   StepContext posed = context;
-  const turning::CirclesOfQuestion circles(*scenery_, box.inflated(within), posed, turning::memory_of(scratch));
+  std::optional<turning::TurningStep> question;
+  if (any_angle(context.movers))
+    posed.movers = question.emplace(*this, context, scratch, turning::memory_of(scratch).of_part)
+                       .hold_angles(box.inflated(within));
   const Moving moving = moving_in(posed, scratch);
   return ask(around(posed, moving));
 }

@@ -25,11 +25,11 @@ struct Linear {
   friend Linear operator-(const Linear& a, const Linear& b) { return {a.from - b.from, a.to - b.to}; }
 };
 
-using Vertices = FixedVector<Linear, PieceWay::most_vertices>;
+using Outline = FixedVector<Linear, PieceWay::most_vertices>;
 
 /// Character and piece during one part of the time. All places are relative to the character's first.
 struct Scene {
-  Vertices piece;
+  Outline piece;
   std::span<const Vec2d> hull;
   Linear character;
   double margin;  ///< Least distance that counts as apart [m].
@@ -43,29 +43,24 @@ bool stays_right(const Linear& edge, const Linear& at, const Linear& point, doub
          (cross(edge.from, way.to) + cross(edge.to, way.from)) / 2 > least;
 }
 
-bool some_line_separates(const Scene& scene, const Vertices& piece, const Linear& character) {
-  const auto corner = [&](std::size_t i) {
-    const Vec2d& o = scene.hull[i % scene.hull.size()];
-    return Linear{character.from + o, character.to + o};
-  };
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    const Linear edge = piece[(i + 1) % piece.size()] - piece[i];
-    bool apart = true;
-    for (std::size_t k = 0; apart && k < scene.hull.size(); ++k)
-      apart = stays_right(edge, piece[i], corner(k), scene.margin);
-    if (apart) return true;
-  }
-  for (std::size_t k = 0; k < scene.hull.size(); ++k) {
-    const Linear edge = corner(k + 1) - corner(k);
-    if (std::all_of(piece.begin(), piece.end(),
-                    [&](const Linear& vertex) { return stays_right(edge, corner(k), vertex, scene.margin); }))
+bool has_separating_edge(const Outline& one, const Outline& other, double margin) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Linear edge = one[(i + 1) % one.size()] - one[i];
+    if (std::all_of(other.begin(), other.end(),
+                    [&](const Linear& point) { return stays_right(edge, one[i], point, margin); }))
       return true;
   }
   return false;
 }
 
+bool some_line_separates(const Scene& scene, const Outline& piece, const Linear& character) {
+  Outline corners;
+  for (const Vec2d& o : scene.hull) corners.push_back({character.from + o, character.to + o});
+  return has_separating_edge(piece, corners, scene.margin) || has_separating_edge(corners, piece, scene.margin);
+}
+
 bool stay_apart_between(const Scene& scene, double begin, double end, int halvings) {
-  Vertices piece;
+  Outline piece;
   for (const Linear& vertex : scene.piece) piece.push_back(vertex.between(begin, end));
   const Linear character = scene.character.between(begin, end);
   if (some_line_separates(scene, piece, character)) return true;
@@ -77,14 +72,17 @@ bool stay_apart_between(const Scene& scene, double begin, double end, int halvin
   return stay_apart_between(scene, begin, middle, halvings + 1) && stay_apart_between(scene, middle, end, halvings + 1);
 }
 
-bool circle_stays_apart(const HullWay& character, const PieceWay& piece, double least) {
-  const Circle circle{piece.from[0] - character.from, piece.radius};
-  const Vec2d way = (character.to - character.from) - (piece.to[0] - piece.from[0]);
+bool circle_stays_apart(const HullWay& character, const Linear& centre, double radius, double least) {
+  const Circle circle{centre.from - character.from, radius};
+  const Vec2d way = (character.to - character.from) - (centre.to - centre.from);
   const auto is_apart_at = [&](const Vec2d& at) {
     return geometry::near_circle(character.hull, at, circle).separation > least;
   };
   return is_apart_at({0, 0}) && is_apart_at(way) && !geometry::approach(character.hull, {0, 0}, way, circle, least);
 }
+
+/// So many edges an outline has.
+std::size_t edges_of(std::span<const Vec2d> outline) { return outline.size() > 2 ? outline.size() : 1; }
 
 /// The point of a segment that is nearest to another point, as a share of the segment.
 double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
@@ -98,18 +96,23 @@ double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
 bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Vec2d origin = character.from;
   const Box2 shape = Box2::around(character.hull);
-  const Box2 hull{character.from.cwiseMin(character.to) + shape.lower,
-                  character.from.cwiseMax(character.to) + shape.upper};
-  const Box2 whole = Box2::around(piece.from).merged(Box2::around(piece.to)).inflated(piece.radius);
-  if (!hull.inflated(std::abs(least)).overlaps(whole)) return true;
-  if (piece.radius > 0) return circle_stays_apart(character, piece, least);
+  const Box2 hull{origin.cwiseMin(character.to) + shape.lower, origin.cwiseMax(character.to) + shape.upper};
   Scene scene{{}, character.hull, {{0, 0}, character.to - origin}, least};
-  for (std::size_t i = 0; i < piece.from.size(); ++i)
-    scene.piece.push_back({piece.from[i] - origin, piece.to[i] - origin});
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box2 whole{Vec2d::Constant(far), Vec2d::Constant(-far)};
+  for (std::size_t i = 0; i < piece.from.size(); ++i) {
+    const Vec2d from = between(piece.from[i], piece.to[i], piece.begin);
+    const Vec2d to = between(piece.from[i], piece.to[i], piece.end);
+    scene.piece.push_back({from, to});
+    whole = whole.merged({from.cwiseMin(to), from.cwiseMax(to)});
+  }
+  if (!hull.inflated(std::abs(least)).overlaps(whole.inflated(piece.radius))) return true;
+  if (piece.radius > 0) return circle_stays_apart(character, scene.piece[0], piece.radius, least);
+  for (Linear& vertex : scene.piece) vertex = vertex - Linear{origin, origin};
   return stay_apart_between(scene, 0, 1, 0);
 }
 
-Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull, const Vec2d& position) {
+Approach nearest(std::span<const Vec2d> outline, std::span<const Vec2d> hull, const Vec2d& position) {
   Approach best{std::numeric_limits<double>::infinity(), {0, 1}};
   double least_square = best.distance;
   const auto offer = [&](const Vec2d& a, const Vec2d& b, const Vec2d& point, double side) {
@@ -125,20 +128,19 @@ Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Ve
     const double length = normal.norm();
     best = {distance, length > 0 ? Vec2d(normal * (side / length)) : best.normal};
   };
-  const std::size_t edges = closed ? outline.size() : outline.size() - 1;
   for (const Vec2d& o : hull)
-    for (std::size_t i = 0; i < edges; ++i) offer(outline[i], outline[(i + 1) % outline.size()], position + o, 1);
+    for (std::size_t i = 0; i < edges_of(outline); ++i)
+      offer(outline[i], outline[(i + 1) % outline.size()], position + o, 1);
   for (const Vec2d& vertex : outline)
     for (std::size_t k = 0; k < hull.size(); ++k)
       offer(position + hull[k], position + hull[(k + 1) % hull.size()], vertex, -1);
   return best;
 }
 
-std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed, const Vec2d& point) {
+std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, const Vec2d& point) {
   double least = std::numeric_limits<double>::infinity();
   std::optional<Vec2d> vertex;
-  const std::size_t edges = closed ? outline.size() : outline.size() - 1;
-  for (std::size_t i = 0; i < edges; ++i) {
+  for (std::size_t i = 0; i < edges_of(outline); ++i) {
     const Vec2d& a = outline[i];
     const Vec2d& b = outline[(i + 1) % outline.size()];
     const double share = nearest_share(a, b, point);

@@ -17,9 +17,11 @@ struct PieceWay {
   std::vector<Vec2d> from;
   std::vector<Vec2d> to;
   double radius = 0;  ///< Of a circle [m].
+  double begin = 0;   ///< Only this share of the way counts,
+  double end = 1;     ///< up to here.
 };
 
-/// The character's way at the same time.
+/// The character's way in the share that counts.
 struct HullWay {
   std::span<const Vec2d> hull;  ///< Relative to the position, counter-clockwise.
   Vec2d from{Vec2d::Zero()};
@@ -37,19 +39,22 @@ struct HullWay {
 /// @param least distance that counts as apart [m]; below zero: so deep an overlap is none.
 [[nodiscard]] bool stay_apart(const HullWay& character, const PieceWay& piece, double least);
 
+/// A place on a straight way. At the end nothing is rounded.
+[[nodiscard]] inline Vec2d between(const Vec2d& from, const Vec2d& to, double share) {
+  return share < 1 ? Vec2d(from + (to - from) * share) : to;
+}
+
 /// Where a piece is nearest to a character.
 struct Approach {
   double distance = 0;  ///< [m]
   Vec2d normal{0, 1};   ///< Unit, from the piece towards the character.
 };
 
-/// @param outline of a polygon or a chain; at least 2 points.
-/// @param closed whether an edge leads from its last point to its first.
-[[nodiscard]] Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull,
-                               const Vec2d& position);
+/// @param outline of a polygon, or the two ends of a segment.
+[[nodiscard]] Approach nearest(std::span<const Vec2d> outline, std::span<const Vec2d> hull, const Vec2d& position);
 
 /// The corner of an outline that is nearer to a point than every other point of the outline; nothing where a point
 /// within an edge is.
-[[nodiscard]] std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed, const Vec2d& point);
+[[nodiscard]] std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, const Vec2d& point);
 
 }  // namespace paperproof::turning

@@ -8,25 +8,15 @@ namespace paperproof::turning {
 using geometry::Pose;
 using geometry::pose_at;
 
-namespace {
-
-/// How bad a status is: that of a step is the worst of its parts; but a step is stuck only if it ends so.
-int rank(MoveStatus status) noexcept {
-  constexpr std::array order{MoveStatus::moved, MoveStatus::dropped, MoveStatus::stuck, MoveStatus::crushed};
-  return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
-}
-
-}  // namespace
-
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
-void TurningStep::note_pushes(const Part& part) {
+void TurningStep::note_pushes() {
   MoveResult& move = memory_.of_part.move;
   if (move.path.size() < 2 || move.path[1].fraction > 0) return;
   std::size_t last = 1;
   while (last + 1 < move.path.size() && move.path[last + 1].fraction == 0) ++last;
   std::array<Contact, MoveResult::max_contacts> room;
   std::ptrdiff_t pushes = 0;
-  for (const Contact& touched : contacts_at(move.path[last].position, part, room)) {
+  for (const Contact& touched : contacts_at(move.path[last].position, room)) {
     const MovingCollider* collider = find_moving(touched.collider);
     const auto is_known = [&](const Contact& contact) { return contact.collider == touched.collider; };
     if (collider == nullptr || collider->by_itself || !memory_.turns[collider->mover]) continue;
@@ -40,48 +30,38 @@ void TurningStep::note_pushes(const Part& part) {
 /// sees how they go on.
 /// @param position where the part begins. @param report of the part.
 void TurningStep::note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const {
-  if (!any_sensor_turns_) return;
-  const auto later = report.sensors;
-  report.sensors.clear();
+  std::ptrdiff_t turned = 0;
   for (const MovingCollider& collider : memory_.moving) {
     if (!scenery_.collider(collider.id).sensor || collider.motion.turn() == 0 || !is_there(collider.id)) continue;
     const bool before = overlaps(collider.id, pose_at(collider.motion, part.begin), position);
     const bool after = overlaps(collider.id, turned_pose(collider, part), position);
-    if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
+    if (before != after) report.sensors.insert(report.sensors.begin() + turned++, sensor_event(collider.id, after, 0));
   }
-  for (const SensorEvent& event : later) report.sensors.push_back(event);
 }
 
 /// Where everything that moves is when the step begins.
 void TurningStep::note_begin() {
   memory_.turned.clear();
-  memory_.turned_defs.clear();
   if (!scratch_.notes_turned) return;
-  for (const MovingCollider& collider : memory_.moving) {
-    memory_.turned_defs.push_back(scenery_.as_run(collider.id));
-    memory_.turned.push_back({collider.id, {}, {}});
-  }
-  for (std::size_t i = 0; i < memory_.moving.size(); ++i) note_vertices(pose_at(memory_.moving[i].motion, 0), i, 0);
+  for (const MovingCollider& collider : memory_.moving) memory_.turned.push_back({collider.id, {}, {}});
+  note_vertices(0);
 }
 
-/// @param which in `Memory::moving`.
-void TurningStep::note_vertices(const Pose& pose, std::size_t which, double instant) {
-  TurnedCollider& way = memory_.turned[which];
-  const ColliderDef& def = memory_.turned_defs[which];
-  way.instants.push_back(instant);
-  std::vector<Vec2d>& vertices = way.vertices.emplace_back();
-  geometry::place(def.points, pose, vertices);
-  for (const std::vector<Vec2d>& hole : def.holes) geometry::place(hole, pose, vertices);
-}
-
-void TurningStep::note_vertices(const Part& part) {
+/// @param turned if the instant is the one at which everything has turned in this part.
+void TurningStep::note_vertices(double instant, const Part* turned) {
   for (std::size_t i = 0; i < memory_.turned.size(); ++i) {
-    note_vertices(turned_pose(memory_.moving[i], part), i, part.turned());
-    note_vertices(pose_at(memory_.moving[i].motion, part.end), i, part.end);
+    const MovingCollider& collider = memory_.moving[i];
+    const Pose pose = turned != nullptr ? turned_pose(collider, *turned) : pose_at(collider.motion, instant);
+    const ColliderDef def = scenery_.as_run(collider.id);
+    memory_.turned[i].instants.push_back(instant);
+    std::vector<Vec2d>& vertices = memory_.turned[i].vertices.emplace_back();
+    geometry::place(def.points, pose, vertices);
+    for (const std::vector<Vec2d>& hole : def.holes) geometry::place(hole, pose, vertices);
   }
 }
 
-/// Adds a part to the report of the step.
+/// Adds a part to the report of the step. The status of a step is the worst of its parts; but a step is stuck only if
+/// it ends so.
 void TurningStep::append(const StepReport& added, const Part& part) {
   const MoveResult& from = added.move;
   StepReport& report = report_;
@@ -104,21 +84,19 @@ void TurningStep::append(const StepReport& added, const Part& part) {
     if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact);
   }
   for (const ColliderIndex collider : from.crushed)
-    if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end()) to.crushed.push_back(collider);
+    if (!contains(to.crushed, collider)) to.crushed.push_back(collider);
   for (SensorEvent event : added.sensors) {
     event.fraction = when(event.fraction);
     report.sensors.push_back(event);
   }
   for (const ColliderIndex collider : added.dropped_through)
-    if (std::find(report.dropped_through.begin(), report.dropped_through.end(), collider) ==
-        report.dropped_through.end())
-      report.dropped_through.push_back(collider);
+    if (!contains(report.dropped_through, collider)) report.dropped_through.push_back(collider);
   if (part.begin == 0) {
     report.requested = added.requested / part.end;
     report.steered = added.steered / part.end;
   }
   const bool was_freed = to.status == MoveStatus::stuck && from.status != MoveStatus::crushed;
-  if (was_freed || rank(from.status) > rank(to.status)) to.status = from.status;
+  to.status = was_freed ? from.status : std::max(to.status, from.status);  // the later in the enum, the worse
   report.status = step_parts::status_of(to.status);
   to.position = from.position;
   to.velocity = from.velocity;

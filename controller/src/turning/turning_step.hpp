@@ -9,6 +9,7 @@
 
 #include <paperproof/controller.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,10 @@ inline constexpr int most_parts = 32;
 
 /// The share of a part in which everything turns. So short that a character which waits meanwhile is not 1 um behind.
 inline constexpr double turning_share = 0x1p-20;
+
+/// Nothing nearer is proved to be apart [m]. Zero: rounding hides an overlap. Large: a character that is squeezed
+/// between surfaces is crushed.
+inline constexpr double proved = 1e-9;
 
 /// What a step is asked for.
 struct Wish {
@@ -35,11 +40,10 @@ struct MovingCollider {
   bool by_itself = false;  ///< It is such a circle.
 };
 
-/// A part of a step, as fractions of it, and how everything moves in it once it has turned.
+/// A part of a step, as fractions of it.
 struct Part {
   double begin;
   double end;
-  std::span<const MoverMotion> motions;
   /// Of the character while everything turns, in shares of this time.
   std::vector<PathPoint> way{};
 
@@ -48,18 +52,17 @@ struct Part {
 
 /// Of one scratch. Nothing in it but `turned` outlives a step.
 struct Memory final : OwnMemory {
-  std::vector<PieceIndex> circles;   ///< In a part, or a question: those that go by themselves. See `Moving::circles`.
-  bool is_in_part = false;           ///< The controller makes a shorter step.
-  std::vector<MoverMotion> motions;  ///< Of the present part: of movers, then of circles.
+  std::vector<PieceIndex> circles;  ///< In a part, or a question: those that go by themselves. See `Moving::circles`.
+  bool is_in_part = false;          ///< The controller makes a shorter step.
+  /// Of the present part, once everything has turned: of movers, then of circles.
+  std::vector<MoverMotion> motions;
   std::vector<MoverMotion> circle_motions;  ///< In the step, of `circles`; with the angles of their movers.
   std::vector<bool> turns;                  ///< Whether a mover turns near the character.
   std::vector<MovingCollider> moving;       ///< By id.
   std::vector<PieceIndex> pieces;
-  PieceWay way;  ///< Of the piece that is looked at,
-  PieceWay leg;  ///< and a part of it.
+  PieceWay way;  ///< Of the piece that is looked at.
   StepReport of_part;
   std::vector<TurnedCollider> turned;
-  std::vector<ColliderDef> turned_defs;
 };
 
 /// @param scratch made by a controller.
@@ -67,24 +70,7 @@ struct Memory final : OwnMemory {
   return static_cast<Memory&>(*scratch.turning);
 }
 
-/// The motion of a circle's centre, as its offset; with the angles of its mover.
-[[nodiscard]] MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noexcept;
-
-/// During a question among movers that have an angle: motions in which they keep the one with which they begin, and the
-/// circles among them.
-class CirclesOfQuestion {
- public:
-  /// @param around what is asked about. @param context gets the motions; the same where no mover has an angle.
-  CirclesOfQuestion(const Scenery& scenery, const Box2& around, StepContext& context, Memory& memory);
-  ~CirclesOfQuestion() { memory_.circles.clear(); }
-  CirclesOfQuestion(const CirclesOfQuestion&) = delete;
-  CirclesOfQuestion& operator=(const CirclesOfQuestion&) = delete;
-
- private:
-  Memory& memory_;
-};
-
-/// One step of one character.
+/// One step of one character, or one question about it.
 class TurningStep {
  public:
   TurningStep(const Controller& controller, const StepContext& context, Scratch& scratch, StepReport& report);
@@ -98,6 +84,9 @@ class TurningStep {
   StepStatus step(CharacterState& state, const Wish& wish);
   /// See `Controller::wait`.
   StepStatus wait(CharacterState& state);
+  /// For a question: motions in which movers keep the angle with which they begin, and of the circles among them.
+  /// @param around what is asked about. @return valid until the next step or question.
+  [[nodiscard]] std::span<const MoverMotion> hold_angles(const Box2& around);
 
  private:
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
@@ -110,10 +99,9 @@ class TurningStep {
   [[nodiscard]] bool blocks(ColliderIndex collider) const;
 
   void read(const Box2& needed);
-  void read(MoverIndex mover, const Box2& needed);
   void forget_gone(CharacterState& state) const;
-  StepStatus go(CharacterState& state, const Wish& wish, double share, std::span<const MoverMotion> motions,
-                StepReport& report);
+  StepStatus go(CharacterState& state, const Wish& wish, double share, StepReport& report);
+  StepStatus end(CharacterState& state);
   StepStatus refuse(MoveStatus why, const CharacterState& state);
   StepStatus step_straight(CharacterState& state, const Wish& wish);
   StepStatus step_among_turning(CharacterState& state, const Wish& wish);
@@ -123,42 +111,24 @@ class TurningStep {
   // turns.cpp
   [[nodiscard]] int parts_wanted() const;
   [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
-  /// Where a mover is nearest to the character.
-  struct Nearest {
-    Approach approach;
-    std::vector<Vec2d> outline;  ///< Of the nearest piece.
-  };
-  [[nodiscard]] Nearest nearest_of(MoverIndex mover, double fraction, const Vec2d& position) const;
   [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const;
   [[nodiscard]] bool find_way(Part& part, const MoveResult& move);
   void limit_speed(const Part& part, double wanted, double dt, MoveResult& move, CharacterState& state) const;
-  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const Part& part);
-  [[nodiscard]] std::span<const Contact> contacts_at(const Vec2d& position, const Part& part, std::span<Contact> room);
+  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position);
+  [[nodiscard]] std::span<const Contact> contacts_at(const Vec2d& position, std::span<Contact> room);
   [[nodiscard]] bool is_proved(const Part& part, const MoveResult& move, bool of_all);
-  [[nodiscard]] bool stays_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
-                                 const Part& part) const;
-  [[nodiscard]] const PieceWay& way_of(PieceIndex piece, const geometry::Pose& from, const geometry::Pose& to) const;
-  [[nodiscard]] bool way_is_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
-                                  const HullWay& way, double least) const;
   [[nodiscard]] geometry::Pose turned_pose(const MovingCollider& collider, const Part& part) const;
   [[nodiscard]] bool overlaps(ColliderIndex collider, const geometry::Pose& pose, const Vec2d& position) const;
-  [[nodiscard]] bool reaches(const MovingCollider& collider, const HullWay& way, double begin, double end) const;
+  [[nodiscard]] bool stays_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
+                                 std::span<const PathPoint> way, double least = proved) const;
   [[nodiscard]] const MovingCollider* find_moving(ColliderIndex collider) const;
-  /// Calls `look` for each collider that stands in a box, some of them more than once.
-  template <class Look>
-  void for_each_standing(const Box2& box, bool sensors, const Look& look) {
-    const Scenery::Group& group = scenery_.group_of(no_mover);
-    memory_.pieces.clear();
-    (sensors ? group.sensors : group.solids).find(box, scenery_.boxes(), memory_.pieces);
-    for (const PieceIndex piece : memory_.pieces) look(scenery_.pieces()[piece].collider);
-  }
+  [[nodiscard]] std::vector<ColliderIndex> standing(const Box2& box, bool sensors) const;
 
   // turned_report.cpp
-  void note_pushes(const Part& part);
+  void note_pushes();
   void note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const;
   void note_begin();
-  void note_vertices(const geometry::Pose& pose, std::size_t which, double instant);
-  void note_vertices(const Part& part);
+  void note_vertices(double instant, const Part* turned = nullptr);
   void append(const StepReport& added, const Part& part);
 
   // waiting.cpp
@@ -178,17 +148,15 @@ class TurningStep {
   Memory& memory_;
   StepReport& report_;
   Box2 needed_;
-  bool any_turns_ = false;
-  bool any_sensor_turns_ = false;
 };
-
-[[nodiscard]] inline Vec2d between(const Vec2d& from, const Vec2d& to, double share) {
-  return from + (to - from) * share;
-}
 
 /// The place from which the character came goes along with what crushed it.
 /// @param middle of the character's shape, relative to its position.
 void carry(Crusher& crusher, const Vec2d& middle, const geometry::Pose& from, const geometry::Pose& to);
+
+[[nodiscard]] inline bool contains(std::span<const ColliderIndex> all, ColliderIndex one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
 
 [[nodiscard]] inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fraction) {
   using Change = SensorEvent::Change;

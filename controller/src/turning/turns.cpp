@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace paperproof::turning {
 
@@ -12,10 +13,6 @@ using geometry::Pose;
 using geometry::pose_at;
 
 namespace {
-
-/// Nothing nearer is proved to be apart [m]. Zero: rounding hides an overlap. Large: a character that is squeezed
-/// between surfaces is crushed.
-constexpr double proved = 1e-9;
 
 /// The corner of the character that is nearest to a surface once it has turned; the one that is so before, if both are
 /// at one height then.
@@ -50,36 +47,30 @@ const MovingCollider* TurningStep::find_moving(ColliderIndex collider) const {
   return place != all.end() && place->id == collider ? &*place : nullptr;
 }
 
-TurningStep::Nearest TurningStep::nearest_of(MoverIndex mover, double fraction, const Vec2d& position) const {
-  Nearest best{{std::numeric_limits<double>::infinity(), {0, 1}}, {}};
+/// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
+/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
+Vec2d TurningStep::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const {
+  Approach best{std::numeric_limits<double>::infinity(), {0, 1}};
+  std::vector<Vec2d> nearest_outline;
   std::vector<Vec2d> outline;
-  const Pose pose = pose_at(context_.movers[mover], fraction);
+  const Pose pose = pose_at(context_.movers[mover], begin);
   for (const MovingCollider& collider : memory_.moving) {
     if (collider.mover != mover || collider.by_itself || scenery_.collider(collider.id).sensor ||
         !is_there(collider.id))
       continue;
     const PieceRange pieces = scenery_.pieces_of(collider.id);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
-      const PieceVertices vertices = scenery_.vertices_of(piece);
       outline.clear();
-      geometry::place({vertices.begin(), vertices.end()}, pose, outline);
-      const Approach here = nearest(outline, outline.size() > 2, hull(), position);
-      if (!(here.distance < best.approach.distance)) continue;
-      best.approach = here;
-      best.outline.swap(outline);
+      geometry::place(scenery_.vertices_of(piece), pose, outline);
+      const Approach here = nearest(outline, hull(), position);
+      if (!(here.distance < best.distance)) continue;
+      best = here;
+      nearest_outline.swap(outline);
     }
   }
-  return best;
-}
-
-/// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
-/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
-Vec2d TurningStep::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const {
-  const Nearest near = nearest_of(mover, begin, position);
-  const Vec2d& normal = near.approach.normal;
-  const Vec2d corner = position + nearest_corner(hull(), normal, geometry::Turn(angle)(normal));
-  if (near.outline.empty()) return corner;
-  return nearest_vertex(near.outline, near.outline.size() > 2, corner).value_or(corner);
+  const Vec2d corner = position + nearest_corner(hull(), best.normal, geometry::Turn(angle)(best.normal));
+  if (nearest_outline.empty()) return corner;
+  return nearest_vertex(nearest_outline, corner).value_or(corner);
 }
 
 /// Turns everything by its angle in a part of the step, and says how it goes on from there.
@@ -100,19 +91,39 @@ Part TurningStep::turn(double begin, double end, const Vec2d& position) {
     const Pose to = pose_at(circle, end);
     motions.push_back({from.position, to.position, from.angle, to.angle});
   }
-  return {begin, end, motions};
+  return {begin, end};
 }
 
 /// Where a collider is once it has turned.
 Pose TurningStep::turned_pose(const MovingCollider& collider, const Part& part) const {
   if (collider.by_itself) return pose_at(collider.motion, part.begin);
-  const MoverMotion& motion = part.motions[collider.mover];
+  const MoverMotion& motion = memory_.motions[collider.mover];
   return {motion.from, motion.to_angle};
 }
 
 /// Whether a collider overlaps the character by more than rounding.
 bool TurningStep::overlaps(ColliderIndex collider, const Pose& pose, const Vec2d& position) const {
-  return !way_is_clear(collider, pose, pose, {hull(), position, position}, -proved);
+  return !stays_clear(collider, pose, pose, std::array<PathPoint, 2>{{{position, 0}, {position, 1}}}, -proved);
+}
+
+/// Whether a character that goes its way stays clear of a collider whose vertices go straight from one pose to another.
+bool TurningStep::stays_clear(ColliderIndex collider, const Pose& from, const Pose& to, std::span<const PathPoint> way,
+                              double least) const {
+  PieceWay& its = memory_.way;
+  const PieceRange pieces = scenery_.pieces_of(collider);
+  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
+    its.from.clear();
+    its.to.clear();
+    geometry::place(scenery_.vertices_of(piece), from, its.from);
+    geometry::place(scenery_.vertices_of(piece), to, its.to);
+    its.radius = scenery_.pieces()[piece].is_circle() ? scenery_.circle(piece).radius : 0;
+    for (std::size_t corner = 1; corner < way.size(); ++corner) {
+      its.begin = way[corner - 1].fraction;
+      its.end = way[corner].fraction;
+      if (!stay_apart({hull(), way[corner - 1].position, way[corner].position}, its, least)) return false;
+    }
+  }
+  return true;
 }
 
 /// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
@@ -134,7 +145,7 @@ bool TurningStep::find_way(Part& part, const MoveResult& move) {
   }
   // In a corner one wall arrives as another leaves. Then it goes a little farther out of the corner, and comes back.
   const Vec2d& end = corners.back();
-  const Vec2d out = out_of_corner(end, part);
+  const Vec2d out = out_of_corner(end);
   const double far = (end - corners.front()).norm();
   for (const double share : {0.01, 0.1, 1.0}) {
     part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances{}.stop), 0.5}, {end, 1}};
@@ -144,16 +155,16 @@ bool TurningStep::find_way(Part& part, const MoveResult& move) {
 }
 
 /// Unit, away from everything that is touched once everything has turned; or zero.
-Vec2d TurningStep::out_of_corner(const Vec2d& position, const Part& part) {
+Vec2d TurningStep::out_of_corner(const Vec2d& position) {
   std::array<Contact, MoveResult::max_contacts> touched;
   Vec2d out = Vec2d::Zero();
-  for (const Contact& contact : contacts_at(position, part, touched)) out += contact.normal;
+  for (const Contact& contact : contacts_at(position, touched)) out += contact.normal;
   return out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
 }
 
 /// What the character touches once everything has turned.
-std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, const Part& part, std::span<Contact> room) {
-  const Moving moving{part.motions, memory_.circles};
+std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, std::span<Contact> room) {
+  const Moving moving{memory_.motions, memory_.circles};
   return room.first(controller_.sweep_->contacts_at(
       position, Tolerances{}.touch, {&moving, controller_.filter_of(context_), context_.up}, scratch_, room));
 }
@@ -164,8 +175,8 @@ std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, const P
 bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_all) {
   const auto is_clear = [&](ColliderIndex collider, const Pose& from, const Pose& to) {
     if (!blocks(collider)) return true;
-    if (std::find(move.crushed.begin(), move.crushed.end(), collider) != move.crushed.end()) return true;
-    return overlaps(collider, from, part.way[0].position) || stays_clear(collider, from, to, part);
+    return contains(move.crushed, collider) || overlaps(collider, from, part.way[0].position) ||
+           stays_clear(collider, from, to, part.way);
   };
   for (const MovingCollider& collider : memory_.moving) {
     if (!(of_all || (!collider.by_itself && memory_.turns[collider.mover]))) continue;
@@ -174,50 +185,18 @@ bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_al
   if (!of_all) return true;
   Box2 way = box_at(part.way[0].position);
   for (const PathPoint& corner : part.way) way = way.merged(box_at(corner.position));
-  bool all = true;
-  for_each_standing(way, false, [&](ColliderIndex collider) { all = all && is_clear(collider, {}, {}); });
-  return all;
+  const std::vector<ColliderIndex> around = standing(way, false);
+  return std::all_of(around.begin(), around.end(), [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
 }
 
-/// The same for one collider.
-bool TurningStep::stays_clear(ColliderIndex collider, const Pose& from, const Pose& to, const Part& part) const {
-  const PieceRange pieces = scenery_.pieces_of(collider);
-  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
-    const PieceWay& whole = way_of(piece, from, to);
-    for (std::size_t leg = 0; leg + 1 < part.way.size(); ++leg) {
-      const PathPoint& begin = part.way[leg];
-      const PathPoint& end = part.way[leg + 1];
-      PieceWay& way = memory_.leg;
-      way = whole;
-      for (std::size_t v = 0; v < whole.from.size(); ++v) {
-        way.from[v] = between(whole.from[v], whole.to[v], begin.fraction);
-        way.to[v] = between(whole.from[v], whole.to[v], end.fraction);
-      }
-      if (!stay_apart({hull(), begin.position, end.position}, way, proved)) return false;
-    }
-  }
-  return true;
-}
-
-/// Valid until the next call.
-const PieceWay& TurningStep::way_of(PieceIndex piece, const Pose& from, const Pose& to) const {
-  const PieceVertices vertices = scenery_.vertices_of(piece);
-  PieceWay& way = memory_.way;
-  way.from.clear();
-  way.to.clear();
-  geometry::place({vertices.begin(), vertices.end()}, from, way.from);
-  geometry::place({vertices.begin(), vertices.end()}, to, way.to);
-  way.radius = scenery_.pieces()[piece].is_circle() ? scenery_.circle(piece).radius : 0;
-  return way;
-}
-
-/// Whether the character and all pieces of a collider stay apart.
-bool TurningStep::way_is_clear(ColliderIndex collider, const Pose& from, const Pose& to, const HullWay& way,
-                               double least) const {
-  const PieceRange pieces = scenery_.pieces_of(collider);
-  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-    if (!stay_apart(way, way_of(piece, from, to), least)) return false;
-  return true;
+/// The colliders that stand in a box, by id.
+std::vector<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) const {
+  const Scenery::Group& group = scenery_.group_of(no_mover);
+  memory_.pieces.clear();
+  (sensors ? group.sensors : group.solids).find(box, scenery_.boxes(), memory_.pieces);
+  std::set<ColliderIndex> found;
+  for (const PieceIndex piece : memory_.pieces) found.insert(scenery_.pieces()[piece].collider);
+  return {found.begin(), found.end()};
 }
 
 /// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
@@ -240,11 +219,6 @@ void TurningStep::limit_speed(const Part& part, double wanted, double dt, MoveRe
   if (!is_pushed || !(speed > most)) return;
   state.velocity *= most / speed;
   move.velocity = state.velocity;
-}
-
-/// Whether a collider may reach a character that goes its way within a part of the step.
-bool TurningStep::reaches(const MovingCollider& collider, const HullWay& way, double begin, double end) const {
-  return !way_is_clear(collider.id, pose_at(collider.motion, begin), pose_at(collider.motion, end), way, proved);
 }
 
 }  // namespace paperproof::turning

@@ -1,6 +1,7 @@
 #include "turning/turning_step.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace paperproof::turning {
 
@@ -48,21 +49,16 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
   if (departure > begin) ends.push_back(departure);
   ends.push_back(1);
   const auto place_at = [&](double fraction) {
-    return fraction < 1 ? between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure)) : to;
+    return between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure));
   };
-  std::vector<ColliderIndex> standing_sensors;
-  for_each_standing(needed_, true, [&](ColliderIndex sensor) { standing_sensors.push_back(sensor); });
-  std::sort(standing_sensors.begin(), standing_sensors.end());
-  standing_sensors.erase(std::unique(standing_sensors.begin(), standing_sensors.end()), standing_sensors.end());
-  for (const ColliderIndex sensor : standing_sensors)
+  for (const ColliderIndex sensor : standing(needed_, true))
     if (is_there(sensor)) note_stays(sensor, {}, begin, ends, place_at);
   for (const MovingCollider& collider : memory_.moving)
     if (scenery_.collider(collider.id).sensor && is_there(collider.id))
       note_stays(collider.id, collider.motion, begin, ends, place_at);
   std::stable_sort(report_.sensors.begin(), report_.sensors.end(),
                    [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
-  for (std::size_t i = 0; i < memory_.turned.size(); ++i)
-    for (const double end : ends) note_vertices(pose_at(memory_.moving[i].motion, end), i, end);
+  for (const double end : ends) note_vertices(end);
   for (const MovingCollider& collider : memory_.moving) {
     if (!blocks(collider.id)) continue;
     const Pose from = pose_at(collider.motion, begin);
@@ -70,7 +66,9 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
     bool is_reached = false;
     double last = begin;
     for (const double end : ends) {
-      is_reached = is_reached || reaches(collider, {hull(), place_at(last), place_at(end)}, last, end);
+      const std::array<PathPoint, 2> way{{{place_at(last), 0}, {place_at(end), 1}}};
+      is_reached =
+          is_reached || !stays_clear(collider.id, pose_at(collider.motion, last), pose_at(collider.motion, end), way);
       last = end;
     }
     if (!is_reached) continue;
@@ -79,8 +77,8 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
     Crusher crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
     carry(crusher, middle(), from, at_end);
-    const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
-    if (!is_named && !overlaps(collider.id, from, state.position)) move.crushed.push_back(collider.id);
+    if (!contains(move.crushed, collider.id) && !overlaps(collider.id, from, state.position))
+      move.crushed.push_back(collider.id);
     if (overlaps(collider.id, at_end, to)) move.crushers.push_back(crusher);
   }
 }
@@ -97,7 +95,7 @@ std::optional<Vec2d> TurningStep::way_out_at_end(CharacterState state) {
   for (Crusher& crusher : state.crushers)
     if (const MovingCollider* collider = find_moving(crusher.collider))
       carry(crusher, middle(), pose_at(collider->motion, 0), pose_at(collider->motion, 1));
-  const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.motions, memory_.of_part);
+  const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.of_part);
   if (status != StepStatus::moved) return std::nullopt;
   return memory_.of_part.move.position;
 }
@@ -113,8 +111,7 @@ StepStatus TurningStep::go_straight_or_stay(CharacterState& state) {
     return move.crushed.empty() && move.crushers.empty();
   };
   if (!out || !(goes_out(0) || goes_out(1 - turning_share))) return stay(state);
-  step_parts::adopt(character(), context_.up, move, state);
-  return report_.status = step_parts::status_of(move.status);
+  return end(state);
 }
 
 /// A step in which the character stays in place, and what reaches it crushes it.
@@ -122,14 +119,13 @@ StepStatus TurningStep::stay(CharacterState& state) {
   MoveResult& move = report_.move;
   report_.clear();
   go_straight(0, 0, state.position, state);
-  bool is_held = !move.crushers.empty();
-  for_each_standing(box_at(state.position), false, [&](ColliderIndex collider) {
-    is_held = is_held || (blocks(collider) && overlaps(collider, {}, state.position));
+  const std::vector<ColliderIndex> around = standing(box_at(state.position), false);
+  const bool is_held = !move.crushers.empty() || std::any_of(around.begin(), around.end(), [&](ColliderIndex collider) {
+    return blocks(collider) && overlaps(collider, {}, state.position);
   });
   move.status = is_held ? MoveStatus::stuck : MoveStatus::moved;
   if (!move.crushed.empty()) move.status = MoveStatus::crushed;
-  step_parts::adopt(character(), context_.up, move, state);
-  return report_.status = step_parts::status_of(move.status);
+  return end(state);
 }
 
 StepStatus TurningStep::wait(CharacterState& state) {
