@@ -29,42 +29,6 @@ void add_in_order(const SensorEvent& event, std::vector<SensorEvent>& events) {
   events.insert(std::upper_bound(events.begin(), events.end(), event, comes_before), event);
 }
 
-/// The stays of a character in the pieces of one sensor during one segment, joined where they overlap. Each call
-/// calculates the stays anew, so that any number of pieces needs no memory.
-/// @tparam StayIn called with a piece: the character's stay in it.
-template <class StayIn>
-class Stays {
- public:
-  Stays(std::span<const PieceIndex> pieces, const StayIn& stay_in) noexcept : pieces_(pieces), stay_in_(stay_in) {}
-
-  /// The first stay that begins later than `time`; empty if there is none.
-  [[nodiscard]] OverlapTime after(double time) const noexcept {
-    OverlapTime first{.begin = OverlapTime::after, .end = OverlapTime::before};
-    for (const PieceIndex piece : pieces_) {
-      const OverlapTime stay = stay_in_(piece);
-      if (stay.any() && stay.begin > time && stay.begin < first.begin) first = stay;
-    }
-    // Each round but the last reaches the end of one more stay.
-    while (pieces_.size() > 1 && first.any() && first.end != OverlapTime::after && extend(first)) {
-    }
-    return first;
-  }
-
- private:
-  /// Extends a stay by the stays that continue it. @return whether there were any.
-  [[nodiscard]] bool extend(OverlapTime& stay) const noexcept {
-    const double end = stay.end;
-    for (const PieceIndex piece : pieces_) {
-      const OverlapTime next = stay_in_(piece);
-      if (next.any() && next.begin <= end + one_instant) stay.end = std::max(stay.end, next.end);
-    }
-    return stay.end > end;
-  }
-
-  std::span<const PieceIndex> pieces_;
-  const StayIn& stay_in_;
-};
-
 }  // namespace
 
 Sensors::Sensors(const Scenery& scenery, const CharacterShape& shape, PieceSearch search)
@@ -80,6 +44,7 @@ void Sensors::prepare(std::span<PieceIndex> pieces, MoverIndex, double angle) {
       overlaps_[known->second] = overlap_with(piece, angle);
     piece = known->second;
   }
+  stays_.reserve(overlaps_.size());
 }
 
 void Sensors::follow_edits() {
@@ -138,7 +103,7 @@ void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Eve
 
 /// The pieces of one sensor are consecutive.
 Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-                      Box2 quiet, Events& events) const noexcept {
+                      Box2 quiet, Events& events) noexcept {
   const Box2 way = box_around(path, motion);
   bool all_quiet = true;
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -204,18 +169,22 @@ bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const n
 }
 
 void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
-                      Events& events) const noexcept {
+                      Events& events) noexcept {
   using Change = SensorEvent::Change;
   // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)
     if (overlaps_[piece].well_inside.contains(segment.positions)) return;
-  const auto stay_in_piece = [&](PieceIndex piece) { return stay_in(piece, segment); };
-  const Stays<decltype(stay_in_piece)> stays(pieces, stay_in_piece);
-  for (OverlapTime stay = stays.after(OverlapTime::before - 1); stay.any(); stay = stays.after(stay.end)) {
-    if (stay.begin != OverlapTime::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
-    if (stay.end == OverlapTime::after) return;
-    add_in_order({sensor, Change::exit, segment.fraction(stay.end)}, events);
-    if (pieces.size() == 1) return;  // convex: it is left once
+  stays_.clear();
+  for (const PieceIndex piece : pieces)
+    if (const OverlapTime stay = stay_in(piece, segment); stay.any()) stays_.push_back(stay);
+  std::sort(stays_.begin(), stays_.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  for (auto stay = stays_.begin(); stay != stays_.end();) {
+    const double begin = stay->begin;
+    double end = stay->end;
+    // Stays that overlap are one.
+    for (++stay; stay != stays_.end() && stay->begin <= end + one_instant; ++stay) end = std::max(end, stay->end);
+    if (begin != OverlapTime::before) add_in_order({sensor, Change::enter, segment.fraction(begin)}, events);
+    if (end != OverlapTime::after) add_in_order({sensor, Change::exit, segment.fraction(end)}, events);
   }
 }
 

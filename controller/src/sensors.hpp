@@ -66,9 +66,9 @@ class Sensors final : public OwnMemory, private PieceUser {
   /// @param near pieces that stand still, or go along with `motion`. Those of one sensor follow each other.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
   Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
-               Events& events) const noexcept;
+               Events& events) noexcept;
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
-               Events& events) const noexcept;
+               Events& events) noexcept;
   /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.
   /// Returns false if this may change on the way.
   [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
@@ -95,6 +95,7 @@ class Sensors final : public OwnMemory, private PieceUser {
   Candidates near_;             ///< Of `overlaps_`.
   std::vector<Overlap> overlaps_;
   std::unordered_map<PieceIndex, PieceIndex> known_;  ///< By piece, in `overlaps_`.
+  std::vector<geometry::OverlapTime> stays_;          ///< In the pieces of one sensor.
   /// While the character moves among these positions, nothing happens between it and any piece that stands still.
   Box2 quiet_ = nowhere();
 };

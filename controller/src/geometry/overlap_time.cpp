@@ -13,30 +13,20 @@ Vec2d edge_to(std::span<const Vec2d> outline, std::size_t i) noexcept {
   return outline[i] - outline[i == 0 ? outline.size() - 1 : i - 1];
 }
 
-SeparatingAxis axis_of_standing(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
-  const Vec2d along = edge_to(standing, i);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec2d& point : mover) least = std::min(least, -cross(along, point));
-  return {along, standing[i], Vec2d::Zero(), least};
-}
-
-/// The vertex that the mover meets with its edge lies farthest to the edge's inner side.
-SeparatingAxis axis_of_mover(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
-  const Vec2d along = edge_to(mover, i);
-  Vec2d met = standing[0];
+/// The axes of the standing outline's edges come first, then those of the mover's.
+SeparatingAxis axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
+  if (i < standing.size()) {
+    const Vec2d along = edge_to(standing, i);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec2d& point : mover) least = std::min(least, -cross(along, point));
+    return {along, standing[i], Vec2d::Zero(), least};
+  }
+  const std::size_t edge = i - standing.size();
+  const Vec2d along = edge_to(mover, edge);
+  Vec2d met = standing[0];  // by the mover's edge: it lies farthest to the edge's inner side
   for (const Vec2d& point : standing)
     if (cross(along, Vec2d(point - met)) > 0) met = point;
-  return {-along, met, mover[i], 0};
-}
-
-/// Calls `visit` with one axis after the other until it returns false.
-template <class Visit>
-void for_each_axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing,
-                   const Visit& visit) noexcept(noexcept(visit(SeparatingAxis{}))) {
-  for (std::size_t i = 0; i < standing.size(); ++i)
-    if (!visit(axis_of_standing(mover, standing, i))) return;
-  for (std::size_t i = 0; i < mover.size(); ++i)
-    if (!visit(axis_of_mover(mover, standing, i))) return;
+  return {-along, met, mover[edge], 0};
 }
 
 }  // namespace
@@ -44,29 +34,24 @@ void for_each_axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing
 std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing) {
   std::vector<SeparatingAxis> axes;
   axes.reserve(mover.size() + standing.size());
-  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) {
-    axes.push_back(axis);
-    return true;
-  });
+  for (std::size_t i = 0; i < mover.size() + standing.size(); ++i) axes.push_back(axis(mover, standing, i));
   return axes;
 }
 
 OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to) noexcept {
   OverlapTime time;
-  for (const SeparatingAxis& axis : axes) {
-    time.narrow(axis.separation(from), axis.separation(to), 0);
-    if (!time.any()) break;
-  }
+  for (std::size_t i = 0; i < axes.size() && time.any(); ++i)
+    time.narrow(axes[i].separation(from), axes[i].separation(to), 0);
   return time;
 }
 
 OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
                          const Vec2d& to) noexcept {
   OverlapTime time;
-  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) noexcept {
-    time.narrow(axis.separation(from), axis.separation(to), 0);
-    return time.any();
-  });
+  for (std::size_t i = 0; i < mover.size() + standing.size() && time.any(); ++i) {
+    const SeparatingAxis tested = axis(mover, standing, i);
+    time.narrow(tested.separation(from), tested.separation(to), 0);
+  }
   return time;
 }
 
@@ -76,12 +61,11 @@ Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing,
   const Vec2d middle = (b.lower + b.upper - a.lower - a.upper) / 2;
   const Vec2d half = (b.upper - b.lower + a.upper - a.lower) / 2;
   double share = 1;  // of the box around all positions that overlap
-  for_each_axis(mover, standing, [&](const SeparatingAxis& axis) noexcept {
+  for (const SeparatingAxis& axis : separating_axes(mover, standing)) {
     const Vec2d along = axis.along.cwiseAbs();
     share = std::min(share,
                      (-axis.separation(middle) - depth * along.sum()) / (along.x() * half.y() + along.y() * half.x()));
-    return true;
-  });
+  }
   return {middle - share * half, middle + share * half};
 }
 
