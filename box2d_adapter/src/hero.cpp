@@ -8,16 +8,11 @@
 namespace paperproof::box2d {
 namespace {
 
-void require_number(const Vec2d& value, const char* words) {
-  require(std::abs(value.x()) <= largest && std::abs(value.y()) <= largest, words);
-}
-
 /// The box around a shape, across up and along it.
 Box2 seen_by(const UpFrame& frame, const CharacterShape& shape) {
-  const Vec2d first = frame.seen(shape.points()[0]);
-  Box2 box{first, first};
-  for (const Vec2d& point : shape.points()) box = box.merged({frame.seen(point), frame.seen(point)});
-  return box;
+  std::vector<Vec2d> seen;
+  for (const Vec2d& point : shape.points()) seen.push_back(frame.seen(point));
+  return Box2::around(seen);
 }
 
 }  // namespace
@@ -30,13 +25,13 @@ Hero::Impl::Impl(b2World& in, const HeroDef& from)
       controller(fixtures.level(), from.character),
       scratch(controller.make_scratch()) {
   make_fixture(def.filter);
-  HeroPlaces::note(*body, state.position);
+  note_hero(*body, &state.position);
   state.position = def.position;
   report.move.position = def.position;
 }
 
 Hero::Impl::~Impl() {
-  HeroPlaces::forget(*body);
+  note_hero(*body, nullptr);
   world->DestroyBody(body);
 }
 

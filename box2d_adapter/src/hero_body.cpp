@@ -54,8 +54,7 @@ void for_each_touching(b2Body& body, const Each& each) {
 }  // namespace
 
 b2Body& Hero::Impl::make_body(b2World& world, const HeroDef& def) {
-  const Vec2d& place = def.position;
-  require(std::abs(place.x()) <= largest && std::abs(place.y()) <= largest, "position of a hero: must be within 1e6 m");
+  require_number(def.position, "position of a hero: must be within 1e6 m");
   const double mass = def.mass.value_or(1);
   const double push_force = def.push_force.value_or(0);
   require(mass >= 1e-6 && mass <= 1e9, "mass of a hero: must be from 1e-6 to 1e9 kg");

@@ -12,6 +12,7 @@
 #include <box2d/b2_body.h>
 #include <box2d/b2_world.h>
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -24,6 +25,10 @@ inline constexpr double largest = 1e6;
 
 inline void require(bool holds, const char* words) {
   if (!holds) throw InvalidDefinition(words);
+}
+
+inline void require_number(const Vec2d& value, const char* words) {
+  require(std::abs(value.x()) <= largest && std::abs(value.y()) <= largest, words);
 }
 
 /// Where the world pulls, as a unit vector the other way.
@@ -60,8 +65,6 @@ struct Hero::Impl {
   std::pair<double, bool> limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt);
   [[nodiscard]] bool is_freed(const CharacterState& before);
   std::optional<double> end_sooner(double least, double most);
-  [[nodiscard]] bool is_free_at_end(const Vec2d& position);
-  double end_at(const Vec2d& position, std::size_t corner, double share);
   void note_step();
   void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
   void note_sensors();

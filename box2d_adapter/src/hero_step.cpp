@@ -88,33 +88,6 @@ StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
   }
 }
 
-/// Whether the hero overlaps nothing at a position on its way at the end of the step.
-bool Hero::Impl::is_free_at_end(const Vec2d& position) {
-  return controller.overlaps(position, here(true), scratch) == 0U;
-}
-
-/// Ends the step on its way, in the air.
-/// @param corner of the path towards which the hero goes there. @param share of the way to it.
-/// @return when it is there, as a fraction of the step.
-double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double share) {
-  teleport(state, position);
-  state.last_free = position;
-  state.has_last_free = true;
-  MoveResult& move = report.move;
-  const double before = move.path[corner - 1].fraction;
-  const double when = before + share * (move.path[corner].fraction - before);
-  while (move.path.size() > corner) move.path.pop_back();
-  move.path.push_back({position, 1});
-  while (!move.contacts.empty() && move.contacts.back().fraction > when) move.contacts.pop_back();
-  while (!report.sensors.empty() && report.sensors.back().fraction > when) report.sensors.pop_back();
-  move.position = position;
-  move.velocity = state.velocity;
-  move.grounded = false;
-  move.ground = {};
-  move.ride = {};
-  return when;
-}
-
 /// Moving bodies take the hero along, but give it no more than their own speed, or that to which Box2D brought the
 /// hero's body.
 /// @return the largest speed that the hero may have [m/s], and whether such a body pushed it.
@@ -171,23 +144,39 @@ bool Hero::Impl::is_freed(const CharacterState& before) {
   return std::none_of(holding.begin(), holding.end(), stands);
 }
 
-/// Ends the step at a free place on its way.
+/// Ends the step in the air, at a free place on its way.
 /// @param least and @param most how far from the beginning [m].
 /// @return when it is there, as a fraction of the step; nothing if no place was found.
 std::optional<double> Hero::Impl::end_sooner(double least, double most) {
   constexpr int places = 8;
+  MoveResult& move = report.move;
   for (int i = 0; i <= places; ++i) {
     double reach = least + (most - least) * i / places;
     std::size_t corner = 1;
     double length = 0;
-    for (; corner < report.move.path.size(); ++corner, reach -= length) {
-      length = (report.move.path[corner].position - report.move.path[corner - 1].position).norm();
+    for (; corner < move.path.size(); ++corner, reach -= length) {
+      length = (move.path[corner].position - move.path[corner - 1].position).norm();
       if (reach < length) break;
     }
-    if (corner == report.move.path.size()) return std::nullopt;
-    const Vec2d from = report.move.path[corner - 1].position;
-    const Vec2d there = from + (report.move.path[corner].position - from) * (reach / length);
-    if (is_free_at_end(there)) return end_at(there, corner, reach / length);
+    if (corner == move.path.size()) return std::nullopt;
+    const auto [from, before] = move.path[corner - 1];
+    const double share = reach / length;
+    const Vec2d there = from + (move.path[corner].position - from) * share;
+    if (controller.overlaps(there, here(true), scratch) != 0U) continue;
+    const double when = before + share * (move.path[corner].fraction - before);
+    teleport(state, there);
+    state.last_free = there;
+    state.has_last_free = true;
+    move.path.resize(corner);
+    move.path.push_back({there, 1});
+    while (!move.contacts.empty() && move.contacts.back().fraction > when) move.contacts.pop_back();
+    while (!report.sensors.empty() && report.sensors.back().fraction > when) report.sensors.pop_back();
+    move.position = there;
+    move.velocity = state.velocity;
+    move.grounded = false;
+    move.ground = {};
+    move.ride = {};
+    return when;
   }
   return std::nullopt;
 }

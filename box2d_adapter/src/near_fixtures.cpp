@@ -17,8 +17,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -48,58 +50,26 @@ class Collector : public b2QueryCallback {
 
 /// Not smaller than the box in double.
 b2AABB rounded_outwards(const Box2& box) {
-  const auto slack = [](double value) { return 1e-3 + std::abs(value) * 1e-6; };
+  const auto slack = [](const Vec2d& corner) { return Vec2d(1e-3 + corner.array().abs() * 1e-6); };
   b2AABB result;
-  result.lowerBound = rounded(Vec2d(box.lower - Vec2d(slack(box.lower.x()), slack(box.lower.y()))));
-  result.upperBound = rounded(Vec2d(box.upper + Vec2d(slack(box.upper.x()), slack(box.upper.y()))));
+  result.lowerBound = rounded(Vec2d(box.lower - slack(box.lower)));
+  result.upperBound = rounded(Vec2d(box.upper + slack(box.upper)));
   return result;
 }
 
-/// Fowler, Noll, Vo: FNV-1a, over words.
-class Hash {
- public:
-  Hash& add(std::uint64_t word) noexcept {
-    value_ = (value_ ^ word) * 0x100000001b3;
-    return *this;
-  }
-  Hash& add(const b2Vec2& v) noexcept {
-    return add(std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32U | std::bit_cast<std::uint32_t>(v.y));
-  }
-  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
-
+/// Of a shape's numbers: a game may change them in place. (Fowler, Noll, Vo: FNV-1a, over words.)
 std::uint64_t hash_of(const b2Shape& shape) {
-  Hash hash;
-  hash.add(static_cast<std::uint64_t>(shape.GetType()));
-  switch (shape.GetType()) {
-    case b2Shape::e_circle: {
-      const auto& circle = static_cast<const b2CircleShape&>(shape);
-      return hash.add(circle.m_p).add(b2Vec2(circle.m_radius, 0)).value();
-    }
-    case b2Shape::e_edge: {
-      const auto& edge = static_cast<const b2EdgeShape&>(shape);
-      return hash.add(edge.m_vertex1).add(edge.m_vertex2).add(std::uint64_t{edge.m_oneSided}).value();
-    }
-    case b2Shape::e_polygon: {
-      const auto& polygon = static_cast<const b2PolygonShape&>(shape);
-      for (int i = 0; i < polygon.m_count; ++i) hash.add(polygon.m_vertices[i]);
-      return hash.value();
-    }
-    case b2Shape::e_chain: {
-      const auto& chain = static_cast<const b2ChainShape&>(shape);
-      std::array<Hash, 4> lanes;  // side by side they take a fourth of the time
-      for (int i = 0; i < chain.m_count; ++i) lanes[static_cast<std::size_t>(i % 4)].add(chain.m_vertices[i]);
-      hash.add(static_cast<std::uint64_t>(chain.m_count));
-      for (const Hash& lane : lanes) hash.add(lane.value());
-      return hash.value();
-    }
-    case b2Shape::e_typeCount:
-      break;
-  }
-  return hash.value();
+  const auto add = [](std::uint64_t& hash, std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };
+  std::array<b2Vec2, 2> room;
+  const std::span<const b2Vec2> points = points_of(shape, room);
+  std::array<std::uint64_t, 4> lanes{};  // side by side they take a fourth of the time
+  for (std::size_t i = 0; i < points.size(); ++i) add(lanes[i % 4], std::bit_cast<std::uint64_t>(points[i]));
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::uint64_t lane : lanes) add(hash, lane);
+  for (const std::size_t word : {points.size(), std::size_t{shape.GetType()}, std::size_t{is_one_sided(shape)}})
+    add(hash, word);
+  add(hash, std::bit_cast<std::uint32_t>(shape.m_radius));
+  return hash;
 }
 
 /// A place of its own, without a turn.
@@ -150,43 +120,35 @@ std::vector<ColliderDef> cut_to(const Box2& box, const ColliderDef& chain) {
   return runs;
 }
 
+/// Where each hero of the program is. Neither the body nor its fixture has a place for it: their user data are the
+/// game's. Worlds may be stepped in threads of their own.
+struct HeroPlaces {
+  std::mutex mutex;
+  std::map<const b2Body*, const Vec2d*> places;
+};
+
+HeroPlaces& hero_places() {
+  static HeroPlaces all;
+  return all;
+}
+
 }  // namespace
 
-void HeroPlaces::note(const b2Body& body, const Vec2d& place) {
-  const std::lock_guard lock(mutex());
-  places()[&body] = &place;
-}
-
-void HeroPlaces::forget(const b2Body& body) {
-  const std::lock_guard lock(mutex());
-  places().erase(&body);
-}
-
-Vec2d HeroPlaces::of(const b2Body& body) {
-  const std::lock_guard lock(mutex());
-  const auto found = places().find(&body);
-  return found == places().end() ? widened(body.GetPosition()) : *found->second;
-}
-
-std::mutex& HeroPlaces::mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-std::map<const b2Body*, const Vec2d*>& HeroPlaces::places() {
-  static std::map<const b2Body*, const Vec2d*> places;
-  return places;
+void note_hero(const b2Body& body, const Vec2d* place) {
+  const std::lock_guard lock(hero_places().mutex);
+  if (place != nullptr)
+    hero_places().places[&body] = place;
+  else
+    hero_places().places.erase(&body);
 }
 
 Vec2d place_of(const b2Body& body) {
-  const b2Fixture* fixture = body.GetFixtureList();
-  return fixture != nullptr && is_of_hero(*fixture) ? HeroPlaces::of(body) : widened(body.GetPosition());
-}
-
-bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
-  return body == other.body && shape == other.shape && geometry == other.geometry && place == other.place &&
-         angle == other.angle && moves == other.moves && sensor == other.sensor && surface == other.surface &&
-         one_way == other.one_way && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
+  if (body.GetFixtureList() != nullptr && is_of_hero(*body.GetFixtureList())) {
+    const std::lock_guard lock(hero_places().mutex);
+    const auto found = hero_places().places.find(&body);
+    if (found != hero_places().places.end()) return *found->second;
+  }
+  return widened(body.GetPosition());
 }
 
 void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState& state,
@@ -194,11 +156,7 @@ void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, co
   def_ = &def;
   up_ = up;
   dt_ = dt;
-  middle_ = state.position + def.character.shape.box().middle();
-  hull_.clear();
-  for (const Vec2d& corner : def.character.shape.hull()) hull_.emplace_back(state.position + corner);
-  was_placed_ = !state.has_last_free;
-  stood_ = state.grounded;
+  begin_ = state;
   touched_.clear();
   if (state.ground.state != GroundState::air) touched_.push_back(fixture_of(state.ground.collider));
   for (const HeroContact& contact : contacts)
@@ -213,8 +171,7 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Bo
               .geometry = hash_of(*fixture.GetShape()),
               .moves = body.GetType() != b2_staticBody,
               .sensor = fixture.IsSensor(),
-              .surface = {},
-              .cut = {}};
+              .surface = {}};
   if (!result.moves) {
     result.place = body.GetPosition();
     result.angle = body.GetAngle();
@@ -234,7 +191,7 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Bo
     result.one_way = one_way_of(fixture, known);
   }
   const bool is_long = fixture.GetType() == b2Shape::e_chain && !result.moves;
-  if (is_long && result.surface.blocks != Blocking::from_above) result.cut = box;
+  if (is_long && result.surface.blocks != Blocking::from_above) result.cut = {box.lower, box.upper};
   return result;
 }
 
@@ -253,19 +210,20 @@ std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Kn
   const auto seen_from_body = [&](const Vec2d& point) { return Vec2d(turn.inverse() * (point - begin.position)); };
   const auto is_ahead = [&](std::span<const Vec2d> points, double by) {
     std::vector<Vec2d> there;
-    for (const Vec2d& point : points) there.emplace_back(seen_from_body(point) + *known.front * by);
+    for (const Vec2d& point : points) there.emplace_back(seen_from_body(begin_.position + point) + *known.front * by);
     return is_in_front(there, known.chain, *known.front);
   };
-  if (is_ahead(hull_, 0)) return std::nullopt;
-  const bool is_ground = stood_ && Vec2d(turn * *known.front).dot(up_) > 0;
+  const std::span<const Vec2d> hull = def_->character.shape.hull();
+  if (is_ahead(hull, 0)) return std::nullopt;
+  const bool is_ground = begin_.grounded && Vec2d(turn * *known.front).dot(up_) > 0;
   const bool is_known =
-      was_placed_ || is_ground || std::find(touched_.begin(), touched_.end(), &fixture) != touched_.end();
-  if (is_ahead({&middle_, 1}, 0) && (is_known || is_ahead(hull_, most_lifted))) return std::nullopt;
+      !begin_.has_last_free || is_ground || std::find(touched_.begin(), touched_.end(), &fixture) != touched_.end();
+  const Vec2d middle = def_->character.shape.box().middle();
+  if (is_ahead({&middle, 1}, 0) && (is_known || is_ahead(hull, most_lifted))) return std::nullopt;
   return known.front;
 }
 
 void NearFixtures::search(const Box2& box) {
-  ++searches_;
   hits_.clear();
   near_.clear();
   Collector collector(hits_);
@@ -279,22 +237,21 @@ void NearFixtures::search(const Box2& box) {
     if (filter != nullptr && !filter->ShouldCollide(hero_->GetFixtureList(), fixture)) continue;
     Known& known = known_[fixture];
     const Seen now = seen(*fixture, known, box);
-    const bool is_other = known.is_defined && (known.seen.body != now.body || known.seen.shape != now.shape);
+    const bool is_other = known.seen.body != nullptr && (known.seen.body != now.body || known.seen.shape != now.shape);
     const bool is_gone = now.surface.blocks == Blocking::not_at_all;
     if (is_other || is_gone) {  // another one is at the same address
       take_out(known);
       known = {};
     }
-    known.found = searches_;
     if (is_gone) continue;
     near_.push_back({fixture, &known});
-    if (known.is_defined && known.seen == now) continue;
+    if (known.seen == now) continue;
     known.seen = now;
     changed.push_back(near_.back());
   }
   if (known_.size() > near_.size())
     std::erase_if(known_, [&](const auto& entry) {
-      if (entry.second.found == searches_) return false;
+      if (is_near(entry.first)) return false;
       take_out(entry.second);
       return true;
     });
@@ -341,13 +298,12 @@ void NearFixtures::define(const Near& near) {
   if (seen.one_way && whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
   whole.one_way = seen.one_way;
   whole.mover = mover_of(*near.fixture);
-  const bool is_cut = !(seen.cut.lower == seen.cut.upper);
-  put(is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)}, near);
+  const bool is_cut = seen.cut[0] != seen.cut[1];
+  put(is_cut ? cut_to({seen.cut[0], seen.cut[1]}, whole) : std::vector{std::move(whole)}, near);
 }
 
 void NearFixtures::put(const std::vector<ColliderDef>& defs, const Near& near) {
   Known& known = *near.known;
-  known.is_defined = true;
   known.is_unusable = false;
   for (; known.parts.size() > defs.size(); known.parts.pop_back()) level_.remove(known.parts.back());
   for (std::size_t i = 0; i < defs.size(); ++i) {

@@ -6,9 +6,9 @@
 
 #include <box2d/b2_math.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,19 +27,9 @@ inline constexpr float hero_inset = 0.0035F;
   return fixture.GetShape()->m_radius == -hero_inset;
 }
 
-/// Where each hero of the program is. Neither the body nor its fixture has a place for it: their user data are the
-/// game's. Thread-safe: worlds may be stepped in threads of their own.
-class HeroPlaces {
- public:
-  /// @param place must outlive the entry.
-  static void note(const b2Body& body, const Vec2d& place);
-  static void forget(const b2Body& body);
-  [[nodiscard]] static Vec2d of(const b2Body& body);
-
- private:
-  static std::mutex& mutex();
-  static std::map<const b2Body*, const Vec2d*>& places();
-};
+/// Notes where a hero is, for `place_of`. Thread-safe.
+/// @param place must outlive the entry. Null: forgets it.
+void note_hero(const b2Body& body, const Vec2d* place);
 
 /// Position of a body [m]; for the body of another hero that hero's own, because `world.Step` moved the body and the
 /// hero has not stepped yet.
@@ -94,25 +84,24 @@ class NearFixtures {
     const b2Body* body = nullptr;
     const b2Shape* shape = nullptr;
     std::uint64_t geometry = 0;  ///< A hash of the shape's numbers.
-    b2Vec2 place{0, 0};          ///< Of a body that stands; zero of one that moves.
-    float angle = 0;             ///< The same.
+    b2Vec2 place{0, 0};        ///< Of a body that stands; zero of one that moves.
+    float angle = 0;           ///< The same.
     bool moves = false;
     bool sensor = false;
     Surface surface;
     std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks, as the body sees it.
-    Box2 cut;                        ///< To which a long chain is cut; else always the same.
-    bool operator==(const Seen& other) const noexcept;
+    /// Corners of the box to which a long chain is cut; else always the same.
+    std::array<Vec2d, 2> cut{Vec2d::Zero(), Vec2d::Zero()};
+    friend bool operator==(const Seen&, const Seen&) = default;
   };
   struct Known {
-    Seen seen;
-    bool is_defined = false;
+    Seen seen;  ///< Of no body: not yet.
     bool is_unusable = false;
     std::vector<ColliderIndex> parts;  ///< One, but of a chain that is cut.
     /// Of a one-sided shape: its vertices, in the world or, of a body that may move, relative to the body; and what
     /// they face.
     std::vector<Vec2d> chain;
     std::optional<Vec2d> front;
-    std::uint64_t found = 0;  ///< Number of the last search that found it.
   };
 
   struct Near {
@@ -136,10 +125,7 @@ class NearFixtures {
   const HeroDef* def_ = nullptr;
   Vec2d up_{0, 1};
   double dt_ = 0;
-  Vec2d middle_{Vec2d::Zero()};            ///< The origin of the hero's shape [m],
-  std::vector<Vec2d> hull_;                ///< its corners, when the step begins,
-  bool was_placed_ = false;                ///< and whether it has not been free yet.
-  bool stood_ = false;                     ///< On some ground.
+  CharacterState begin_;                   ///< Of the hero, when the step begins.
   std::vector<const b2Fixture*> touched_;  ///< What it stands on and touched.
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
@@ -151,7 +137,6 @@ class NearFixtures {
   std::vector<MoverIndex> free_movers_;
   std::vector<MoverMotion> motions_;
   std::vector<MoverMotion> ends_;
-  std::uint64_t searches_ = 0;
 };
 
 }  // namespace paperproof::box2d

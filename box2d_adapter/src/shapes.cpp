@@ -20,22 +20,6 @@
 namespace paperproof::box2d {
 namespace {
 
-std::vector<Vec2d> in_world(std::span<const b2Vec2> points, const b2Transform& transform) {
-  std::vector<Vec2d> result;
-  for (const b2Vec2& point : points) result.push_back(widened(b2Mul(transform, point)));
-  return result;
-}
-
-ColliderDef chain_of(std::span<const b2Vec2> points, const b2Transform& transform) {
-  return {.shape = ColliderDef::Shape::chain, .points = in_world(points, transform)};
-}
-
-ColliderDef circle_of(const b2CircleShape& circle, const b2Transform& transform) {
-  ColliderDef def{.shape = ColliderDef::Shape::circle, .points = {widened(b2Mul(transform, circle.m_p))}};
-  def.radius = static_cast<double>(circle.m_radius);
-  return def;
-}
-
 Vec2d right_of(const Vec2d& way) { return {way.y(), -way.x()}; }
 
 }  // namespace
@@ -140,26 +124,39 @@ ColliderDef polygon_around(const ColliderDef& circle) {
   return polygon;
 }
 
-ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform) {
+std::span<const b2Vec2> points_of(const b2Shape& shape, std::array<b2Vec2, 2>& room) {
   switch (shape.GetType()) {
     case b2Shape::e_circle:
-      return circle_of(static_cast<const b2CircleShape&>(shape), transform);
+      room[0] = static_cast<const b2CircleShape&>(shape).m_p;
+      return std::span(room).first(1);
     case b2Shape::e_edge: {
       const auto& edge = static_cast<const b2EdgeShape&>(shape);
-      return chain_of(std::array{edge.m_vertex1, edge.m_vertex2}, transform);
+      room = {edge.m_vertex1, edge.m_vertex2};
+      return room;
     }
     case b2Shape::e_polygon: {
       const auto& polygon = static_cast<const b2PolygonShape&>(shape);
-      return {.points = in_world({polygon.m_vertices, static_cast<std::size_t>(polygon.m_count)}, transform)};
+      return {polygon.m_vertices, static_cast<std::size_t>(polygon.m_count)};
     }
     case b2Shape::e_chain: {
       const auto& chain = static_cast<const b2ChainShape&>(shape);
-      return chain_of({chain.m_vertices, static_cast<std::size_t>(chain.m_count)}, transform);
+      return {chain.m_vertices, static_cast<std::size_t>(chain.m_count)};
     }
     case b2Shape::e_typeCount:
       break;
   }
   throw InvalidDefinition("a fixture has a shape that Box2D 2.4 does not have");
+}
+
+ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform) {
+  ColliderDef def{.shape = ColliderDef::Shape::chain, .points = {}};
+  std::array<b2Vec2, 2> room;
+  for (const b2Vec2& point : points_of(shape, room)) def.points.push_back(widened(b2Mul(transform, point)));
+  if (shape.GetType() == b2Shape::e_polygon) def.shape = ColliderDef::Shape::polygon;
+  if (shape.GetType() != b2Shape::e_circle) return def;
+  def.shape = ColliderDef::Shape::circle;
+  def.radius = static_cast<double>(shape.m_radius);
+  return def;
 }
 
 }  // namespace paperproof::box2d

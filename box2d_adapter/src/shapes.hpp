@@ -6,6 +6,7 @@
 #include <box2d/b2_math.h>
 #include <box2d/b2_polygon_shape.h>
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -18,6 +19,10 @@ namespace paperproof::box2d {
 /// @throws InvalidDefinition where Box2D would weld or drop a corner, or abort: corners nearer than 2.5 mm, an area
 ///   below 1e-6 m², corners that are not finite, or not strictly convex in float.
 [[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
+
+/// The vertices of a shape, or the middle of a circle.
+/// @param room for those that the shape does not have in a row.
+[[nodiscard]] std::span<const b2Vec2> points_of(const b2Shape& shape, std::array<b2Vec2, 2>& room);
 
 /// A shape at a place. An edge and a chain block from both sides.
 [[nodiscard]] ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform);
