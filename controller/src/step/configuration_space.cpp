@@ -116,9 +116,6 @@ void ConfigurationSpace::follow_edits() {
 void ConfigurationSpace::drop(PieceIndex source) {
   PieceIndex& index = index_of_[source];
   if (index == 0) return;
-  Obstacle& obstacle = obstacles_[index - 1];
-  free_own_.give(obstacle.first_own, obstacle.own_count);
-  obstacle.own_count = 0;
   free_obstacles_.push_back(index - 1);
   index = 0;
 }
@@ -130,8 +127,6 @@ void ConfigurationSpace::drop_all() {
   std::fill(index_of_.begin(), index_of_.end(), 0);
   obstacles_.clear();
   free_obstacles_.clear();
-  own_axes_.clear();
-  free_own_ = {};
 }
 
 /// Of the one-way segments of a mover that has this angle, or of all others.
@@ -166,10 +161,10 @@ PieceIndex ConfigurationSpace::make(PieceIndex source, double angle) {
     }
     index = free_obstacles_.back() + 1;
     free_obstacles_.pop_back();
-    fill(obstacles_[index - 1], source, angle);
-  } else if (obstacles_[index - 1].angle != angle) {
-    fill(obstacles_[index - 1], source, angle);
+  } else if (obstacles_[index - 1].angle == angle) {
+    return index - 1;
   }
+  fill(obstacles_[index - 1], source, angle);
   return index - 1;
 }
 
@@ -183,13 +178,16 @@ void ConfigurationSpace::fill(Obstacle& obstacle, PieceIndex source, double angl
               .source = info,
               .collider = &scenery().collider(info.collider),
               .piece = source,
-              .first_own = obstacle.first_own,
-              .own_count = obstacle.own_count,
+              .own = std::move(obstacle.own),
               .angle = angle,
               .turned = std::move(obstacle.turned)};
   obstacle.whole_collider = !(source > 0 && same(source - 1)) && !(source + 1 < pieces.size() && same(source + 1));
   obstacle.turned.clear();
-  if (info.mover != no_mover) obstacle.turned.reserve(info.vertex_count);
+  obstacle.own.clear();
+  if (info.mover != no_mover) {
+    obstacle.turned.reserve(info.vertex_count);
+    obstacle.own.reserve(info.vertex_count);
+  }
   if (angle != 0) {
     const PieceVertices vertices = scenery().vertices_of(source);
     geometry::place({vertices.begin(), vertices.end()}, {.angle = angle}, obstacle.turned);
@@ -209,7 +207,6 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
   const PieceInfo& source = obstacle.source;
   const Vec2d& lower = obstacle.box.lower;
   const Vec2d& upper = obstacle.box.upper;
-  own_.clear();
   // An unused lane is "inside" for ever: never the largest separation, never left.
   obstacle.offsets.all.fill(std::numeric_limits<Real>::max() / 4);
   for (std::size_t k = 0; k < axes_.count; ++k) {
@@ -221,10 +218,10 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
     obstacle.offsets.all[k] =
         k < 4 || source.is_rectangle() ? static_cast<Real>(furthest - axes_.low[k]) : support_offset(obstacle, {x, y});
   }
-  if (source.is_rectangle()) return keep_own(obstacle);  // its normals are all shared
+  if (source.is_rectangle()) return;  // its normals are all shared
   const auto add = [&](const Vec2& n) {
-    own_.push_back({n, support_offset(obstacle, n.cast<double>()), face_along(n)});
-    return axes_.lanes + own_.size() - 1;
+    obstacle.own.push_back({n, support_offset(obstacle, n.cast<double>()), face_along(n)});
+    return axes_.lanes + obstacle.own.size() - 1;
   };
   const auto axis_of = [&](const Vec2d& normal) -> std::size_t {
     const Vec2 n = normal.cast<Real>();
@@ -232,10 +229,7 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
       if (axes_.x[k] == n.x() && axes_.y[k] == n.y()) return k;
     return add(n);
   };
-  if (source.is_circle()) {
-    add({0, 1});
-    return keep_own(obstacle);
-  }
+  if (source.is_circle()) return void(add({0, 1}));
   const PieceVertices vertices = vertices_of(obstacle);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d edge = vertices[(j + 1) % vertices.size()] - vertices[j];
@@ -243,18 +237,6 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) obstacle.one_way_axis = static_cast<std::uint8_t>(axis);
   }
-  keep_own(obstacle);
-}
-
-void ConfigurationSpace::keep_own(Obstacle& obstacle) {
-  if (obstacle.own_count != own_.size()) {
-    free_own_.give(obstacle.first_own, obstacle.own_count);
-    obstacle.own_count = static_cast<std::uint8_t>(own_.size());
-    const std::optional<std::uint32_t> free = free_own_.take(obstacle.own_count);
-    obstacle.first_own = free.value_or(static_cast<std::uint32_t>(own_axes_.size()));
-    if (!free) own_axes_.resize(own_axes_.size() + own_.size());
-  }
-  std::copy(own_.begin(), own_.end(), own_axes_.begin() + obstacle.first_own);
 }
 
 /// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
@@ -275,25 +257,12 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
     if (is_unused(axis)) continue;
     const Facet here = facet(piece, axis, noise);
-    if (here.length > open_enough)
-      set_open(piece, axis, open_part(here));
-    else if (is_covered_corner(piece, here))
-      set_open(piece, axis, 0);
+    const bool is_corner = here.length <= open_enough;
+    if (is_corner && !is_covered_corner(piece, here)) continue;
+    const double open = is_corner ? 0 : open_part(here);
+    obstacles_[piece].covered |= std::uint64_t{open <= open_enough} << axis;
+    obstacles_[piece].hidden |= std::uint64_t{open <= hidden_enough} << axis;
   }
-}
-
-void ConfigurationSpace::set_open(PieceIndex piece, std::size_t axis, double open) noexcept {
-  const bool covered = open <= open_enough;
-  const bool hidden = open <= hidden_enough;
-  Obstacle& obstacle = obstacles_[piece];
-  if (axis >= axes_.lanes) {
-    OwnAxis& own = own_axes_[obstacle.first_own + axis - axes_.lanes];
-    own.covered = covered;
-    own.hidden = hidden;
-    return;
-  }
-  obstacle.covered = static_cast<std::uint16_t>(obstacle.covered | unsigned{covered} << axis);
-  obstacle.hidden = static_cast<std::uint16_t>(obstacle.hidden | unsigned{hidden} << axis);
 }
 
 ConfigurationSpace::Facet ConfigurationSpace::facet(PieceIndex piece, std::size_t axis, double noise) const noexcept {

@@ -57,14 +57,36 @@ struct OwnAxis {
   Vec2 normal;
   Real offset;
   OctagonFace face;
-  bool covered = false;  ///< See `Obstacle::covered`.
-  bool hidden = false;
 };
 
 /// An axis of a circle: its direction, as a number that is larger than any index. The larger component tells the
 /// quarter; the other one is divided by it, which keeps what a double has.
-[[nodiscard]] inline std::size_t axis_along(const Vec2d& direction) noexcept;
-[[nodiscard]] inline Vec2d direction_of(std::size_t axis) noexcept;
+[[nodiscard]] inline std::size_t axis_along(const Vec2d& direction) noexcept {
+  static_assert(sizeof(std::size_t) == 8);
+  const bool level = std::abs(direction.x()) >= std::abs(direction.y());
+  const std::size_t quarter = level ? (direction.x() > 0 ? 0 : 2) : (direction.y() > 0 ? 1 : 3);
+  const double tangent = level ? direction.y() / direction.x() : -direction.x() / direction.y();
+  return std::size_t{1} << 63U | quarter << 61U |
+         static_cast<std::size_t>(static_cast<std::int64_t>(tangent * 0x1p59) + (std::int64_t{1} << 59U));
+}
+
+[[nodiscard]] inline Vec2d direction_of(std::size_t axis) noexcept {
+  const auto rest = static_cast<std::int64_t>(axis & ((std::size_t{1} << 61U) - 1));
+  const double tangent = static_cast<double>(rest - (std::int64_t{1} << 59U)) * 0x1p-59;
+  const double large = 1 / std::sqrt(1 + tangent * tangent);
+  const double small = tangent * large;
+  switch (axis >> 61U & 3U) {
+    case 0:
+      return {large, small};
+    case 1:
+      return {0 - small, large};
+    case 2:
+      return {-large, 0 - small};
+    default:
+      return {small, -large};
+  }
+}
+
 /// Whether an axis is a direction.
 [[nodiscard]] constexpr bool is_direction(std::size_t axis) noexcept { return axis >> 63U != 0; }
 
@@ -105,18 +127,17 @@ struct Obstacle {
   Box2 box;          ///< Of the piece [m].
   PieceInfo source;  ///< Its mover is the index of its motion: see `Moving`.
   const ColliderInfo* collider = nullptr;
-  PieceIndex piece = 0;         ///< In the scenery.
-  std::uint32_t first_own = 0;  ///< Of its own axes.
-  std::uint8_t own_count = 0;
+  PieceIndex piece = 0;                     ///< In the scenery.
+  std::vector<OwnAxis> own{};               ///< The axes that follow the shared ones.
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
   bool whole_collider = false;              ///< Its collider has no other piece.
   OneWaySurfaces::Index surface = OneWaySurfaces::none;  ///< Of a one-way segment,
   const OneWaySurfaces* surfaces = nullptr;              ///< and which one that is.
-  /// Bit per shared axis: the facet lies inside other obstacles, so nothing free ever touches it. An edge shared by two
+  /// Bit per axis: the facet lies inside other obstacles, so nothing free ever touches it. An edge shared by two
   /// pieces or covered by an abutting tile is such a facet: no contact may have its normal.
-  std::uint16_t covered = 0;
-  std::uint16_t hidden = 0;      ///< Of the covered ones those of which less is open than counts as closed.
+  std::uint64_t covered = 0;
+  std::uint64_t hidden = 0;      ///< Of the covered ones those of which less is open than counts as closed.
   bool knows_its_seams = false;  ///< What is covered and hidden is known.
   double angle = 0;              ///< Of its mover [rad].
   std::vector<Vec2d> turned{};   ///< Its vertices, if there is an angle.
@@ -172,9 +193,7 @@ class ConfigurationSpace {
   [[nodiscard]] auto offsets(PieceIndex piece, std::size_t group) const noexcept {
     return obstacles_[piece].offsets.group(group);
   }
-  [[nodiscard]] std::span<const OwnAxis> own_axes(PieceIndex piece) const noexcept {
-    return std::span(own_axes_).subspan(info(piece).first_own, info(piece).own_count);
-  }
+  [[nodiscard]] std::span<const OwnAxis> own_axes(PieceIndex piece) const noexcept { return info(piece).own; }
   /// A circle has an axis of its own, a tangent like any other: where a piece has none, nothing more is asked.
   [[nodiscard]] bool is_circle(PieceIndex piece) const noexcept { return info(piece).source.is_circle(); }
   [[nodiscard]] Circle circle(PieceIndex piece) const noexcept { return circle(info(piece)); }
@@ -186,7 +205,7 @@ class ConfigurationSpace {
   [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle& near) noexcept {
     return axis_along(near.normal);
   }
-  [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return axes_.lanes + info(piece).own_count; }
+  [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return axes_.lanes + info(piece).own.size(); }
   [[nodiscard]] PAPERPROOF_INLINE Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < axes_.lanes) return {axes_.x[axis], axes_.y[axis]};
     if (is_direction(axis)) [[unlikely]]
@@ -203,12 +222,10 @@ class ConfigurationSpace {
   }
   [[nodiscard]] OctagonFace face_along(const Vec2& normal) const noexcept { return axes_.face_along(normal); }
   [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const noexcept {
-    if (axis >= axes_.lanes) return !is_direction(axis) && own_axes(piece)[axis - axes_.lanes].covered;
-    return ((info(piece).covered >> axis) & 1U) != 0;
+    return !is_direction(axis) && (info(piece).covered >> axis & 1U) != 0;
   }
   [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const noexcept {
-    if (axis >= axes_.lanes) return !is_direction(axis) && own_axes(piece)[axis - axes_.lanes].hidden;
-    return ((info(piece).hidden >> axis) & 1U) != 0;
+    return !is_direction(axis) && (info(piece).hidden >> axis & 1U) != 0;
   }
   /// Separation along one axis at p [m].
   [[nodiscard]] PAPERPROOF_INLINE Real separation(PieceIndex piece, std::size_t axis, const Vec2& p) const noexcept {
@@ -252,10 +269,8 @@ class ConfigurationSpace {
   void drop(PieceIndex source);
   void drop_all();
   void find_axes(Obstacle& obstacle);
-  void keep_own(Obstacle& obstacle);
   void find_seams(PieceIndex piece);
   void find_neighbours(PieceIndex piece);
-  void set_open(PieceIndex piece, std::size_t axis, double open) noexcept;
   [[nodiscard]] double open_part(const Facet& facet);
   [[nodiscard]] Interval inside(const Facet& facet, PieceIndex other) const noexcept;
   [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis, double noise) const noexcept;
@@ -274,40 +289,11 @@ class ConfigurationSpace {
   SharedAxes axes_;
   std::vector<Obstacle> obstacles_;
   std::vector<PieceIndex> free_obstacles_;
-  std::vector<OwnAxis> own_axes_;
-  FreeRanges free_own_;
   std::uint64_t edit_ = 0;            ///< See `EditLog::count`.
   std::vector<PieceIndex> index_of_;  ///< Among the obstacles, of each solid piece: one more, or zero for none.
   // While an obstacle is made.
-  std::vector<OwnAxis> own_;
   std::vector<PieceIndex> neighbours_;  ///< What may cover its facets.
   std::vector<Interval> inside_;        ///< Parts of the present facet that are in another obstacle.
 };
-
-inline std::size_t axis_along(const Vec2d& direction) noexcept {
-  static_assert(sizeof(std::size_t) == 8);
-  const bool level = std::abs(direction.x()) >= std::abs(direction.y());
-  const std::size_t quarter = level ? (direction.x() > 0 ? 0 : 2) : (direction.y() > 0 ? 1 : 3);
-  const double tangent = level ? direction.y() / direction.x() : -direction.x() / direction.y();
-  return std::size_t{1} << 63U | quarter << 61U |
-         static_cast<std::size_t>(static_cast<std::int64_t>(tangent * 0x1p59) + (std::int64_t{1} << 59U));
-}
-
-inline Vec2d direction_of(std::size_t axis) noexcept {
-  const auto rest = static_cast<std::int64_t>(axis & ((std::size_t{1} << 61U) - 1));
-  const double tangent = static_cast<double>(rest - (std::int64_t{1} << 59U)) * 0x1p-59;
-  const double large = 1 / std::sqrt(1 + tangent * tangent);
-  const double small = tangent * large;
-  switch (axis >> 61U & 3U) {
-    case 0:
-      return {large, small};
-    case 1:
-      return {0 - small, large};
-    case 2:
-      return {-large, 0 - small};
-    default:
-      return {small, -large};
-  }
-}
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -135,7 +135,7 @@ PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion
   });
   result.start = start.maxCoeff();
   result.kept = kept.maxCoeff();
-  if (space.info(piece).own_count == 0) return result;
+  if (space.own_axes(piece).empty()) return result;
   if (space.is_circle(piece)) [[unlikely]] {
     const auto [start_of_circle, kept_by_circle] = clearance_of_circle(space, motion, piece);
     result.start = start_of_circle;
