@@ -17,7 +17,8 @@ namespace paperproof::compare {
 namespace {
 
 bool has_slopes(const Scenery& scenery) {
-  for (PieceIndex piece = 0; piece < scenery.sensor_pieces().first; ++piece) {
+  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
+    if (scenery.pieces()[piece].sensor) continue;
     if (scenery.pieces()[piece].is_circle()) return true;
     if (scenery.pieces()[piece].is_rectangle()) continue;
     const auto vertices = scenery.vertices_of(piece);
@@ -65,7 +66,7 @@ LevelPlan plan_of(const Scenery& scenery, const Planning& planning) {
             "nothing moves and there is no conveyor, so no mover is looked up and nothing carries the character");
   leave_out(has_one_way_chains(scenery), "one_way",
             "there is no one-way chain, so no surface is built and none is asked for its side");
-  leave_out(scenery.sensor_pieces().size() > 0, "sensors", "there is no sensor, so no path is searched for one");
+  leave_out(scenery.counts().sensors > 0, "sensors", "there is no sensor, so no path is searched for one");
   return plan;
 }
 

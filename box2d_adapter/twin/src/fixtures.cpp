@@ -93,10 +93,9 @@ void add_polygon_piece(b2Body& body, std::span<const Vec2d> vertices, const Fixt
 bool is_chain(const PieceInfo& piece) { return piece.vertex_count == 2; }
 
 void add_pieces(b2Body& body, const Scenery& scenery, const Part& part, SceneryFixtures& made) {
-  const PieceRange range = part.mover == no_mover ? scenery.static_pieces() : scenery.pieces_of_mover(part.mover);
-  for (PieceIndex i = range.first; i < range.end; ++i) {
+  for (PieceIndex i = 0; i < scenery.pieces().size(); ++i) {
     const PieceInfo& piece = scenery.pieces()[i];
-    if (!is_chain(piece) && !piece.is_circle())
+    if (piece.mover == part.mover && !piece.sensor && !is_chain(piece) && !piece.is_circle())
       add_polygon_piece(body, scenery.vertices_of(i), {.collider = piece.collider, .mover = part.mover}, made);
   }
 }
@@ -246,9 +245,9 @@ void add_solids(b2Body& body, const Scenery& scenery, const Part& part, SceneryM
 
 void add_sensors(std::span<b2Body* const> bodies, const Scenery& scenery, const SceneryDef& as_run,
                  SceneryFixtures& made) {
-  const PieceRange range = scenery.sensor_pieces();
-  for (PieceIndex i = range.first; i < range.end; ++i) {
+  for (PieceIndex i = 0; i < scenery.pieces().size(); ++i) {
     const PieceInfo& piece = scenery.pieces()[i];
+    if (!piece.sensor) continue;
     const MoverIndex mover = as_run.colliders[piece.collider].mover;
     b2Body& body = *bodies[mover == no_mover ? 0 : mover + 1];
     const FixtureSource source{.collider = piece.collider, .mover = mover, .sensor = true};
