@@ -60,21 +60,6 @@ void check_all_corners(const Points& hull) {
   }
 }
 
-/// The one or two points furthest in direction (x, y), one of which is 0 and the other 1 or -1, sorted along the side.
-CharacterShape::Pair extreme_pair(std::span<const Vec2d> points, double x, double y) {
-  const auto reach = [&](std::size_t i) { return points[i].x() * x + points[i].y() * y; };
-  const auto along = [&](std::size_t i) { return points[i].x() * std::abs(y) + points[i].y() * std::abs(x); };
-  CharacterShape::Pair pair{0, 0};
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (reach(i) > reach(pair[0])) {
-      pair = {i, i};
-    } else if (reach(i) == reach(pair[0])) {
-      pair[along(i) < along(pair[0]) ? 0 : 1] = i;
-    }
-  }
-  return pair;
-}
-
 void require(bool holds, const char* name, const char* what) {
   if (!holds) throw InvalidCharacter(std::string(name) + " must be " + what);
 }
@@ -106,10 +91,6 @@ CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, dou
 CharacterShape::CharacterShape(std::span<const Vec2d> points)
     : points_(checked_points(points)), hull_(outline_of(points_)), box_(Box2::around(this->points())) {
   check_all_corners(hull_);
-  pairs_[static_cast<std::size_t>(Side::top)] = extreme_pair(this->points(), 0, 1);
-  pairs_[static_cast<std::size_t>(Side::bottom)] = extreme_pair(this->points(), 0, -1);
-  pairs_[static_cast<std::size_t>(Side::left)] = extreme_pair(this->points(), -1, 0);
-  pairs_[static_cast<std::size_t>(Side::right)] = extreme_pair(this->points(), 1, 0);
 }
 
 void CharacterDef::validate() const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -255,33 +256,17 @@ Scenery::Scenery(const SceneryDef& def) {
   colliders_.resize(def.colliders.size());
   pieces_.reserve(def.colliders.size());
   boxes_.reserve(def.colliders.size());
+  // Standing colliders, moving ones by mover, and sensors likewise; colliders of one kind keep their order.
+  std::vector<ColliderIndex> order(colliders_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto role = [&](ColliderIndex i) { return std::pair(def.colliders[i].sensor, def.colliders[i].mover); };
+  const auto others = std::stable_partition(order.begin(), order.end(),
+                                            [&](ColliderIndex i) { return role(i) == std::pair(false, no_mover); });
+  std::stable_sort(others, order.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
   ColliderDef accepted;
-  const auto add = [&](ColliderIndex i) {
-    const ColliderDef& given = def.colliders[i];
-    const PieceIndex first = cut(i, given, accepted);
+  for (const ColliderIndex i : order) {
+    const PieceIndex first = cut(i, def.colliders[i], accepted);
     place(i, accepted, first);
-    return static_cast<PieceIndex>(pieces_.size());
-  };
-  // Order: standing colliders, moving colliders by mover, sensors likewise; colliders of one kind keep their order.
-  std::vector<ColliderIndex> others;
-  for (ColliderIndex i = 0; i < colliders_.size(); ++i) {
-    const ColliderDef& given = def.colliders[i];
-    if (given.sensor || given.mover != no_mover)
-      others.push_back(i);
-    else
-      static_count_ = add(i);
-  }
-  const auto role = [&](ColliderIndex i) {
-    const ColliderDef& given = def.colliders[i];
-    return std::pair(given.sensor, given.mover);
-  };
-  std::stable_sort(others.begin(), others.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
-  mover_begin_.assign(1, static_count_);
-  for (const ColliderIndex i : others) {
-    const PieceIndex count = add(i);
-    // A mover that moves only sensors has no solid pieces.
-    mover_begin_.resize(moving_.size() + 1, mover_begin_.back());
-    if (!def.colliders[i].sensor) mover_begin_.back() = count;
   }
   pieces_.shrink_to_fit();
   boxes_.shrink_to_fit();

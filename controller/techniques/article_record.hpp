@@ -17,7 +17,7 @@ class FrameRecord {
   [[nodiscard]] const FrameOfReference& frame() const noexcept { return frame_; }
   [[nodiscard]] MoveResult& result() noexcept { return result_; }
   [[nodiscard]] bool shortens() const noexcept { return parts_.knobs.response == ArticleKnobs::Response::shorten; }
-  [[nodiscard]] const CharacterShape::Pair& pair(Side side) const noexcept {
+  [[nodiscard]] const PointPair& pair(Side side) const noexcept {
     return parts_.points.pairs[static_cast<std::size_t>(side)];
   }
   [[nodiscard]] ColliderIndex collider_of(const PointHit& hit) const noexcept {

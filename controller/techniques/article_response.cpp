@@ -14,7 +14,7 @@ struct Groups final : OwnMemory {
 CollisionPoints points_of(const CharacterShape& shape) {
   CollisionPoints points;
   for (const Vec2d& point : shape.points()) points.offsets.push_back(point);
-  for (const Side side : all_sides) points.pairs[static_cast<std::size_t>(side)] = shape.pair(side);
+  for (const Side side : all_sides) points.pairs[static_cast<std::size_t>(side)] = points_of_side(shape.points(), side);
   points.box = {shape.box().lower, shape.box().upper};
   return points;
 }
@@ -39,7 +39,7 @@ double length(const Vec2d& vector) noexcept { return std::sqrt(vector.x() * vect
 
 Parts::Parts(const TechniqueDef& def, const Scenery& where, const CharacterDef& character)
     : scenery(&where),
-      broad_phase(make_broad_phase(def.broad_phase, where.static_boxes())),
+      broad_phase(make_broad_phase(def.broad_phase, standing_boxes(where))),
       points(def.article.points == 4 ? corners_of_box(character.shape) : points_of(character.shape)),
       unit(def.article.unit),
       something_carries(paperproof::something_carries(where)),
@@ -82,7 +82,7 @@ std::span<const PieceGroup> Parts::groups_near(const Box2& box, const FrameOfRef
   for (MoverIndex mover = 0; mover < scenery->mover_count(); ++mover) {
     add(mover, [&](const Box2& seen, std::span<PieceIndex> room) {
       std::size_t count = 0;
-      const PieceRange pieces = scenery->pieces_of_mover(mover);
+      const PieceRange pieces = pieces_of_mover(*scenery, mover);
       for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
         if (scenery->box(piece).overlaps(seen)) room[count++] = piece;
       return count;
@@ -96,7 +96,7 @@ bool Parts::inside(const NearbyScenery& nearby, const Vec2d& position) const noe
                      [&](const Vec2d& offset) { return nearby.containing(position + offset).has_value(); });
 }
 
-bool collides(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair, const Vec2d& from,
+bool collides(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& from,
               const Vec2d& to) noexcept {
   for (const std::size_t i : distinct(pair)) {
     const Vec2d here = from + parts.points.offsets[i];
@@ -147,7 +147,7 @@ namespace {
 Vec2d farthest_motion(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept {
   Vec2d farthest{Vec2d::Zero()};
   for (MoverIndex mover = 0; mover < request.movers.size(); ++mover) {
-    if (scenery.pieces_of_mover(mover).size() == 0) continue;
+    if (pieces_of_mover(scenery, mover).size() == 0) continue;
     const MoverMotion& motion = request.movers[mover];
     farthest = farthest.cwiseMax((motion.to - motion.from).cwiseAbs());
   }

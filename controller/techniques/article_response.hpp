@@ -23,6 +23,7 @@
 
 #include "techniques/frame_of_reference.hpp"
 #include "techniques/nearby_scenery.hpp"
+#include "techniques/side_points.hpp"
 
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
@@ -45,7 +46,7 @@ inline constexpr std::string_view too_many_units = "the motion needs more than 1
 /// Where the collision points are, and which of them belong to a side.
 struct CollisionPoints {
   FixedVector<Vec2d, CharacterShape::max_points> offsets;  ///< Relative to the character's position [m].
-  std::array<CharacterShape::Pair, 4> pairs{};             ///< By Side; a corner has the same index twice.
+  std::array<PointPair, 4> pairs{};                        ///< By Side; a corner has the same index twice.
   Box2 box;                                                ///< Around the offsets [m].
 };
 
@@ -106,11 +107,11 @@ struct PairImpact {
 
 /// Some point of the pair would be in something at `to`, or run across a chain on the way.
 /// @param from, to positions of the character as the pieces see it.
-[[nodiscard]] bool collides(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
-                            const Vec2d& from, const Vec2d& to) noexcept;
+[[nodiscard]] bool collides(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& from,
+                            const Vec2d& to) noexcept;
 
 /// Searches along `movement` (not zero) of a character at `position`, for one pair.
-using ImpactSearch = PairImpact (*)(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
+using ImpactSearch = PairImpact (*)(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair,
                                     const Vec2d& position, const Vec2d& movement) noexcept;
 
 /// One frame of the article's method.
@@ -149,7 +150,7 @@ void add_once(ColliderIndex collider, Colliders& all) noexcept {
 bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double fraction, MoveResult& result) noexcept;
 
 /// The points of a pair, or its one point where the side is a corner.
-[[nodiscard]] inline std::span<const std::size_t> distinct(const CharacterShape::Pair& pair) noexcept {
+[[nodiscard]] inline std::span<const std::size_t> distinct(const PointPair& pair) noexcept {
   return std::span(pair).first(pair[0] == pair[1] ? 1U : 2U);
 }
 

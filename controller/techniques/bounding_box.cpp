@@ -56,12 +56,13 @@ class BoundingBox final : public Technique {
  public:
   BoundingBox(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
+        moving_(moving_pieces(scenery)),
         character_{character.shape.box().lower, character.shape.box().upper},
         iterations_(def.article.iterations) {
     grown_.reserve(scenery.pieces().size());  // the broad phase looks at them where they are
-    for (const Box2& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
+    for (const Box2& box : standing_boxes(scenery)) grown_.push_back(grown(box, character_));
     broad_phase_ = make_broad_phase(def.broad_phase, grown_);
-    for (PieceIndex piece = scenery.static_pieces().end; piece < moving_end(); ++piece)
+    for (PieceIndex piece = moving_.first; piece < moving_.end; ++piece)
       grown_.push_back(grown(scenery.box(piece), character_));
   }
 
@@ -77,8 +78,6 @@ class BoundingBox final : public Technique {
   using Pieces = std::span<const PieceIndex>;
   using Movers = std::span<const MoverMotion>;
 
-  /// One past the last piece that goes along with a mover; they follow those that stand.
-  [[nodiscard]] PieceIndex moving_end() const noexcept { return scenery_->sensor_pieces().first; }
   /// Where a piece is at the end of the step, relative to where it was defined [m].
   [[nodiscard]] Vec2d offset(PieceIndex piece, Movers movers) const noexcept {
     const MoverIndex mover = scenery_->pieces()[piece].mover;
@@ -95,6 +94,7 @@ class BoundingBox final : public Technique {
   void meet(PieceIndex piece, Side side, Movers movers, MoveResult& result) const noexcept;
 
   const Scenery* scenery_;
+  PieceRange moving_;
   Box2 character_;
   int iterations_;
   std::vector<Box2> grown_;  ///< By piece; of what moves, where it is defined.
@@ -120,7 +120,7 @@ typename BoundingBox::Pieces BoundingBox::near(const Vec2d& here, const Vec2d& t
   const Box2 total{here.cwiseMin(there), here.cwiseMax(there)};
   scratch.solids.valid = false;
   scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
-  for (PieceIndex piece = scenery_->static_pieces().end; piece < moving_end(); ++piece)
+  for (PieceIndex piece = moving_.first; piece < moving_.end; ++piece)
     if (box_of(piece, movers).overlaps(total)) scratch.solids.pieces[scratch.solids.count++] = piece;
   return Pieces(scratch.solids.pieces).first(scratch.solids.count);
 }

@@ -9,6 +9,26 @@
 
 namespace paperproof {
 
+/// Where the pieces of a rank begin. Until a scenery is edited its pieces stand in this order: the solid ones without a
+/// mover (rank 0), those of mover 0, of mover 1 and so on (rank 1, 2, ...), then the sensors.
+[[nodiscard]] inline PieceIndex first_of_rank(const Scenery& scenery, std::size_t rank) noexcept {
+  const auto pieces = scenery.pieces();
+  const auto found = std::partition_point(pieces.begin(), pieces.end(), [&](const PieceInfo& piece) {
+    return !piece.sensor && (piece.mover == no_mover ? 0 : piece.mover + std::size_t{1}) < rank;
+  });
+  return static_cast<PieceIndex>(found - pieces.begin());
+}
+[[nodiscard]] inline std::span<const Box2> standing_boxes(const Scenery& scenery) noexcept {
+  return scenery.boxes().first(first_of_rank(scenery, 1));
+}
+[[nodiscard]] inline PieceRange pieces_of_mover(const Scenery& scenery, MoverIndex mover) noexcept {
+  return {first_of_rank(scenery, mover + std::size_t{1}), first_of_rank(scenery, mover + std::size_t{2})};
+}
+/// The solid pieces that have a mover.
+[[nodiscard]] inline PieceRange moving_pieces(const Scenery& scenery) noexcept {
+  return {first_of_rank(scenery, 1), first_of_rank(scenery, std::size_t{no_mover} + 1)};
+}
+
 /// Takes the one-way segments out of a list of pieces, for a step that drops through them.
 /// @returns how many are left, at its front, in their order.
 [[nodiscard]] inline std::size_t without_one_way(const Scenery& scenery, std::span<PieceIndex> pieces) noexcept {

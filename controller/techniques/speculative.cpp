@@ -19,8 +19,8 @@ using article::Parts;
 /// The time of impact is rounded, and so is the position that it leads to: without this the next frame would find the
 /// point an ulp inside, and penetration resolution would push it out by a whole unit. Doubling reaches any rounding
 /// error in a few tests.
-double just_outside(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
-                    const Vec2d& position, const Vec2d& movement, double fraction) noexcept {
+double just_outside(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& position,
+                    const Vec2d& movement, double fraction) noexcept {
   const double scale = position.cwiseAbs().maxCoeff() / movement.cwiseAbs().maxCoeff();
   double back = std::numeric_limits<double>::epsilon() * std::max(scale, fraction);
   while (fraction > 0 && collides(parts, nearby, pair, position, position + movement * fraction)) {
@@ -30,8 +30,8 @@ double just_outside(const Parts& parts, const NearbyScenery& nearby, const Chara
   return fraction;
 }
 
-PairImpact time_of_impact(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
-                          const Vec2d& position, const Vec2d& movement) noexcept {
+PairImpact time_of_impact(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& position,
+                          const Vec2d& movement) noexcept {
   PairImpact impact;
   for (const std::size_t i : distinct(pair)) {
     const auto entry = nearby.first_entry(position + parts.points.offsets[i], movement);

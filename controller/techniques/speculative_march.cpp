@@ -23,8 +23,8 @@ using article::Parts;
 
 /// What the points of a pair collide with when a step takes them from one position to the next. At the start the two
 /// are the same.
-PairImpact collisions(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
-                      const Vec2d& from, const Vec2d& to, const Vec2d& movement) noexcept {
+PairImpact collisions(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& from,
+                      const Vec2d& to, const Vec2d& movement) noexcept {
   PairImpact impact;
   for (const std::size_t i : article::distinct(pair)) {
     const Vec2d here = from + parts.points.offsets[i];
@@ -38,8 +38,8 @@ PairImpact collisions(const Parts& parts, const NearbyScenery& nearby, const Cha
   return impact;
 }
 
-PairImpact march(const Parts& parts, const NearbyScenery& nearby, const CharacterShape::Pair& pair,
-                 const Vec2d& position, const Vec2d& movement) noexcept {
+PairImpact march(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& position,
+                 const Vec2d& movement) noexcept {
   const double vector_length = article::length(movement);
   const Vec2d one_unit = movement / vector_length * parts.unit;
   const double whole_units = std::floor(vector_length / parts.unit);

@@ -10,6 +10,7 @@
 #include "exact_reference.hpp"
 #include "support/refusal.hpp"
 #include "support/steps_wanted.hpp"
+#include "techniques/side_points.hpp"
 
 namespace paperproof {
 namespace {
@@ -23,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::vector<Points> pairs_of(const CharacterShape& shape) {
   std::vector<Points> pairs;
   for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
-    const auto [first, second] = shape.pair(side);
+    const auto [first, second] = points_of_side(shape.points(), side);
     pairs.push_back({shape.points()[first], shape.points()[second]});
   }
   return pairs;

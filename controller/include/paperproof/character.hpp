@@ -21,9 +21,6 @@ class InvalidCharacter : public std::invalid_argument {
 class CharacterShape {
  public:
   static constexpr std::size_t max_points = 8;
-  /// Indices of the two points of a side: top and bottom from left to right, left and right from bottom to top. A side
-  /// that is a corner has the same index twice.
-  using Pair = std::array<std::size_t, 2>;
 
   /// The article's 20 x 40 pixel character: two points each for head, feet, left and right arm, at `pixels_per_metre`.
   [[nodiscard]] static CharacterShape article(double pixels_per_metre = 32);
@@ -41,13 +38,10 @@ class CharacterShape {
   /// The same points, counter-clockwise, starting with the lowest (leftmost of equals).
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
   [[nodiscard]] const Box2& box() const noexcept { return box_; }
-  /// The points of one side: those at the extreme of that direction. For the article's character these are its pairs.
-  [[nodiscard]] Pair pair(Side side) const noexcept { return pairs_[static_cast<std::size_t>(side)]; }
 
  private:
   FixedVector<Vec2d, max_points> points_;
   FixedVector<Vec2d, max_points> hull_;
-  std::array<Pair, 4> pairs_{};
   Box2 box_;
 };
 

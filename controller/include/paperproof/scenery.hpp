@@ -289,6 +289,8 @@ class Scenery {
   [[nodiscard]] const EditLog& edits() const noexcept { return edits_; }
   [[nodiscard]] const SceneryCounts& counts() const noexcept { return counts_; }
 
+  /// Without edits, pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1,
+  /// …; then the sensors, by mover, and last those that do not move.
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
   [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept {
     const PieceInfo& info = pieces_[piece];
@@ -299,15 +301,6 @@ class Scenery {
   [[nodiscard]] Circle circle(PieceIndex piece) const noexcept {
     const Vec2d* stored = vertices_.data() + pieces_[piece].first_vertex;
     return {stored[0], stored[1].x()};
-  }
-  /// Without edits, pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1,
-  /// …; then the sensors, by mover, and last those that do not move.
-  [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
-  [[nodiscard]] PieceRange pieces_of_mover(MoverIndex mover) const noexcept {
-    return {mover_begin_[mover], mover_begin_[mover + 1]};
-  }
-  [[nodiscard]] PieceRange sensor_pieces() const noexcept {
-    return {mover_begin_.back(), static_cast<PieceIndex>(pieces_.size())};
   }
   /// One more than the highest index of a mover that moves a collider.
   [[nodiscard]] std::size_t mover_count() const noexcept { return moving_.size(); }
@@ -329,7 +322,6 @@ class Scenery {
   /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
   [[nodiscard]] const Box2& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
   [[nodiscard]] std::span<const Box2> boxes() const noexcept { return boxes_; }
-  [[nodiscard]] std::span<const Box2> static_boxes() const noexcept { return boxes().first(static_count_); }
 
   /// Colliders have slots; the slot of one that was removed is free for another.
   [[nodiscard]] std::size_t collider_count() const noexcept { return colliders_.size(); }
@@ -398,8 +390,6 @@ class Scenery {
   std::size_t size_ = 0;
   SceneryCounts counts_;
   EditLog edits_;
-  PieceIndex static_count_ = 0;
-  std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.
 };
 
 /// A scenery that is edited between steps: tiles that break, doors, bridges. To add, replace or remove a collider takes

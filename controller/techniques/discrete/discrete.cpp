@@ -46,7 +46,7 @@ class Discrete final : public JointTechnique {
  public:
   Discrete(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
-        broad_phase_(make_broad_phase(def.broad_phase, scenery.static_boxes())),
+        broad_phase_(make_broad_phase(def.broad_phase, standing_boxes(scenery))),
         box_{character.shape.box().lower, character.shape.box().upper},
         iterations_(def.article.iterations),
         fastest_surface_(fastest_surface(scenery)) {
@@ -66,7 +66,7 @@ class Discrete final : public JointTechnique {
   /// What the character overlaps.
   struct Inside {
     bool anything = false;
-    bool what_stands_still = false;          ///< By however little: a push must not lead into it.
+    bool what_stands_still = false;           ///< By however little: a push must not lead into it.
     FixedVector<ColliderIndex, 64> movers{};  ///< Colliders of those that move in this step.
   };
 
@@ -200,12 +200,12 @@ std::span<Body> Discrete::gather(std::span<const Frame> frames, Scratch& scratch
     work.gathered[piece] = 1;
     work.near.push_back(piece);
   };
-  const PieceIndex movers_end = scenery_->sensor_pieces().first;
+  const PieceRange moving = moving_pieces(*scenery_);
   for (const Frame& frame : frames) {
     const Box2 total = frame.character.total_box();
     const std::size_t found = broad_phase_->query(total, scratch.solids.pieces);
     for (const PieceIndex piece : std::span(scratch.solids.pieces).first(found)) add(piece);
-    for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece)
+    for (PieceIndex piece = moving.first; piece < moving.end; ++piece)
       if (body_of(piece, frame.place).total_box().overlaps(total)) add(piece);
   }
   for (const PieceIndex piece : work.near) work.gathered[piece] = 0;

@@ -5,7 +5,7 @@
 namespace paperproof::raster {
 RasterParts::RasterParts(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
     : scenery_(&scenery),
-      broad_phase_(make_broad_phase(def.broad_phase, scenery.static_boxes())),
+      broad_phase_(make_broad_phase(def.broad_phase, standing_boxes(scenery))),
       pixels_per_metre_(def.article.raster_pixels_per_metre),
       lower_(character.shape.box().lower),
       sprite_(character.shape, pixels_per_metre_) {}

@@ -1,5 +1,7 @@
 #include "techniques/raster/sprite.hpp"
 
+#include "techniques/side_points.hpp"
+
 #include <paperproof/techniques.hpp>
 
 namespace paperproof::raster {
@@ -49,7 +51,7 @@ Sprite::Sprite(const CharacterShape& shape, double pixels_per_metre) : mask_(mas
     const Vec2d at = (point - shape.box().lower) * pixels_per_metre;
     points_.push_back({pixel_of(at.x(), size.x() / 2), pixel_of(at.y(), size.y() / 2)});
   }
-  const CharacterShape::Pair pair = shape.pair(Side::bottom);
+  const PointPair pair = points_of_side(shape.points(), Side::bottom);
   feet_ = {points_[pair[0]], points_[pair[1]]};
 }
 
