@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -343,13 +344,14 @@ class Scenery {
     std::vector<Vec2d> points;
     std::vector<std::vector<Vec2d>> holes;
   };
+  /// Where the points of a collider are: they are the vertices of its only piece, or those from the last to the first,
+  /// or in `shapes_`.
+  enum class Points : std::uint8_t { of_piece, of_piece_backwards, own };
   /// The data from which a collider's definition is rebuilt.
   struct Collider {
-    static constexpr std::uint32_t piece = ~std::uint32_t{0};    ///< Its points are the vertices of its only piece,
-    static constexpr std::uint32_t piece_backwards = piece - 1;  ///< or those from the last to the first.
-    std::uint32_t kind = 0;                                      ///< Into `kinds_`.
+    std::uint32_t kind = 0;  ///< Into `kinds_`.
     PieceIndex first_piece = 0;
-    std::uint32_t shape = piece;  ///< Or into `shapes_`.
+    Points points = Points::of_piece;
     std::uint8_t generation = 0;
     bool is_used = false;
   };
@@ -371,15 +373,14 @@ class Scenery {
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> vertices_of(PieceRange pieces) const noexcept;
   void move_vertices(PieceRange pieces);
   [[nodiscard]] std::uint32_t kind_of(const ColliderInfo& info);
-  [[nodiscard]] std::uint32_t shape_of(ColliderIndex collider, const ColliderDef& accepted);
+  [[nodiscard]] Points points_of(ColliderIndex collider, const ColliderDef& accepted) const;
 
   std::deque<Kind> kinds_;
   std::vector<std::uint32_t> free_kinds_;
   std::uint32_t last_kind_ = 0;
   std::vector<Collider> colliders_;
   std::vector<std::uint32_t> free_slots_;
-  std::vector<Shape> shapes_;
-  std::vector<std::uint32_t> free_shapes_;
+  std::unordered_map<std::uint32_t, Shape> shapes_;  ///< By slot.
   std::vector<PieceInfo> pieces_;
   std::vector<Box2> boxes_;
   FreeRanges free_pieces_;

@@ -77,25 +77,16 @@ class Tiling {
 
   /// Pairs each side that is walked both ways with its opposite.
   [[nodiscard]] std::vector<std::pair<SideIndex, SideIndex>> diagonals() const {
-    struct Named {
-      std::uint32_t low, high;
-      SideIndex side;
-    };
-    std::vector<Named> named;
+    std::vector<std::array<std::uint32_t, 3>> named;  // both ends, the lower index first, and the side
     for (SideIndex i = 0; i < sides_.size(); ++i) {
-      const std::uint32_t from = sides_[i].vertex;
-      const std::uint32_t to = sides_[sides_[i].next].vertex;
-      named.push_back({std::min(from, to), std::max(from, to), i});
+      const auto [low, high] = std::minmax(sides_[i].vertex, sides_[sides_[i].next].vertex);
+      named.push_back({low, high, i});
     }
-    std::sort(named.begin(), named.end(), [](const Named& a, const Named& b) {
-      return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.side < b.side;
-    });
+    std::sort(named.begin(), named.end());
     std::vector<std::pair<SideIndex, SideIndex>> pairs;
-    for (std::size_t i = 1; i < named.size(); ++i) {
-      if (named[i - 1].low == named[i].low && named[i - 1].high == named[i].high) {
-        pairs.emplace_back(named[i - 1].side, named[i].side);
-      }
-    }
+    for (std::size_t i = 1; i < named.size(); ++i)
+      if (named[i - 1][0] == named[i][0] && named[i - 1][1] == named[i][1])
+        pairs.emplace_back(named[i - 1][2], named[i][2]);
     return pairs;
   }
 

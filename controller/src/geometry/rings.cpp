@@ -128,35 +128,42 @@ bool is_convex(Ring ring) noexcept {
   return turn != 0 && reversals == 2;
 }
 
+std::size_t leftmost(Ring ring) noexcept {
+  return static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), left_of) - ring.begin());
+}
+
 int winding(Ring ring) noexcept {
-  std::size_t leftmost = 0;
-  for (std::size_t i = 1; i < ring.size(); ++i) {
-    if (left_of(ring[i], ring[leftmost])) leftmost = i;
-  }
+  const std::size_t corner = leftmost(ring);
   const std::size_t size = ring.size();
-  return orientation_sign(ring[(leftmost + size - 1) % size], ring[leftmost], ring[(leftmost + 1) % size]);
+  return orientation_sign(ring[(corner + size - 1) % size], ring[corner], ring[(corner + 1) % size]);
+}
+
+void check_neighbours(std::span<const Vec2d> points, bool is_closed, const std::string& name) {
+  for (std::size_t i = 0; i + (is_closed ? 0 : 1) < points.size(); ++i) {
+    const std::size_t next = (i + 1) % points.size();
+    if (points[i] == points[next]) {
+      throw InvalidRings(name + " has the same point twice in a row: points " + std::to_string(i) + " and " +
+                         std::to_string(next) + " (counted from 0) are both " + text_of(points[next]));
+    }
+  }
 }
 
 void check_ring(Ring ring, const std::string& name) {
   const std::size_t size = ring.size();
   if (size < 3) throw InvalidRings(name + " needs at least 3 points, it has " + std::to_string(size));
+  check_neighbours(ring, true, name);
   bool has_area = false;
-  for (std::size_t i = 0; i < size; ++i) {
-    const Vec2d& next = ring[(i + 1) % size];
-    if (ring[i] == next) {
-      throw InvalidRings(name + " has the same point twice in a row: points " + std::to_string(i) + " and " +
-                         std::to_string((i + 1) % size) + " (counted from 0) are both " + text_of(next));
-    }
-    has_area = has_area || orientation_sign(ring[i], next, ring[(i + 2) % size]) != 0;
-  }
-  if (!has_area) throw InvalidRings(name + " has no area: all its points are on one line");
+  const Vec2d* fold = nullptr;
   for (std::size_t i = 0; i < size; ++i) {
     const Vec2d& corner = ring[(i + 1) % size];
     const Vec2d& next = ring[(i + 2) % size];
-    if (orientation_sign(ring[i], corner, next) == 0 && left_of(ring[i], corner) != left_of(corner, next)) {
-      throw InvalidRings(name + " folds back onto itself at " + text_of(corner));
-    }
+    if (orientation_sign(ring[i], corner, next) != 0)
+      has_area = true;
+    else if (fold == nullptr && left_of(ring[i], corner) != left_of(corner, next))
+      fold = &corner;
   }
+  if (!has_area) throw InvalidRings(name + " has no area: all its points are on one line");
+  if (fold != nullptr) throw InvalidRings(name + " folds back onto itself at " + text_of(*fold));
 }
 
 void check_rings(std::span<const Ring> rings) {

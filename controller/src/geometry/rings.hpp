@@ -32,8 +32,15 @@ class InvalidRings : public std::invalid_argument {
 /// ring needs no other check. Exact; linear in the number of vertices.
 [[nodiscard]] bool is_convex(Ring ring) noexcept;
 
+/// Which of some points is the first in the order of sweeps.
+[[nodiscard]] std::size_t leftmost(Ring ring) noexcept;
+
 /// +1: counter-clockwise, -1: clockwise. Exact. `ring` must not touch itself and must have an area.
 [[nodiscard]] int winding(Ring ring) noexcept;
+
+/// @param is_closed the first point follows the last.
+/// @throws InvalidRings on a point that repeats the one before it.
+void check_neighbours(std::span<const Vec2d> points, bool is_closed, const std::string& name);
 
 /// Checks that a ring alone could bound something.
 /// @param name the ring's name in a message: "the outline".

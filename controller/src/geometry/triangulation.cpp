@@ -123,18 +123,14 @@ NodeIndex bridge_end(const Outline& outline, NodeIndex start, const Vec2d& hole_
 
 /// Joins holes from left to right, so that everything on the left of a hole is one ring already.
 void bridge_holes(Outline& outline, const DirectedRings& rings) {
-  std::vector<NodeIndex> leftmost;
+  std::vector<NodeIndex> nodes;  // the leftmost one of each hole
   for (std::size_t hole = 1; hole < rings.first_vertex.size(); ++hole) {
-    const NodeIndex first = rings.first_vertex[hole];
-    NodeIndex best = first;
-    for (NodeIndex i = first; i < first + rings.size_of(hole); ++i) {
-      if (left_of(outline.at(i), outline.at(best))) best = i;
-    }
-    leftmost.push_back(best);
+    const std::uint32_t first = rings.first_vertex[hole];
+    nodes.push_back(first + static_cast<NodeIndex>(leftmost(Ring(rings.vertices).subspan(first, rings.size_of(hole)))));
   }
-  std::sort(leftmost.begin(), leftmost.end(),
+  std::sort(nodes.begin(), nodes.end(),
             [&](NodeIndex a, NodeIndex b) { return left_of(outline.at(a), outline.at(b)); });
-  for (const NodeIndex node : leftmost) outline.bridge(bridge_end(outline, 0, outline.at(node)), node);
+  for (const NodeIndex node : nodes) outline.bridge(bridge_end(outline, 0, outline.at(node)), node);
 }
 
 /// Clips ears until nothing is left.
