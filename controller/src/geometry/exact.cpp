@@ -79,22 +79,23 @@ class ExactSum {
   std::size_t size_ = 0;
 };
 
-/// Sign of (to - from) x (the unrounded sum of all terms). Two parts times as many as there are terms, each product in
-/// two parts, twice.
-template <std::size_t most_arms>
-int exact_cross_sign(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> arm) noexcept {
-  ExactSum<8 * most_arms> cross;
-  for (const Eigen::Index i : {0, 1}) {
-    ExactSum<2> edge;
-    edge.add(to[i]);
-    edge.add(-from[i]);
-    ExactSum<most_arms> across;
-    for (const Vec2d& term : arm) across.add(term[1 - i]);
-    for (const double part : edge) {
-      for (const double other : across) cross.add_product(i == 0 ? part : -part, other);
-    }
-  }
-  return cross.sign();
+/// One component of the unrounded sum of some terms.
+template <std::size_t most>
+ExactSum<most> component(std::span<const Vec2d> terms, Eigen::Index i) noexcept {
+  ExactSum<most> sum;
+  for (const Vec2d& term : terms) sum.add(term[i]);
+  return sum;
+}
+
+/// (to - from) x (the unrounded sum of all terms). Two parts times as many as there are terms, each product in two
+/// parts, twice.
+template <std::size_t most>
+ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> arm) noexcept {
+  const std::array<Vec2d, 2> edge{to, -from};
+  ExactSum<8 * most> cross;
+  cross.add_product(component<2>(edge, 0), component<most>(arm, 1));
+  cross.add_product(component<2>(edge, 1), component<most>(arm, 0), -1);
+  return cross;
 }
 
 /// Sign of (to - from) x (a - b + c + d), where d is a small rest or zero.
@@ -118,7 +119,7 @@ int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& 
   if (cross > bound) return 1;
   if (cross < -bound) return -1;
   if (bound == 0) return 0;
-  return exact_cross_sign<4>(from, to, std::array<Vec2d, 4>{a, -b, c, d});
+  return exact_cross<4>(from, to, std::array<Vec2d, 4>{a, -b, c, d}).sign();
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2
   std::array<Vec2d, most_terms + 1> from_a;
   std::copy(terms.begin(), terms.end(), from_a.begin());
   from_a[terms.size()] = -a;
-  return exact_cross_sign<most_terms + 1>(a, b, std::span(from_a).first(terms.size() + 1));
+  return exact_cross<most_terms + 1>(a, b, std::span(from_a).first(terms.size() + 1)).sign();
 }
 
 int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double factor, double length) noexcept {
@@ -181,13 +182,8 @@ int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double
 int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept {
   assert(terms.size() <= most_terms && others.size() <= 2 * most_terms);
   ExactSum<2 * 2 * most_terms * 2 * most_terms> dot;
-  for (const Eigen::Index i : {0, 1}) {
-    ExactSum<most_terms> sum;
-    for (const Vec2d& term : terms) sum.add(term[i]);
-    ExactSum<2 * most_terms> other;
-    for (const Vec2d& term : others) other.add(term[i]);
-    dot.add_product(sum, other);
-  }
+  for (const Eigen::Index i : {0, 1})
+    dot.add_product(component<most_terms>(terms, i), component<2 * most_terms>(others, i));
   return dot.sign();
 }
 
@@ -210,8 +206,7 @@ bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept {
   assert(terms.size() <= most_terms);
   ExactSum<4 * most_terms * most_terms + 2> over;
   for (const Eigen::Index i : {0, 1}) {
-    ExactSum<most_terms> sum;
-    for (const Vec2d& term : terms) sum.add(term[i]);
+    const auto sum = component<most_terms>(terms, i);
     over.add_product(sum, sum);
   }
   over.add_product(-length, length);
@@ -221,22 +216,15 @@ bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept {
 /// The height over the line is the cross product over the length of the edge: the squares are compared.
 bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms, double distance) noexcept {
   assert(terms.size() <= most_terms);
-  std::array<ExactSum<2>, 2> edge;
-  std::array<ExactSum<most_terms>, 2> arm;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    edge[i].add(to[axis]);
-    edge[i].add(-from[axis]);
-    for (const Vec2d& term : terms) arm[i].add(term[axis]);
-  }
-  ExactSum<8 * most_terms> cross;
-  cross.add_product(arm[0], edge[1]);
-  cross.add_product(arm[1], edge[0], -1);
-  if (cross.sign() <= 0) return cross.sign() == 0 && distance == 0;
+  const auto cross = exact_cross<most_terms>(from, to, terms);  // positive on the left
+  if (cross.sign() >= 0) return cross.sign() == 0 && distance == 0;
   ExactSum<4> squared_distance;
   squared_distance.add_product(distance, distance);
   ExactSum<16> squared_length;
-  for (const ExactSum<2>& part : edge) squared_length.add_product(part, part);
+  for (const Eigen::Index i : {0, 1}) {
+    const auto edge = component<2>(std::array<Vec2d, 2>{to, -from}, i);
+    squared_length.add_product(edge, edge);
+  }
   ExactSum<2 * 64 * most_terms * most_terms + 2 * 4 * 16> over;
   over.add_product(cross, cross);
   over.add_product(squared_distance, squared_length, -1);
