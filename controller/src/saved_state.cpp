@@ -38,48 +38,43 @@ void for_each_member(State& state, std::uint32_t& crusher_count, const Visit& vi
   }
 }
 
-/// Where the next number of each kind goes, or comes from.
-template <class Saved>
-struct Cursor {
-  Saved& saved;
-  std::size_t number = 0;
-  std::size_t index = 0;
-  std::size_t mark = 0;
-};
-
 }  // namespace
 
 SavedState save(const CharacterState& state) noexcept {
   SavedState saved{};
-  Cursor<SavedState> to{saved};
+  double* number = saved.numbers;
+  std::uint32_t* index = saved.indices;
+  std::uint8_t* mark = saved.marks;
   auto count = static_cast<std::uint32_t>(state.crushers.size());
-  for_each_member(state, count, [&to]<class T>(const T& value) {
+  for_each_member(state, count, [&]<class T>(const T& value) {
     if constexpr (std::is_same_v<T, double>)
-      to.saved.numbers[to.number++] = value + 0.0;  // a negative zero becomes a positive one
+      *number++ = value + 0.0;  // a negative zero becomes a positive one
     else if constexpr (std::is_same_v<T, std::uint32_t>)
-      to.saved.indices[to.index++] = value;
+      *index++ = value;
     else
-      to.saved.marks[to.mark++] = static_cast<std::uint8_t>(value);
+      *mark++ = static_cast<std::uint8_t>(value);
   });
   return saved;
 }
 
 CharacterState restored(const SavedState& saved) noexcept {
   CharacterState state;
-  Cursor<const SavedState> from{saved};
+  const double* number = saved.numbers;
+  const std::uint32_t* index = saved.indices;
+  const std::uint8_t* mark = saved.marks;
   constexpr std::size_t where_the_count_is = 2;
   const std::size_t count = std::min<std::size_t>(saved.indices[where_the_count_is], state.crushers.capacity());
   for (std::size_t i = 0; i < count; ++i) state.crushers.push_back({});
   std::uint32_t ignored = 0;
-  for_each_member(state, ignored, [&from]<class T>(T& value) {
+  for_each_member(state, ignored, [&]<class T>(T& value) {
     if constexpr (std::is_same_v<T, double>)
-      value = from.saved.numbers[from.number++];
+      value = *number++;
     else if constexpr (std::is_same_v<T, std::uint32_t>)
-      value = from.saved.indices[from.index++];
+      value = *index++;
     else if constexpr (std::is_same_v<T, GroundState>)
-      value = static_cast<GroundState>(std::min<std::uint8_t>(from.saved.marks[from.mark++], 3));
+      value = static_cast<GroundState>(std::min<std::uint8_t>(*mark++, 3));
     else
-      value = static_cast<T>(from.saved.marks[from.mark++]);
+      value = static_cast<T>(*mark++);
   });
   return state;
 }
