@@ -98,15 +98,9 @@ class Joints {
   std::vector<OpenEnd> ends_;
 };
 
-FixedVector<Vec2d, CharacterShape::max_points> corners_of(const CharacterShape& shape) {
-  FixedVector<Vec2d, CharacterShape::max_points> corners;
-  for (const Vec2d& corner : shape.hull()) corners.push_back(corner);
-  return corners;
-}
-
 }  // namespace
 
-OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape) : hull_(corners_of(shape)) {
+OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape) : shape_(shape) {
   if (scenery.counts().one_way == 0) return;
   std::vector<PieceIndex> pieces;
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
@@ -115,7 +109,7 @@ OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& sha
 }
 
 OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape, MoverIndex mover, double angle)
-    : hull_(corners_of(shape)) {
+    : shape_(shape) {
   const PieceGrid& solids = scenery.group_of(mover).solids;
   std::vector<PieceIndex> pieces;
   solids.find(solids.whole(), scenery.boxes(), pieces);
@@ -155,7 +149,7 @@ void OneWaySurfaces::add_surface(std::span<const Vec2d> line, const Vec2d& one_w
       // The offset belongs to the rounded normal, because positions are multiplied with that normal.
       const Vec2d rounded = edge.normal;
       double lowest = std::numeric_limits<double>::infinity();
-      for (const Vec2d& o : hull_) lowest = std::min(lowest, rounded.dot(o));
+      for (const Vec2d& o : hull()) lowest = std::min(lowest, rounded.dot(o));
       edge.offset = std::max(rounded.dot(line[i]), rounded.dot(line[i + 1])) - lowest;
     }
     edges_.push_back(edge);
@@ -171,13 +165,13 @@ std::uint32_t OneWaySurfaces::find_frame(const Vec2d& one_way) {
   frame.across = Vec2d{up.y(), -up.x()};
   const auto add_axis = [&](const Vec2d& normal) {
     Axis axis{normal, std::numeric_limits<double>::infinity()};
-    for (const Vec2d& o : hull_) axis.low = std::min(axis.low, axis.normal.dot(o));
+    for (const Vec2d& o : hull()) axis.low = std::min(axis.low, axis.normal.dot(o));
     frame.axes.push_back(axis);
     return axis.low;
   };
-  for (std::size_t k = 0; k < hull_.size(); ++k) {
-    const Vec2d a = hull_[k];
-    const Vec2d b = hull_[(k + 1) % hull_.size()];
+  for (std::size_t k = 0; k < hull().size(); ++k) {
+    const Vec2d a = hull()[k];
+    const Vec2d b = hull()[(k + 1) % hull().size()];
     if (turn_sign(a, b, Vec2d::Zero(), one_way) <= 0) continue;
     frame.lower.push_back(static_cast<std::uint8_t>(k));
     const Vec2d along = b - a;
@@ -237,27 +231,24 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   const Frame& frame = frames_[surface.frame];
   const Vec2d a = edges_[surface.first_edge + index].from;
   const Vec2d b = edges_[surface.first_edge + index + 1].from;
-  const Vec2d p = position;
-  const Vec2d r = rest;
   const bool goes_on_before = index == 0;
   const bool goes_on_after = index + 1 == surface.edge_count;
-  const auto all_corners = [&](const auto& holds) {
-    return std::all_of(hull_.begin(), hull_.end(), [&](const Vec2d& o) { return holds(o); });
-  };
-  if (all_corners([&](const Vec2d& o) { return orientation_sign_of_offset(a, b, p, o, r) >= 0; })) return true;
+  const auto all_corners = [&](const auto& holds) { return std::all_of(hull().begin(), hull().end(), holds); };
+  if (all_corners([&](const Vec2d& o) { return orientation_sign_of_offset(a, b, position, o, rest) >= 0; }))
+    return true;
   if (!goes_on_after &&
-      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, b, p, o, r) <= 0; }))
+      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, b, position, o, rest) <= 0; }))
     return true;
   if (!goes_on_before &&
-      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, a, p, o, r) >= 0; }))
+      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, a, position, o, rest) >= 0; }))
     return true;
   return std::any_of(frame.lower.begin(), frame.lower.end(), [&](std::uint8_t k) {
-    const Vec2d o0 = hull_[k];
-    const Vec2d o1 = hull_[(k + 1) % hull_.size()];
+    const Vec2d o0 = hull()[k];
+    const Vec2d o1 = hull()[(k + 1) % hull().size()];
     if (goes_on_before && turn_sign(o0, o1, b, a) > 0) return false;
     if (goes_on_after && turn_sign(o0, o1, a, b) > 0) return false;
-    return orientation_sign_of_edge_offset(p, o0, o1, a, r) <= 0 &&
-           orientation_sign_of_edge_offset(p, o0, o1, b, r) <= 0;
+    return orientation_sign_of_edge_offset(position, o0, o1, a, rest) <= 0 &&
+           orientation_sign_of_edge_offset(position, o0, o1, b, rest) <= 0;
   });
 }
 

@@ -77,6 +77,7 @@ class OneWaySurfaces {
     double offset;  ///< Of `normal · position` where the octagon touches the line of the edge [m].
   };
 
+  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return shape_.hull(); }
   void build(const Scenery& scenery, std::span<const PieceIndex> pieces, double angle);
   [[nodiscard]] std::uint32_t find_frame(const Vec2d& one_way);
   void add_surface(std::span<const Vec2d> line, const Vec2d& one_way);
@@ -87,7 +88,7 @@ class OneWaySurfaces {
   [[nodiscard]] bool is_below_exactly(const Surface& surface, std::uint32_t edge, const Vec2d& position,
                                       const Vec2d& rest) const noexcept;
 
-  FixedVector<Vec2d, CharacterShape::max_points> hull_;  ///< Counter-clockwise [m].
+  CharacterShape shape_;
   std::vector<Frame> frames_;
   std::vector<Surface> surfaces_;
   std::vector<Edge> edges_;
