@@ -3,7 +3,7 @@
 #include "runs/contender.hpp"
 #include "runs/cost.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -59,12 +59,13 @@ LevelPlan plan_of(const Scenery& scenery, const Planning& planning) {
   const auto leave_out = [&plan](bool needed, std::string_view stage, std::string_view reason) {
     if (!needed) plan.omitted.push_back({stage, reason});
   };
-  leave_out(has_filters(scenery), "filters", "no collider has a filter, so no piece is asked whether it is there");
+  leave_out(scenery.counts().filtered > 0, "filters",
+            "no collider has a filter, so no piece is asked whether it is there");
   leave_out(has_slopes(scenery), "slopes",
             "every edge is level or upright, so no piece has axes of its own: none is built, stored or tested");
-  leave_out(scenery.mover_count() > 0 || has_conveyors(scenery), "movers",
+  leave_out(scenery.mover_count() > 0 || scenery.counts().conveyors > 0, "movers",
             "nothing moves and there is no conveyor, so no mover is looked up and nothing carries the character");
-  leave_out(has_one_way_chains(scenery), "one_way",
+  leave_out(scenery.counts().one_way > 0, "one_way",
             "there is no one-way chain, so no surface is built and none is asked for its side");
   leave_out(scenery.counts().sensors > 0, "sensors", "there is no sensor, so no path is searched for one");
   return plan;

@@ -1,5 +1,5 @@
 #include <paperproof/controller.hpp>
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -232,7 +232,7 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
 }
 
 [[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
-  return asks_all_ || scenery_->counts().sensors > 0 || (drop && has_one_way_chains(*scenery_));
+  return asks_all_ || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0);
 }
 
 /// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.

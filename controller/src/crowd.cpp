@@ -1,5 +1,5 @@
 #include <paperproof/crowd.hpp>
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <utility>
 
@@ -19,7 +19,7 @@ Crowd::Crowd(std::unique_ptr<const Rules> rules, Controller controller)
 Crowd::Crowd(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep)
     : Crowd([&] {
         auto rules = std::make_unique<Rules>(
-            Rules{scenery.mover_count() > 0 || has_conveyors(scenery), {scenery, character, sweep.iterations}});
+            Rules{scenery.mover_count() > 0 || scenery.counts().conveyors > 0, {scenery, character, sweep.iterations}});
         CharacterDef walker = character;
         walker.step_height = 0;  // a path that goes up at once is not swept against the paths of others
         auto in_parts = octagon_sweep::in_double::make_sweep(sweep, rules->sweep.scenery, walker);

@@ -19,7 +19,7 @@
 #include "techniques/registry.hpp"
 #include "techniques/rounding.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <limits>
 
@@ -225,7 +225,7 @@ void BoundingBox::meet(PieceIndex piece, Side side, Movers movers, MoveResult& r
 
 std::unique_ptr<Technique> make_bounding_box(const TechniqueDef& def, const Scenery& scenery,
                                              const CharacterDef& character) {
-  if (has_conveyors(scenery)) throw NotExpressible("bounding_box carries nobody: there is a conveyor");
+  if (scenery.counts().conveyors > 0) throw NotExpressible("bounding_box carries nobody: there is a conveyor");
   return std::make_unique<BoundingBox>(def, scenery, character);
 }
 

@@ -1,6 +1,6 @@
 #include "techniques/frame_of_reference.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,9 @@ bool FrameOfReference::carries(ColliderIndex ground) const noexcept {
   return collider.mover != no_mover || collider.surface_speed != 0;
 }
 
-bool something_carries(const Scenery& scenery) noexcept { return has_moving_solids(scenery) || has_conveyors(scenery); }
+bool something_carries(const Scenery& scenery) noexcept {
+  return scenery.counts().moving_pieces > 0 || scenery.counts().conveyors > 0;
+}
 
 double fastest_surface(const Scenery& scenery) noexcept {
   double fastest = 0;

@@ -6,8 +6,18 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace paperproof {
+
+/// The colliders that block and stand still, in order. A level that is drawn once, as squares or as a picture, consists
+/// of these. Sensors block nothing, whatever their shape.
+[[nodiscard]] inline std::vector<ColliderIndex> standing_solids(const SceneryDef& scenery) {
+  std::vector<ColliderIndex> solids;
+  for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i)
+    if (!scenery.colliders[i].sensor && scenery.colliders[i].mover == no_mover) solids.push_back(i);
+  return solids;
+}
 
 /// Where the pieces of a rank begin. Until a scenery is edited its pieces stand in this order: the solid ones without a
 /// mover (rank 0), those of mover 0, of mover 1 and so on (rank 1, 2, ...), then the sensors.

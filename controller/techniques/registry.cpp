@@ -1,7 +1,7 @@
 #include "techniques/registry.hpp"
 
 #include <paperproof/number_in.hpp>
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
@@ -94,9 +94,9 @@ std::unique_ptr<Technique> make_technique(const TechniqueDef& def, const Scenery
   const TechniqueEntry* entry = find_technique(def.name);
   require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
   require(entry->make != nullptr, "technique: " + std::string(def.name) + " is the controller itself");
-  if (!entry->knows_movers && (has_moving_solids(scenery) || has_conveyors(scenery)))
+  if (!entry->knows_movers && (scenery.counts().moving_pieces > 0 || scenery.counts().conveyors > 0))
     throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
-  if (!entry->knows_circles && has_circles(scenery))
+  if (!entry->knows_circles && scenery.counts().circles > 0)
     throw NotExpressible(std::string(def.name) + " knows no circles: make a polygon of them");
   return entry->make(def, scenery, character);
 }

@@ -1,4 +1,4 @@
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 #include <paperproof/technique_controller.hpp>
 
 #include "one_way_chains.hpp"
@@ -40,7 +40,7 @@ struct TechniqueController::Driver {
         surfaces(where, who.shape),
         one_way(who.shape) {
     character.validate();
-    if (has_filters(scenery))
+    if (scenery.counts().filtered > 0)
       throw std::invalid_argument("the technique " + std::string(technique->name()) +
                                   " has no filter, and there is a collider with one");
   }

@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(core "types|up_frame|tolerances|filter|scenery|scenery_facts|character|report|scratch|step_context|octagon_sweep|controller|contact_changes|saved_state|crowd|paperproof")
+set(core "types|up_frame|tolerances|filter|scenery|character|report|scratch|step_context|octagon_sweep|controller|contact_changes|saved_state|crowd|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
 # The techniques use the core as anybody would, but for its search of boxes, and what surrounds a move in each step.
 set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|one_way_chains|piece_finder|sensors|step_parts)[.]hpp\"")

@@ -3,7 +3,7 @@
 #include "step/query.hpp"
 #include "step/step_solve.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -61,10 +61,11 @@ class OctagonSweep final : public SweepInParts {
     const bool looks_at_movers =
         !moving.motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
     const bool rides = request.state.ride.ground != Ride::none;
-    Step step(request, settings_,
-              {finder_, scratch.solids, looks_at_movers ? &moving : nullptr, request.around.filter, &memory},
-              {moving, static_cast<Real>(request.dt), has_conveyors(finder_.scenery()) || rides || looks_at_movers},
-              memory, result);
+    Step step(
+        request, settings_,
+        {finder_, scratch.solids, looks_at_movers ? &moving : nullptr, request.around.filter, &memory},
+        {moving, static_cast<Real>(request.dt), finder_.scenery().counts().conveyors > 0 || rides || looks_at_movers},
+        memory, result);
     solve(step, part);
   }
 

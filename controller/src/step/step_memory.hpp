@@ -5,7 +5,7 @@
 #include "step/narrow_phase.hpp"
 
 #include <paperproof/report.hpp>
-#include <paperproof/scenery_facts.hpp>
+#include <paperproof/scenery.hpp>
 #include <paperproof/step_context.hpp>
 
 #include <algorithm>
@@ -74,7 +74,8 @@ struct StepMemory final : OwnMemory, PieceUser {
     most_corners = 2 * MoveResult::max_corners + 4 * scenery.counts().moving_pieces;
     reported_at.resize(most_corners);
     clear();
-    roles.assign(has_moving_solids(scenery) || has_conveyors(scenery) ? scenery.collider_count() : 0, 0);
+    roles.assign(scenery.counts().moving_pieces > 0 || scenery.counts().conveyors > 0 ? scenery.collider_count() : 0,
+                 0);
   }
 
   /// Forgets the last step.

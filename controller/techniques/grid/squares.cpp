@@ -1,6 +1,7 @@
 #include "techniques/grid/squares.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include "techniques/nearby_scenery.hpp"
+
 #include <paperproof/techniques.hpp>
 
 #include <cmath>

@@ -6,7 +6,7 @@
 /// (row), and the pixels of its ends. A one-way chain cannot be drawn: a pixel is solid from all sides.
 #pragma once
 
-#include <paperproof/scenery_facts.hpp>
+#include "techniques/nearby_scenery.hpp"
 #include "techniques/raster/pixel.hpp"
 
 #include <paperproof/scenery.hpp>
