@@ -9,14 +9,12 @@ using geometry::Pose;
 using geometry::pose_at;
 
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
-void TurningStep::note_pushes() {
+void TurningStep::note_pushes(const Part& part) {
   MoveResult& move = memory_.of_part.move;
   if (move.path.size() < 2 || move.path[1].fraction > 0) return;
-  std::size_t last = 1;
-  while (last + 1 < move.path.size() && move.path[last + 1].fraction == 0) ++last;
   std::array<Contact, MoveResult::max_contacts> room;
   std::ptrdiff_t pushes = 0;
-  for (const Contact& touched : contacts_at(move.path[last].position, room)) {
+  for (const Contact& touched : contacts_at(part.way.back().position, room)) {
     const MovingCollider* collider = find_moving(touched.collider);
     const auto is_known = [&](const Contact& contact) { return contact.collider == touched.collider; };
     if (collider == nullptr || collider->by_itself || !memory_.turns[collider->mover]) continue;

@@ -172,7 +172,7 @@ void TurningStep::begin_part(const Part& part, CharacterState& state) const {
     state.ride.place = state.position - memory_.motions[ground->mover].from;
   for (Crusher& crusher : state.crushers)
     if (const MovingCollider* collider = find_moving(crusher.collider))
-      carry(crusher, middle(), pose_at(collider->motion, part.begin), turned_pose(*collider, part));
+      carry(crusher, pose_at(collider->motion, part.begin), turned_pose(*collider, part));
 }
 
 StepStatus TurningStep::end(CharacterState& state) {
@@ -196,7 +196,7 @@ std::optional<StepStatus> TurningStep::step_in_parts(int parts, CharacterState& 
     if (status == StepStatus::invalid_input) return report_.status = status;
     if (is_refused(status)) return refuse(of_part.move.status, before);
     if (!find_way(part, of_part.move)) return std::nullopt;
-    note_pushes();
+    note_pushes(part);
     limit_speed(part, (of_part.requested / dt + carried).norm(), dt, of_part.move, state);
     note_turned_sensors(part, from, of_part);
     note_vertices(part.turned(), &part);

@@ -91,9 +91,9 @@ class TurningStep {
  private:
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
-  [[nodiscard]] Vec2d middle() const noexcept { return character().shape.box().middle(); }
-  [[nodiscard]] Box2 box_at(const Vec2d& position) const noexcept {
-    return {position + character().shape.box().lower, position + character().shape.box().upper};
+  /// What the character covers from positions in a box.
+  [[nodiscard]] Box2 box_at(const Box2& positions) const noexcept {
+    return {positions.lower + character().shape.box().lower, positions.upper + character().shape.box().upper};
   }
   [[nodiscard]] bool is_there(ColliderIndex collider) const;
   [[nodiscard]] bool blocks(ColliderIndex collider) const;
@@ -114,7 +114,6 @@ class TurningStep {
   [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const;
   [[nodiscard]] bool find_way(Part& part, const MoveResult& move);
   void limit_speed(const Part& part, double wanted, double dt, MoveResult& move, CharacterState& state) const;
-  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position);
   [[nodiscard]] std::span<const Contact> contacts_at(const Vec2d& position, std::span<Contact> room);
   [[nodiscard]] bool is_proved(const Part& part, const MoveResult& move, bool of_all);
   [[nodiscard]] geometry::Pose turned_pose(const MovingCollider& collider, const Part& part) const;
@@ -125,18 +124,17 @@ class TurningStep {
   [[nodiscard]] std::vector<ColliderIndex> standing(const Box2& box, bool sensors) const;
 
   // turned_report.cpp
-  void note_pushes();
+  void note_pushes(const Part& part);
   void note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const;
   void note_begin();
   void note_vertices(double instant, const Part* turned = nullptr);
   void append(const StepReport& added, const Part& part);
 
   // waiting.cpp
+  void carry(Crusher& crusher, const geometry::Pose& from, const geometry::Pose& to) const;
   StepStatus go_straight_or_stay(CharacterState& state);
   StepStatus stay(CharacterState& state);
-  template <class PlaceAt>
-  void note_stays(ColliderIndex sensor, const MoverMotion& motion, double begin, std::span<const double> ends,
-                  const PlaceAt& place_at);
+  void note_stays(ColliderIndex sensor, const MoverMotion& motion, std::span<const PathPoint> way);
   void go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state);
   [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState state);
 
@@ -149,10 +147,6 @@ class TurningStep {
   StepReport& report_;
   Box2 needed_;
 };
-
-/// The place from which the character came goes along with what crushed it.
-/// @param middle of the character's shape, relative to its position.
-void carry(Crusher& crusher, const Vec2d& middle, const geometry::Pose& from, const geometry::Pose& to);
 
 [[nodiscard]] inline bool contains(std::span<const ColliderIndex> all, ColliderIndex one) {
   return std::find(all.begin(), all.end(), one) != all.end();

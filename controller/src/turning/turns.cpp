@@ -129,37 +129,32 @@ bool TurningStep::stays_clear(ColliderIndex collider, const Pose& from, const Po
 /// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
 /// @param move in the part; its corners at fraction 0 are that way.
 bool TurningStep::find_way(Part& part, const MoveResult& move) {
-  std::vector<Vec2d> corners;
-  for (const PathPoint& corner : move.path)
-    if (corner.fraction == 0) corners.push_back(corner.position);
+  const auto later =
+      std::find_if(move.path.begin(), move.path.end(), [](const PathPoint& corner) { return corner.fraction > 0; });
+  const std::span corners(move.path.begin(), later);
   // Mostly it goes first, and has gone before what pushes it arrives. Evenly it would be late by the square of a turn.
   for (const double arrival : {0.5, 1.0}) {
     part.way.clear();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const double share = corners.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(corners.size() - 1);
-      part.way.push_back({corners[i], arrival * share});
+      part.way.push_back({corners[i].position, arrival * share});
     }
     if (part.way.back().fraction < 1) part.way.push_back({part.way.back().position, 1});
     if (is_proved(part, move, false)) return true;
     if (corners.size() == 1) return false;
   }
   // In a corner one wall arrives as another leaves. Then it goes a little farther out of the corner, and comes back.
-  const Vec2d& end = corners.back();
-  const Vec2d out = out_of_corner(end);
-  const double far = (end - corners.front()).norm();
+  const Vec2d end = corners.back().position;
+  std::array<Contact, MoveResult::max_contacts> touched;
+  Vec2d out = Vec2d::Zero();
+  for (const Contact& contact : contacts_at(end, touched)) out += contact.normal;
+  out = out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
+  const double far = (end - corners.front().position).norm();
   for (const double share : {0.01, 0.1, 1.0}) {
-    part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances{}.stop), 0.5}, {end, 1}};
+    part.way = {{corners.front().position, 0}, {end + out * (far * share + Tolerances{}.stop), 0.5}, {end, 1}};
     if (is_proved(part, move, true)) return true;
   }
   return false;
-}
-
-/// Unit, away from everything that is touched once everything has turned; or zero.
-Vec2d TurningStep::out_of_corner(const Vec2d& position) {
-  std::array<Contact, MoveResult::max_contacts> touched;
-  Vec2d out = Vec2d::Zero();
-  for (const Contact& contact : contacts_at(position, touched)) out += contact.normal;
-  return out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
 }
 
 /// What the character touches once everything has turned.
@@ -183,9 +178,7 @@ bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_al
     if (!is_clear(collider.id, pose_at(collider.motion, part.begin), turned_pose(collider, part))) return false;
   }
   if (!of_all) return true;
-  Box2 way = box_at(part.way[0].position);
-  for (const PathPoint& corner : part.way) way = way.merged(box_at(corner.position));
-  const std::vector<ColliderIndex> around = standing(way, false);
+  const std::vector<ColliderIndex> around = standing(box_at(box_around(part.way, {})), false);
   return std::all_of(around.begin(), around.end(), [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
 }
 

@@ -8,23 +8,24 @@ namespace paperproof::turning {
 using geometry::Pose;
 using geometry::pose_at;
 
-void carry(Crusher& crusher, const Vec2d& middle, const Pose& from, const Pose& to) {
+/// The place from which the character came goes along with what crushed it.
+void TurningStep::carry(Crusher& crusher, const Pose& from, const Pose& to) const {
+  const Vec2d middle = character().shape.box().middle();
   const Vec2d came_from = crusher.last_free + crusher.displacement + middle;
   const Vec2d there = to.position + geometry::Turn(to.angle - from.angle)(Vec2d(came_from - from.position));
   crusher.displacement = there - middle - crusher.last_free;
 }
 
-/// Reports that the character enters and leaves a sensor, as far as instants of the step show it.
-/// @param ends the instants. @param place_at of the character, at one of them.
-template <class PlaceAt>
-void TurningStep::note_stays(ColliderIndex sensor, const MoverMotion& motion, double begin,
-                             std::span<const double> ends, const PlaceAt& place_at) {
-  const auto is_inside = [&](double when) { return overlaps(sensor, pose_at(motion, when), place_at(when)); };
-  bool inside = is_inside(begin);
-  for (const double end : ends) {
-    if (is_inside(end) == inside) continue;
+/// Reports that the character enters and leaves a sensor, as far as the corners of its way show it.
+void TurningStep::note_stays(ColliderIndex sensor, const MoverMotion& motion, std::span<const PathPoint> way) {
+  const auto is_inside = [&](const PathPoint& at) {
+    return overlaps(sensor, pose_at(motion, at.fraction), at.position);
+  };
+  bool inside = is_inside(way[0]);
+  for (const PathPoint& corner : way.subspan(1)) {
+    if (is_inside(corner) == inside) continue;
     inside = !inside;
-    report_.sensors.push_back(sensor_event(sensor, inside, end));
+    report_.sensors.push_back(sensor_event(sensor, inside, corner.fraction));
   }
 }
 
@@ -44,39 +45,36 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
   if (departure > begin) move.path.push_back({state.position, departure});
   move.path.push_back({to, 1});
   if (begin == 0) note_begin();
-  std::vector<double> ends;
-  for (int part = 1; part < most_parts; ++part) ends.push_back(begin + (1 - begin) * part / most_parts);
-  if (departure > begin) ends.push_back(departure);
-  ends.push_back(1);
-  const auto place_at = [&](double fraction) {
-    return between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure));
+  std::vector<PathPoint> way{{state.position, begin}};
+  const auto go_on = [&](double end) {
+    way.push_back({between(state.position, to, std::max(0.0, end - departure) / (1 - departure)), end});
   };
+  for (int part = 1; part < most_parts; ++part) go_on(begin + (1 - begin) * part / most_parts);
+  if (departure > begin) go_on(departure);
+  go_on(1);
   for (const ColliderIndex sensor : standing(needed_, true))
-    if (is_there(sensor)) note_stays(sensor, {}, begin, ends, place_at);
+    if (is_there(sensor)) note_stays(sensor, {}, way);
   for (const MovingCollider& collider : memory_.moving)
-    if (scenery_.collider(collider.id).sensor && is_there(collider.id))
-      note_stays(collider.id, collider.motion, begin, ends, place_at);
+    if (scenery_.collider(collider.id).sensor && is_there(collider.id)) note_stays(collider.id, collider.motion, way);
   std::stable_sort(report_.sensors.begin(), report_.sensors.end(),
                    [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
-  for (const double end : ends) note_vertices(end);
+  for (std::size_t i = 1; i < way.size(); ++i) note_vertices(way[i].fraction);
   for (const MovingCollider& collider : memory_.moving) {
     if (!blocks(collider.id)) continue;
     const Pose from = pose_at(collider.motion, begin);
     const Pose at_end = pose_at(collider.motion, 1);
     bool is_reached = false;
-    double last = begin;
-    for (const double end : ends) {
-      const std::array<PathPoint, 2> way{{{place_at(last), 0}, {place_at(end), 1}}};
-      is_reached =
-          is_reached || !stays_clear(collider.id, pose_at(collider.motion, last), pose_at(collider.motion, end), way);
-      last = end;
+    for (std::size_t i = 1; i < way.size() && !is_reached; ++i) {
+      const std::array<PathPoint, 2> leg{{{way[i - 1].position, 0}, {way[i].position, 1}}};
+      is_reached = !stays_clear(collider.id, pose_at(collider.motion, way[i - 1].fraction),
+                                pose_at(collider.motion, way[i].fraction), leg);
     }
     if (!is_reached) continue;
     const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
                                     [&](const Crusher& crusher) { return crusher.collider == collider.id; });
     Crusher crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
-    carry(crusher, middle(), from, at_end);
+    carry(crusher, from, at_end);
     if (!contains(move.crushed, collider.id) && !overlaps(collider.id, from, state.position))
       move.crushed.push_back(collider.id);
     if (overlaps(collider.id, at_end, to)) move.crushers.push_back(crusher);
@@ -86,15 +84,14 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
 /// Where a character that stays in place would leave what overlaps it at the end of the step.
 std::optional<Vec2d> TurningStep::way_out_at_end(CharacterState state) {
   (void)turn(0, 1, state.position);
-  for (MoverIndex mover = 0; mover < memory_.motions.size(); ++mover) {
-    MoverMotion& motion = memory_.motions[mover];
+  for (MoverMotion& motion : memory_.motions) {
     motion.from = motion.to;
     motion.from_angle = motion.to_angle;
   }
   state.ride = {};
   for (Crusher& crusher : state.crushers)
     if (const MovingCollider* collider = find_moving(crusher.collider))
-      carry(crusher, middle(), pose_at(collider->motion, 0), pose_at(collider->motion, 1));
+      carry(crusher, pose_at(collider->motion, 0), pose_at(collider->motion, 1));
   const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.of_part);
   if (status != StepStatus::moved) return std::nullopt;
   return memory_.of_part.move.position;
@@ -119,7 +116,7 @@ StepStatus TurningStep::stay(CharacterState& state) {
   MoveResult& move = report_.move;
   report_.clear();
   go_straight(0, 0, state.position, state);
-  const std::vector<ColliderIndex> around = standing(box_at(state.position), false);
+  const std::vector<ColliderIndex> around = standing(box_at({state.position, state.position}), false);
   const bool is_held = !move.crushers.empty() || std::any_of(around.begin(), around.end(), [&](ColliderIndex collider) {
     return blocks(collider) && overlaps(collider, {}, state.position);
   });
@@ -131,7 +128,7 @@ StepStatus TurningStep::stay(CharacterState& state) {
 StepStatus TurningStep::wait(CharacterState& state) {
   if (!step_parts::in_range(state.position)) return refuse(MoveStatus::out_of_range, state);
   memory_.turned.clear();
-  read(box_at(state.position));
+  read(box_at({state.position, state.position}));
   forget_gone(state);
   return stay(state);
 }
