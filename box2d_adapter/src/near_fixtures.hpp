@@ -84,8 +84,8 @@ class NearFixtures {
     const b2Body* body = nullptr;
     const b2Shape* shape = nullptr;
     std::uint64_t geometry = 0;  ///< A hash of the shape's numbers.
-    b2Vec2 place{0, 0};        ///< Of a body that stands; zero of one that moves.
-    float angle = 0;           ///< The same.
+    b2Vec2 place{0, 0};          ///< Of a body that stands; zero of one that moves.
+    float angle = 0;             ///< The same.
     bool moves = false;
     bool sensor = false;
     Surface surface;
