@@ -1,5 +1,7 @@
 #include "step/certificate.hpp"
 
+#include "geometry/exact.hpp"
+
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
@@ -9,72 +11,43 @@
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 namespace {
 
-/// Of the octagon's point `o` at `p`.
-int side_of_point(const Vec2d& a, const Vec2d& b, const Vec2d& p, const Vec2d& o) noexcept {
-  return geometry::orientation_sign_of_offset(a, b, p, o);
-}
-int side_of_point(const Vec2d& a, const Vec2d& b, const ExactPosition& p, const Vec2d& o) noexcept {
-  FixedVector<Vec2d, geometry::most_terms> terms;
-  for (const Vec2d& term : p.terms()) terms.push_back(term);
-  terms.push_back(o);
-  return geometry::orientation_sign_of_sum(a, b, {terms.begin(), terms.end()});
-}
-
-/// Of a vertex beside the octagon's edge o0 -> o1 at `p`.
-int side_of_vertex(const Vec2d& o0, const Vec2d& o1, const Vec2d& p, const Vec2d& v) noexcept {
-  return geometry::orientation_sign_of_edge_offset(p, o0, o1, v);
-}
-int side_of_vertex(const Vec2d& o0, const Vec2d& o1, const ExactPosition& p, const Vec2d& v) noexcept {
-  FixedVector<Vec2d, geometry::most_terms> terms;
-  terms.push_back(v);
-  for (const Vec2d& term : p.terms()) terms.push_back(-term);
-  return geometry::orientation_sign_of_sum(o0, o1, {terms.begin(), terms.end()});
-}
-
-/// All points of the octagon at `p` on the right-hand side of a -> b, or on the line.
-template <class Position>
-bool octagon_right_of(const ConfigurationSpace& space, const Vec2d& a, const Vec2d& b, const Position& p) noexcept {
-  for (const Vec2d& o : space.hull())
-    if (side_of_point(a, b, p, o) > 0) return false;
-  return true;
-}
-
-/// All vertices of the piece on the right-hand side of the octagon's edge o0 -> o1 at `p`, or on its line.
-template <class Position>
-bool piece_right_of(const PieceVertices& vertices, const Vec2d& o0, const Vec2d& o1, const Position& p) noexcept {
-  for (const Vec2d& v : vertices)
-    if (side_of_vertex(o0, o1, p, v) > 0) return false;
-  return true;
-}
-
+/// Of a sum that is not rounded.
 using Terms = FixedVector<Vec2d, geometry::most_terms>;
-using Way = FixedVector<Vec2d, 2 * geometry::most_terms>;
 
-template <std::size_t capacity>
-std::span<const Vec2d> span_of(const FixedVector<Vec2d, capacity>& terms) noexcept {
-  return {terms.begin(), terms.end()};
+/// A position as a piece sees it that has not moved: six terms at most, so that there is room for two more.
+Terms exact_position(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
+                     const Vec2& in_world, Real time) noexcept {
+  Terms position;
+  const auto add = [&](const Vec2d& term) {
+    position.push_back({geometry::without_traces(term.x()), geometry::without_traces(term.y())});
+  };
+  add(in_world.cast<double>());
+  const MoverIndex mover = space.info(piece).source.mover;
+  if (mover == no_mover) return position;
+  const auto [from, to] = std::pair(Vec2d(movers[mover].from), Vec2d(movers[mover].to));
+  add(time < 1 ? -from : -to);
+  if (time > 0 && time < 1)
+    for (const Vec2d& part : geometry::part_of_way(from, to, static_cast<double>(time))) add(-part);
+  return position;
 }
-std::span<const Vec2d> terms_of(const Vec2d& p) noexcept { return {&p, 1}; }
-std::span<const Vec2d> terms_of(const ExactPosition& p) noexcept { return p.terms(); }
 
-template <class Position>
-Vec2d rounded(const Position& p) noexcept {
-  Vec2d sum = Vec2d::Zero();
-  for (const Vec2d& term : terms_of(p)) sum += term;
-  return sum;
+/// The terms of a sum with a position, or without it where the sign is -1.
+template <std::size_t capacity = geometry::most_terms>
+FixedVector<Vec2d, capacity> sum_of(std::span<const Vec2d> first, const Terms& p, double sign = 1) noexcept {
+  FixedVector<Vec2d, capacity> terms;
+  for (const Vec2d& term : first) terms.push_back(term);
+  for (const Vec2d& term : p) terms.push_back(term * sign);
+  return terms;
 }
 
 /// The octagon beside a circle.
 class BesideCircle {
  public:
   BesideCircle(const ConfigurationSpace& space, PieceIndex piece) noexcept
-      : circle_{space.circle(piece).centre, space.circle(piece).radius} {
-    for (const Vec2d& point : space.hull()) octagon_.push_back(point);
-  }
+      : circle_(space.circle(piece)), octagon_(space.hull()) {}
 
   /// Whether their open interiors are apart: an edge is, or the corner that is nearest.
-  template <class Position>
-  [[nodiscard]] bool is_clear(const Position& p) const noexcept {
+  [[nodiscard]] bool is_clear(const Terms& p) const noexcept {
     const double separation = near(p).separation;
     if (std::abs(separation) >= tolerances.certain) return separation > 0;
     for (std::size_t k = 0; k < octagon_.size(); ++k)
@@ -85,8 +58,7 @@ class BesideCircle {
   /// Whether a motion is proved to be clear. The distance is convex in time: a motion that does not come nearer from
   /// one end is clear if that end is. Else an edge, or a tangent of the circle that is nearest at one of the ends,
   /// separates them at both.
-  template <class Position>
-  [[nodiscard]] bool are_clear(const Position& from, const Position& to) const noexcept {
+  [[nodiscard]] bool are_clear(const Terms& from, const Terms& to) const noexcept {
     for (std::size_t k = 0; k < octagon_.size(); ++k)
       if ((is_edge_apart(k, from) && is_edge_apart(k, to)) || goes_away(k, from, to) || goes_away(k, to, from))
         return true;
@@ -97,102 +69,80 @@ class BesideCircle {
 
  private:
   [[nodiscard]] const Vec2d& corner(std::size_t k) const noexcept { return octagon_[k % octagon_.size()]; }
-  template <class Position>
-  [[nodiscard]] geometry::NearCircle near(const Position& p) const noexcept {
-    return geometry::near_circle({octagon_.begin(), octagon_.end()}, rounded(p), circle_);
+  [[nodiscard]] geometry::NearCircle near(const Terms& p) const noexcept {
+    Vec2d rounded = Vec2d::Zero();
+    for (const Vec2d& term : p) rounded += term;
+    return geometry::near_circle(octagon_, rounded, circle_);
   }
   /// From the circle's centre to a corner of the octagon.
-  template <class Position>
-  [[nodiscard]] Terms arm_to(const Vec2d& o, const Position& p) const noexcept {
-    Terms terms;
-    terms.push_back(o);
-    terms.push_back(-circle_.centre);
-    for (const Vec2d& term : terms_of(p)) terms.push_back(term);
-    return terms;
+  [[nodiscard]] Terms arm_to(const Vec2d& o, const Terms& p) const noexcept {
+    return sum_of(std::array{o, Vec2d(-circle_.centre)}, p);
   }
-  template <class Position>
-  [[nodiscard]] bool is_edge_apart(std::size_t k, const Position& p) const noexcept {
-    Terms back;  // from the corner to the centre
-    back.push_back(circle_.centre);
-    back.push_back(-corner(k));
-    for (const Vec2d& term : terms_of(p)) back.push_back(-term);
-    return geometry::is_sum_as_far_right(corner(k), corner(k + 1), span_of(back), circle_.radius);
+  [[nodiscard]] bool is_edge_apart(std::size_t k, const Terms& p) const noexcept {
+    const Terms back = sum_of(std::array{circle_.centre, Vec2d(-corner(k))}, p, -1);  // from the corner to the centre
+    return geometry::is_sum_as_far_right(corner(k), corner(k + 1), back, circle_.radius);
   }
   /// Whether a corner is the nearest place of the octagon, and is outside of the circle or on it.
-  template <class Position>
-  [[nodiscard]] bool is_corner_apart(std::size_t k, const Position& p) const noexcept {
+  [[nodiscard]] bool is_corner_apart(std::size_t k, const Terms& p) const noexcept {
     const Terms arm = arm_to(corner(k), p);
     const std::array after{corner(k + 1), Vec2d(-corner(k))};
     const std::array before{corner(k), Vec2d(-corner(k + octagon_.size() - 1))};
-    return geometry::dot_sign_of_sums(span_of(arm), after) >= 0 &&
-           geometry::dot_sign_of_sums(span_of(arm), before) <= 0 &&
-           geometry::is_sum_as_long_as(span_of(arm), circle_.radius);
+    return geometry::dot_sign_of_sums(arm, after) >= 0 && geometry::dot_sign_of_sums(arm, before) <= 0 &&
+           geometry::is_sum_as_long_as(arm, circle_.radius);
   }
   /// Whether a motion begins clear with a corner that is nearest, and this does not come nearer.
-  template <class Position>
-  [[nodiscard]] bool goes_away(std::size_t k, const Position& from, const Position& to) const noexcept {
-    if (!is_corner_apart(k, from)) return false;
-    Way way;
-    for (const Vec2d& term : terms_of(to)) way.push_back(term);
-    for (const Vec2d& term : terms_of(from)) way.push_back(-term);
-    return geometry::dot_sign_of_sums(span_of(arm_to(corner(k), from)), span_of(way)) >= 0;
+  [[nodiscard]] bool goes_away(std::size_t k, const Terms& from, const Terms& to) const noexcept {
+    return is_corner_apart(k, from) &&
+           geometry::dot_sign_of_sums(arm_to(corner(k), from), sum_of<2 * geometry::most_terms>(to, from, -1)) >= 0;
   }
-  template <class Position>
-  [[nodiscard]] bool is_tangent_apart(const Vec2d& normal, const Position& p) const noexcept {
+  [[nodiscard]] bool is_tangent_apart(const Vec2d& normal, const Terms& p) const noexcept {
     const double length = geometry::length_rounded_up(normal);
     return std::all_of(octagon_.begin(), octagon_.end(), [&](const Vec2d& o) {
-      return geometry::height_sign_of_sum(normal, span_of(arm_to(o, p)), circle_.radius, length) >= 0;
+      return geometry::height_sign_of_sum(normal, arm_to(o, p), circle_.radius, length) >= 0;
     });
   }
 
   Circle circle_;
-  FixedVector<Vec2d, CharacterShape::max_points> octagon_;
+  std::span<const Vec2d> octagon_;
 };
 
-/// Whether the line of an edge of the piece or of the octagon has the two on different sides, at `from` and at `to`.
-/// Both rings are counter-clockwise: the outside of an edge is on its right.
-template <class Position>
-bool some_line_separates(const ConfigurationSpace& space, PieceIndex piece, const Position& from,
-                         const Position& to) noexcept {
-  if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(from, to);
-  const PieceVertices vertices = space.vertices_of(piece);
-  for (std::size_t j = 0; j < vertices.size(); ++j) {
-    const Vec2d a = vertices[j];
-    const Vec2d b = vertices[(j + 1) % vertices.size()];
-    if (octagon_right_of(space, a, b, from) && octagon_right_of(space, a, b, to)) return true;
-  }
-  const std::span<const Vec2d> hull = space.hull();
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2d o0 = hull[k];
-    const Vec2d o1 = hull[(k + 1) % hull.size()];
-    if (piece_right_of(vertices, o0, o1, from) && piece_right_of(vertices, o0, o1, to)) return true;
+/// Whether the line of an edge has all points on its right or on it, moved by `from`, and by `to`. The ring is
+/// counter-clockwise: its outside is on the right.
+/// @param sign -1: the edges are moved, and not the points.
+bool some_edge_separates(std::span<const Vec2d> ring, std::span<const Vec2d> points, const Terms& from, const Terms& to,
+                         double sign) noexcept {
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const auto all_right = [&](const Terms& p) {
+      return std::all_of(points.begin(), points.end(), [&](const Vec2d& point) {
+        const Terms terms = sum_of({&point, 1}, p, sign);
+        return geometry::orientation_sign_of_sum(ring[j], ring[(j + 1) % ring.size()], terms) <= 0;
+      });
+    };
+    if (all_right(from) && all_right(to)) return true;
   }
   return false;
 }
 
+bool some_line_separates(const ConfigurationSpace& space, PieceIndex piece, const Terms& from,
+                         const Terms& to) noexcept {
+  const PieceVertices vertices = space.vertices_of(piece);
+  return some_edge_separates(vertices, space.hull(), from, to, 1) ||
+         some_edge_separates(space.hull(), vertices, from, to, -1);
+}
+
 }  // namespace
 
-bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, const Vec2& position) noexcept {
-  const Vec2d p = position.cast<double>();
-  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(p);
-  return !some_line_separates(space, piece, p, p);
-}
-
-bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, const Vec2& from, const Vec2& to) noexcept {
-  return some_line_separates<Vec2d>(space, piece, from.cast<double>(), to.cast<double>());
-}
-
-bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, const ExactPosition& position) noexcept {
-  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(position);
-  return !some_line_separates(space, piece, position, position);
+bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
+                      const Vec2& position, Real time) noexcept {
+  const Terms p = exact_position(space, piece, movers, position, time);
+  return space.is_circle(piece) ? !BesideCircle(space, piece).is_clear(p) : !some_line_separates(space, piece, p, p);
 }
 
 bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
                       const Vec2& from, Real begin, const Vec2& to, Real end) noexcept {
-  const MoverIndex mover = space.info(piece).source.mover;
-  if (mover == no_mover) return clear_of_exactly(space, piece, from, to);
-  return some_line_separates(space, piece, ExactPosition(from, movers[mover], begin),
-                             ExactPosition(to, movers[mover], end));
+  const Terms p = exact_position(space, piece, movers, from, begin);
+  const Terms q = exact_position(space, piece, movers, to, end);
+  return space.is_circle(piece) ? BesideCircle(space, piece).are_clear(p, q) : some_line_separates(space, piece, p, q);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -88,12 +88,9 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   for_each_around(around, {position, position}, [&](PieceIndex piece, const MoverMotion& mover) {
     const PieceInfo& info = space.info(piece).source;
     if (info.collider == last || info.one_way) return;  // the pieces of a collider are consecutive
-    const Vec2 at = position - mover.from;
-    if (best_axis(space, piece, at).separation >= tolerances.certain) return;
-    const bool inside = info.mover == no_mover
-                            ? overlaps_exactly(space, piece, at)
-                            : overlaps_exactly(space, piece, ExactPosition(position, mover, Real(0)));
-    if (!inside) return;
+    if (best_axis(space, piece, Vec2(position - mover.from)).separation >= tolerances.certain ||
+        !overlaps_exactly(space, piece, around.movers, position, Real(0)))
+      return;
     last = info.collider;
     if (count < found.size()) found[count] = last;
     ++count;

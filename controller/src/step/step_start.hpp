@@ -24,13 +24,9 @@ inline void remember(Step& step, const Crusher& now) noexcept {
 }
 
 [[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
-  const Vec2 at = local(step, piece, position);
-  if (step.space.info(piece).is_one_way() || best_axis(step.space, piece, at).separation >= tolerances.certain)
-    return false;
-  const MoverIndex mover = mover_of(step, piece);
-  if (mover != no_mover)
-    return overlaps_exactly(step.space, piece, ExactPosition(position, step.movers.moving.motions[mover], step.time));
-  return overlaps_exactly(step.space, piece, at);
+  return !step.space.info(piece).is_one_way() &&
+         best_axis(step.space, piece, local(step, piece, position)).separation < tolerances.certain &&
+         overlaps_exactly(step.space, piece, step.movers.moving.motions, position, step.time);
 }
 
 [[nodiscard]] inline bool overlaps(Step& step, const Vec2& position) noexcept {
