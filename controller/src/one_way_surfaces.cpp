@@ -3,6 +3,7 @@
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <unordered_set>
@@ -14,10 +15,8 @@ namespace paperproof {
 namespace {
 
 using geometry::orientation_sign;
-using geometry::orientation_sign_of_edge_offset;
-using geometry::orientation_sign_of_offset;
+using geometry::orientation_sign_of_sum;
 using geometry::turn_sign;
-using geometry::turn_sign_of_offset;
 
 /// An end of a chain's first or last segment, at which a line begins or ends.
 struct OpenEnd {
@@ -233,22 +232,25 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   const Vec2d b = edges_[surface.first_edge + index + 1].from;
   const bool goes_on_before = index == 0;
   const bool goes_on_after = index + 1 == surface.edge_count;
-  const auto all_corners = [&](const auto& holds) { return std::all_of(hull().begin(), hull().end(), holds); };
-  if (all_corners([&](const Vec2d& o) { return orientation_sign_of_offset(a, b, position, o, rest) >= 0; }))
-    return true;
-  if (!goes_on_after &&
-      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, b, position, o, rest) <= 0; }))
-    return true;
-  if (!goes_on_before &&
-      all_corners([&](const Vec2d& o) { return turn_sign_of_offset(frame.one_way, a, position, o, rest) >= 0; }))
+  // The octagon is on this side of the line from -> to, seen from `at`, or on it: 1 for left.
+  const auto is_beside = [&](int side, const Vec2d& from, const Vec2d& to, const Vec2d& at) {
+    return std::all_of(hull().begin(), hull().end(), [&](const Vec2d& o) {
+      return side * orientation_sign_of_sum(from, to, std::array{position, rest, o, Vec2d(-at)}) >= 0;
+    });
+  };
+  const Vec2d zero = Vec2d::Zero();
+  if (is_beside(1, a, b, zero) || (!goes_on_after && is_beside(-1, zero, frame.one_way, b)) ||
+      (!goes_on_before && is_beside(1, zero, frame.one_way, a)))
     return true;
   return std::any_of(frame.lower.begin(), frame.lower.end(), [&](std::uint8_t k) {
     const Vec2d o0 = hull()[k];
     const Vec2d o1 = hull()[(k + 1) % hull().size()];
     if (goes_on_before && turn_sign(o0, o1, b, a) > 0) return false;
     if (goes_on_after && turn_sign(o0, o1, a, b) > 0) return false;
-    return orientation_sign_of_edge_offset(position, o0, o1, a, rest) <= 0 &&
-           orientation_sign_of_edge_offset(position, o0, o1, b, rest) <= 0;
+    const auto is_right = [&](const Vec2d& v) {
+      return orientation_sign_of_sum(o0, o1, std::array{v, Vec2d(-position), Vec2d(-rest)}) <= 0;
+    };
+    return is_right(a) && is_right(b);
   });
 }
 

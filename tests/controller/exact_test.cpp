@@ -82,15 +82,14 @@ TEST(ExactSigns, agree_with_rational_numbers_within_ulps_of_one_line) {
     const Vec2d offset = dice.point(1);
     const Vec2d rest = dice.rest();
     const Terms sum{c - offset, offset, rest};
-    ASSERT_EQ(geometry::orientation_sign_of_offset(a, b, sum[0], offset, rest), exact({a}, {b}, sum));
-    ASSERT_EQ(geometry::turn_sign_of_offset(b - a, a, sum[0], offset, rest), exact({a}, {a, b - a}, sum));
+    ASSERT_EQ(geometry::orientation_sign_of_sum(a, b, sum), exact({a}, {b}, sum));
     ASSERT_EQ(geometry::turn_sign(a, b, b, c), exact({Vec2d(0, 0)}, {b, -a}, {c, -b}));
     const Terms more{c - offset, offset, rest, a, -a};
     ASSERT_EQ(geometry::orientation_sign_of_sum(a, b, more), exact({a}, {b}, more));
     const Vec2d position = dice.point(dice.power_of_two(20));
     const Vec2d from = a - position;
     const Vec2d to = b - position;
-    ASSERT_EQ(geometry::orientation_sign_of_edge_offset(position, from, to, c, rest),
+    ASSERT_EQ(geometry::orientation_sign_of_sum(from, to, std::array<Vec2d, 3>{c, -position, -rest}),
               exact({position, rest, from}, {position, rest, to}, {c}));
   }
   // A test that never met a hard case shows nothing.

@@ -6,6 +6,7 @@
 #include <paperproof/up_frame.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -52,7 +53,7 @@ template <class Ring>
   const Vec2d& from = ring[edge];
   const Vec2d& to = ring[(edge + 1) % ring.size()];
   for (const Vec2d& point : ring)
-    if (geometry::orientation_sign_of_offset(from, to, shift, point) > 0) return false;
+    if (geometry::orientation_sign_of_sum(from, to, std::array{shift, point}) > 0) return false;
   return true;
 }
 

@@ -98,14 +98,12 @@ ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<con
   return cross;
 }
 
-/// Sign of (to - from) x (a - b + c + d), where d is a small rest or zero.
+/// Sign of (to - from) x (a - b + c).
 ///
-/// The filter leaves d out and counts it among its errors. With u = 2^-53 and t = fl(a - b), the arm f = fl(t + c) is
-/// off by at most u(|t| + |f|) + |d| and the edge e by u|e|. A product is then off by |e|(3u(|t| + |f|) + |d|), and
-/// their difference by another u of both; terms of order u^2 and the rounding of the bound itself are covered by taking
-/// 5u for 4u, and twice |d|.
-int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c,
-               const Vec2d& d = Vec2d::Zero()) noexcept {
+/// The filter: with u = 2^-53 and t = fl(a - b), the arm f = fl(t + c) is off by at most u(|t| + |f|) and the edge e by
+/// u|e|. A product is then off by |e| 3u(|t| + |f|), and their difference by another u of both; terms of order u^2 and
+/// the rounding of the bound itself are covered by taking 5u for 4u.
+int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
   const double edge_x = to.x() - from.x();
   const double edge_y = to.y() - from.y();
   const double between_x = a.x() - b.x();
@@ -113,13 +111,12 @@ int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& 
   const double arm_x = between_x + c.x();
   const double arm_y = between_y + c.y();
   const double cross = edge_x * arm_y - edge_y * arm_x;
-  const double bound =
-      std::abs(edge_x) * (5 * rounding * (std::abs(between_y) + std::abs(arm_y)) + 2 * std::abs(d.y())) +
-      std::abs(edge_y) * (5 * rounding * (std::abs(between_x) + std::abs(arm_x)) + 2 * std::abs(d.x()));
+  const double bound = std::abs(edge_x) * (5 * rounding * (std::abs(between_y) + std::abs(arm_y))) +
+                       std::abs(edge_y) * (5 * rounding * (std::abs(between_x) + std::abs(arm_x)));
   if (cross > bound) return 1;
   if (cross < -bound) return -1;
   if (bound == 0) return 0;
-  return exact_cross<4>(from, to, std::array<Vec2d, 4>{a, -b, c, d}).sign();
+  return exact_cross<3>(from, to, std::array<Vec2d, 3>{a, -b, c}).sign();
 }
 
 }  // namespace
@@ -128,23 +125,8 @@ int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
   return cross_sign(a, b, c, a, Vec2d::Zero());
 }
 
-int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position, const Vec2d& offset,
-                               const Vec2d& rest) noexcept {
-  return cross_sign(a, b, position, a, offset, rest);
-}
-
-int orientation_sign_of_edge_offset(const Vec2d& position, const Vec2d& from, const Vec2d& to, const Vec2d& v,
-                                    const Vec2d& rest) noexcept {
-  return cross_sign(from, to, v, position, -from, -rest);
-}
-
 int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept {
   return cross_sign(a, b, d, c, Vec2d::Zero());
-}
-
-int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position, const Vec2d& offset,
-                        const Vec2d& rest) noexcept {
-  return cross_sign(Vec2d::Zero(), direction, position, through, offset, rest);
 }
 
 /// The filter: n additions are off by at most n u times the sum of all magnitudes, the edge by u, and the products and

@@ -28,23 +28,9 @@ inline constexpr double largest_exact = 0x1p300;
 /// @return +1: to the left (a, b, c turn counter-clockwise), -1: to the right, 0: on the line, or a equals b.
 [[nodiscard]] int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept;
 
-/// `orientation_sign(a, b, position + rest + offset)`, where the sum is not rounded. Here and below, `rest` is the part
-/// of a position that a double cannot hold.
-[[nodiscard]] int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position, const Vec2d& offset,
-                                             const Vec2d& rest = Vec2d::Zero()) noexcept;
-
-/// `orientation_sign(position + rest + from, position + rest + to, v)`, where the sums are not rounded.
-[[nodiscard]] int orientation_sign_of_edge_offset(const Vec2d& position, const Vec2d& from, const Vec2d& to,
-                                                  const Vec2d& v, const Vec2d& rest = Vec2d::Zero()) noexcept;
-
 /// Which way one turns from the direction a->b to the direction c->d: +1 to the left, -1 to the right, 0 not at all or
 /// half round.
 [[nodiscard]] int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept;
-
-/// On which side of the line through `through` with this direction `position + rest + offset` lies, where the sum is
-/// not rounded: +1 to the left.
-[[nodiscard]] int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position,
-                                      const Vec2d& offset, const Vec2d& rest = Vec2d::Zero()) noexcept;
 
 inline constexpr std::size_t most_terms = 8;
 
