@@ -18,9 +18,9 @@ test_packages=(
   python3 python3-gmpy2        # the checker of traces that shares no code with the project
   python3-jsonschema parallel  # schemas of what is written; shards over several processes
 )
-# Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), and the sanitizers' part
-# of clang (in older releases it comes with clang itself).
-optional_test_packages=(chromium libclang-rt-dev)
+# Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), the sanitizers' part
+# of clang (in older releases it comes with clang itself), and the prover of bounds of rounding.
+optional_test_packages=(chromium libclang-rt-dev gappa)
 
 missing_packages() {
   local package
