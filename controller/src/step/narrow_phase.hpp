@@ -329,13 +329,19 @@ template <Covered covered = Covered::yields>
   return {hit && stop <= 1, stop, {last.axis(is_covered), missed ? near : impact, missed, is_covered}};
 }
 
+/// What a motion does to an obstacle that may be far away.
+[[nodiscard]] inline PieceHit find_hit(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
+                                       const UpFrame& up = {}) noexcept {
+  const Clearance clear = clearance(space, motion, piece);
+  return clear.clear() ? PieceHit{} : sweep_piece(space, motion, piece, clear, up);
+}
+
 /// Whether one axis, by more than rounding, separates a piece from both ends of a straight motion: proof that the
-/// motion is clear of it.
+/// motion is clear of it. @param at_begin so much is enough where it begins [m].
 [[nodiscard]] inline bool one_axis_separates(const ConfigurationSpace& space, PieceIndex piece, const Vec2& from,
-                                             const Vec2& to) noexcept {
-  constexpr Real certain = tolerances.certain;
+                                             const Vec2& to, Real at_begin = tolerances.certain) noexcept {
   const auto separates = [&](std::size_t axis) {
-    return space.separation(piece, axis, from) >= certain && space.separation(piece, axis, to) >= certain;
+    return space.separation(piece, axis, from) >= at_begin && space.separation(piece, axis, to) >= tolerances.certain;
   };
   for (std::size_t axis = 0; axis < space.axis_count(piece); ++axis)
     if (separates(axis)) return true;

@@ -51,17 +51,10 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
 [[nodiscard]] inline std::optional<Contact> cast(Surroundings& around, const Vec2& position,
                                                  const Vec2& displacement) noexcept {
   const ConfigurationSpace& space = around.space;
-  const auto motion_seen_by = [&](const MoverMotion& mover) {
-    Motion seen = make_motion(space, Vec2(position - mover.from), Vec2(displacement - (mover.to - mover.from)));
-    seen.lost = lost_by(position, mover.from);
-    return seen;
-  };
   std::optional<Contact> first;
   const auto look_at = [&](PieceIndex piece, const Motion& motion, const MoverMotion& mover) {
     if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) return;
-    const Clearance clear = clearance(space, motion, piece);
-    if (clear.clear()) return;
-    const PieceHit hit = sweep_piece(space, motion, piece, clear, around.up);
+    const PieceHit hit = find_hit(space, motion, piece, around.up);
     if (!hit.hit) return;
     const Real fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
     const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
@@ -72,9 +65,10 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   };
   const Box2 box = make_motion(space, position, displacement).box();
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    const MoverMotion motion_of_mover = around.motion_of(mover);
-    const Motion motion = motion_seen_by(motion_of_mover);
-    for (const PieceIndex piece : pieces) look_at(piece, motion, motion_of_mover);
+    const MoverMotion other = around.motion_of(mover);
+    Motion motion = make_motion(space, Vec2(position - other.from), Vec2(displacement - (other.to - other.from)));
+    motion.lost = lost_by(position, other.from);
+    for (const PieceIndex piece : pieces) look_at(piece, motion, other);
   });
   return first;
 }

@@ -11,6 +11,11 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
+[[nodiscard]] inline Vec2 unit(const Vec2& v) noexcept {
+  const Real length = length_of(v);
+  return length > 0 ? Vec2(v / length) : v;
+}
+
 /// Unit normals of the two tangents, away from the piece; zero where the piece is no further than `width` away in all
 /// its corners.
 struct Tangents {
@@ -59,10 +64,6 @@ struct Tangents {
       }
     }
   }
-  const auto unit = [](const Vec2& v) {
-    const Real length = length_of(v);
-    return length > 0 ? Vec2(v / length) : v;
-  };
   return {unit({-left.y(), left.x()}), unit({right.y(), -right.x()})};
 }
 

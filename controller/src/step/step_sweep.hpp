@@ -241,9 +241,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   const auto look_at = [&](PieceIndex other) {
     if (other == stop.piece || collider_of(step, other) != collider_of(step, stop.piece)) return;
     if (!in_way(step, motion, other)) return;
-    const Clearance clear = clearance(step.space, motion, other);
-    if (clear.clear()) return;
-    const PieceHit hit = sweep_piece(step.space, motion, other, clear, step.up);
+    const PieceHit hit = find_hit(step.space, motion, other, step.up);
     if (hit.hit) earliest = std::min(earliest, time_of_impact(step.space, from, motion.displacement, other, hit.axes));
   };
   for_each_near(step, step.motion.box(), look_at);
@@ -274,10 +272,8 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
   const auto report_hit = [&](const Motion& motion, PieceIndex piece) {
     if (ignored(step, piece) || !in_way(step, motion, piece)) return;
-    const Clearance clear = clearance(step.space, motion, piece);
-    if (clear.clear()) return;
     const Real together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Real(0);
-    const PieceHit hit = sweep_piece(step.space, motion, piece, clear, step.up);
+    const PieceHit hit = find_hit(step.space, motion, piece, step.up);
     if (hit.hit && hit.stop <= step.found.stop + together)
       report_contact(step, piece, hit.axes.normal, fraction_of(step, {piece, hit.stop, together, hit.axes}, begin),
                      this_moment);
@@ -299,8 +295,7 @@ PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this
   Motion motion = make_motion(step.space, Vec2(step.start - at_first), way);
   motion.lost = lost_by(step.start, at_first);
   if (in_way(step, motion, piece)) {
-    const Clearance clear = clearance(step.space, motion, piece);
-    const PieceHit hit = clear.clear() ? PieceHit{} : sweep_piece(step.space, motion, piece, clear, step.up);
+    const PieceHit hit = find_hit(step.space, motion, piece, step.up);
     const Real wanted = hit.hit ? time_of_impact(step.space, motion.from, way, piece, hit.axes) : first;
     if (wanted < first) return wanted;
   }
