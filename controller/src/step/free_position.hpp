@@ -15,21 +15,21 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 inline constexpr double least_gap = 1.25;
 
 struct FreePositionQuery {
-  Vec2 from;                      ///< Where the motion starts [m],
-  Real begin = 0;                 ///< and when, as a fraction of the step.
-  Vec2 near;                      ///< The position nearest to this one is wanted [m].
-  Real end = 0;                   ///< When the motion ends. Equal to `begin`: it takes no time, and `near` is `from`.
-  std::size_t passable = 0;       ///< The motion may pass so many pieces, the first ones.
-  std::optional<Vec2> last_free;  ///< A straight motion from here must reach the position as well [m].
+  Vec2 from;                        ///< Where the motion starts [m],
+  Real begin = 0;                   ///< and when, as a fraction of the step.
+  Vec2 near;                        ///< The position nearest to this one is wanted [m].
+  Real end = 0;                     ///< When the motion ends. Equal to `begin`: it takes no time, and `near` is `from`.
+  std::size_t passable = 0;         ///< The motion may pass so many pieces, the first ones.
+  std::optional<Vec2> last_free{};  ///< A straight motion from here must reach the position as well [m].
   /// The position must be on the side of each from which the character came. Displacements are up to the end of the
   /// step.
   std::span<const Crusher> crushers;
   /// The same for the other pieces that may be passed: where the character was before it overlapped them [m].
-  std::optional<Vec2> entered_from;
+  std::optional<Vec2> entered_from{};
   std::span<const MoverMotion> movers;
   bool drops = false;  ///< One-way segments do not block.
-  Real gap;            ///< Gap to every solid at the end [m].
-  Real reach;          ///< The position must be nearer to `near` than this [m].
+  Real gap = 0;        ///< Gap to every solid at the end [m].
+  Real reach = 0;      ///< The position must be nearer to `near` than this [m].
 };
 
 /// The nearest position that is free when the motion ends, and is reached without passing a solid, except those that

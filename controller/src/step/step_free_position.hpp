@@ -15,20 +15,16 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// @param gap that is left around the character [m].
-[[nodiscard]] inline FreePositionQuery query_from(const Step& step, std::size_t corner, Real gap) noexcept {
-  const PathPoint& begin = step.result.path[corner];
-  return {.from = begin.position,
-          .begin = begin.fraction,
-          .near = step.position,
-          .end = 1,
-          .last_free = {},
-          .crushers = step.memory.crushers,
-          .entered_from = step.moving.last_free,
-          .movers = step.movers.moving.motions,
-          .drops = step.request.drop,
-          .gap = gap,
-          .reach = 0};
+/// @param gap that is left around the character [m]. @param reach how far away the position may be [m].
+[[nodiscard]] inline FreePositionQuery query_from(const Step& step, std::size_t corner, Real gap, Real reach) noexcept {
+  FreePositionQuery query = query_here(step);
+  query.from = step.result.path[corner].position;
+  query.begin = step.result.path[corner].fraction;
+  query.end = 1;
+  query.entered_from = step.moving.last_free;
+  query.gap = gap;
+  query.reach = reach;
+  return query;
 }
 
 /// Whether a motion from a corner may pass the collider of a piece.
@@ -36,13 +32,17 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return step.memory.is(collider_of(step, piece), corner == 0 ? leaving | overlaps_since_start : overlaps_since_start);
 }
 
+/// The pieces for a search from a corner.
+[[nodiscard]] inline std::span<const PieceIndex> pieces_from(Step& step, std::size_t corner,
+                                                             FreePositionQuery& query) noexcept {
+  return pieces_for(step, query, [&](PieceIndex piece) { return may_pass(step, piece, corner); });
+}
+
 /// Takes a free position that is reached from a corner, if it is nearer than the one found so far.
 inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& found) noexcept {
-  FreePositionQuery query = query_from(step, corner, gap);
+  FreePositionQuery query = query_from(step, corner, gap, found.distance);
   if (!(query.begin < 1)) return;
-  query.reach = found.distance;
-  const std::span<PieceIndex> pieces = pieces_for(step, query, found.distance);
-  query.passable = put_first(step, pieces, [&](PieceIndex piece) { return may_pass(step, piece, corner); });
+  const std::span<const PieceIndex> pieces = pieces_from(step, corner, query);
   if (const std::optional<Vec2> nearest = nearest_free(step.space, pieces, query))
     found = {length_of(Vec2(*nearest - step.position)), *nearest, corner};
 }
@@ -132,25 +132,15 @@ inline void extend_until_contact(Step& step, FreePosition& found) noexcept {
   const Vec2 displacement = found.position - from.position;
   Real low = 1;
   Real high = (1 - from.fraction) / (step.time - from.fraction);
-  FreePositionQuery query = query_from(step, found.corner, Real(0));
-  const std::span<PieceIndex> pieces =
-      pieces_for(step, query, length_of(Vec2(Vec2(from.position) + displacement * high - step.position)));
-  query.passable = put_first(step, pieces, [&](PieceIndex piece) { return may_pass(step, piece, found.corner); });
+  const Real reach = length_of(Vec2(Vec2(from.position) + displacement * high - step.position));
+  FreePositionQuery query = query_from(step, found.corner, Real(0), reach);
+  const std::span<const PieceIndex> pieces = pieces_from(step, found.corner, query);
   while ((high - low) * length_of(displacement) > tolerances.hit) {  // 46 halvings at most, of 4e6 m
     const Real middle = (low + high) / 2;
     if (!(middle > low && middle < high)) break;
     (reaches(step.space, pieces, query, Vec2(from.position + displacement * middle)) ? low : high) = middle;
   }
   found.position = from.position + displacement * low;
-}
-
-/// One motion for the rest of the step, which is known to be clear.
-inline void go_to(Step& step, const Vec2& end) noexcept {
-  halt(step);
-  step.position = end;
-  step.time = 1;
-  step.on_ground = step.wedged = false;
-  push_corner(step, step.time);
 }
 
 /// Takes back the path since a corner, and its contacts.
@@ -163,14 +153,14 @@ inline void go_back_to(Step& step, std::size_t corner) noexcept {
   step.moving.anchored = false;
 }
 
-/// Reports what the motion to the free position comes near to: that is what stops or pushes the character. Each piece
-/// is a contact at the moment when it is nearest, and that moment becomes a corner of the path.
-inline void report_free_position(Step& step, std::size_t corner) noexcept {
+/// Goes straight to the free position, from a corner that is the last one of the path. Reports what this motion comes
+/// near to: that is what stops or pushes the character. Each piece is a contact at the moment when it is nearest, and
+/// that moment becomes a corner of the path.
+inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end) noexcept {
   const PathPoint from = step.result.path[corner];
-  const PathPoint to = step.result.path.back();
-  step.result.path.pop_back();
-  step.position = step.result.path.back().position;
-  step.time = step.result.path.back().fraction;
+  const PathPoint to{end, 1};
+  halt(step);
+  step.on_ground = step.wedged = false;
   std::optional<Nearest> next;
   while ((next = next_near(step, corner, to, next))) {  // each piece once
     const Nearest near = *next;
@@ -212,8 +202,7 @@ inline void report_free_position(Step& step, std::size_t corner) noexcept {
   if (!found) return false;
   extend_until_contact(step, *found);
   go_back_to(step, found->corner);
-  go_to(step, found->position);
-  report_free_position(step, found->corner);
+  go_to_free_position(step, found->corner, found->position);
   return true;
 }
 

@@ -65,9 +65,7 @@ inline bool ignore_overlapping_movers(Step& step) noexcept {
 /// Notes the colliders that the step begins inside of.
 inline void note_colliders_left(Step& step) noexcept {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    const ColliderIndex collider = collider_of(step, piece);
-    if (step.memory.is(collider, leaving) || !overlaps(step, piece, step.position)) return;
-    step.memory.mark(collider, leaving);
+    if (overlaps(step, piece, step.position)) step.memory.mark(collider_of(step, piece), leaving);
   });
 }
 
@@ -90,16 +88,26 @@ inline void note_colliders_left(Step& step) noexcept {
   return length_of(Vec2((middle - Vec2(whole.lower)).cwiseMax(Vec2(whole.upper) - middle) + extent));
 }
 
-/// Every piece that may be hit on a straight motion to a position less than `radius` away from `query.near`. The pieces
-/// of one collider are in a row. The span may be reordered.
-[[nodiscard]] inline std::span<PieceIndex> pieces_for(Step& step, const FreePositionQuery& query,
-                                                      Real radius) noexcept {
-  Box2 box = Box2{query.near, query.near}.inflated(radius).merged({query.from, query.from});
+/// What a search for a free position has in common that starts now.
+[[nodiscard]] inline FreePositionQuery query_here(const Step& step) noexcept {
+  return {.from = step.position,
+          .near = step.position,
+          .crushers = step.memory.crushers,
+          .movers = step.movers.moving.motions,
+          .drops = step.request.drop};
+}
+
+/// Every piece that may be hit on a straight motion to a position that is wanted. First come the pieces that may be
+/// passed: all of those colliders that have a piece for which `may_pass` holds. `query.passable` counts them.
+template <class MayPass>
+[[nodiscard]] inline std::span<const PieceIndex> pieces_for(Step& step, FreePositionQuery& query,
+                                                            const MayPass& may_pass) noexcept {
+  Box2 box = Box2{query.near, query.near}.inflated(query.reach).merged({query.from, query.from});
   const auto add = [&box](const Vec2& p) { box = box.merged({p, p}); };
   if (query.last_free) add(*query.last_free);
   if (query.entered_from) add(*query.entered_from);
   for (const Crusher& crusher : query.crushers) add(crusher.last_free + crusher.displacement);
-  const std::span<PieceIndex> pieces = step.near.take(box);
+  const std::span<PieceIndex> around = step.near.take(box);  // those of one collider are in a row
   const Box2 touched = step.space.touched_from(box);
   const auto is_out_of_way = [&](PieceIndex piece) {
     if (mover_of(step, piece) == no_mover) return false;
@@ -108,22 +116,15 @@ inline void note_colliders_left(Step& step) noexcept {
     const Box2 seen{touched.lower - begin.cwiseMax(end), touched.upper - begin.cwiseMin(end)};
     return ignored(step, piece) || !seen.overlaps(step.space.info(piece).box);
   };
-  return {pieces.begin(), std::remove_if(pieces.begin(), pieces.end(), is_out_of_way)};
-}
-
-/// Puts all pieces of those colliders first that have a piece for which the condition holds.
-/// @return how many they are.
-template <class Condition>
-[[nodiscard]] inline std::size_t put_first(const Step& step, std::span<PieceIndex> pieces,
-                                           const Condition& condition) noexcept {
-  std::size_t count = 0;
+  const std::span<PieceIndex> pieces{around.begin(), std::remove_if(around.begin(), around.end(), is_out_of_way)};
+  query.passable = 0;
   for (std::size_t first = 0, end = 0; first < pieces.size(); first = end) {
-    bool fulfilled = false;
+    bool passable = false;
     for (end = first; end < pieces.size() && collider_of(step, pieces[end]) == collider_of(step, pieces[first]); ++end)
-      fulfilled = fulfilled || condition(pieces[end]);
-    for (std::size_t k = first; fulfilled && k < end; ++k) std::swap(pieces[count++], pieces[k]);
+      passable = passable || may_pass(pieces[end]);
+    for (std::size_t k = first; passable && k < end; ++k) std::swap(pieces[query.passable++], pieces[k]);
   }
-  return count;
+  return pieces;
 }
 
 /// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole: 52
@@ -131,8 +132,8 @@ template <class Condition>
 [[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, FreePositionQuery query, Real whole) noexcept {
   const Vec2 extent = step.space.hull_box().upper - step.space.hull_box().lower;
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
-    const std::span<PieceIndex> pieces = pieces_for(step, query, query.reach);
-    query.passable = put_first(step, pieces, [&](PieceIndex piece) { return overlaps(step, piece, step.position); });
+    const std::span<const PieceIndex> pieces =
+        pieces_for(step, query, [&](PieceIndex piece) { return overlaps(step, piece, step.position); });
     if (const std::optional<Vec2> out = nearest_free(step.space, pieces, query)) return out;
     if (!(query.reach < whole)) return std::nullopt;
   }
@@ -142,15 +143,7 @@ template <class Condition>
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
 [[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step) noexcept {
   const Real whole = reach_of_solids_inside(step);
-  FreePositionQuery query{.from = step.position,
-                          .near = step.position,
-                          .last_free = {},
-                          .crushers = step.memory.crushers,
-                          .entered_from = {},
-                          .movers = step.movers.moving.motions,
-                          .drops = step.request.drop,
-                          .gap = {},
-                          .reach = {}};
+  FreePositionQuery query = query_here(step);
   const CharacterState& before = step.request.state;
   if (before.has_last_free) query.last_free = before.last_free;
   do {
@@ -162,28 +155,24 @@ template <class Condition>
   return std::nullopt;
 }
 
-/// Leaves the movers that overlap, as any solid, to the side from which the character came. False if there is no way
-/// out.
-[[nodiscard]] inline bool leaves_overlapping_movers(Step& step) noexcept {
-  if (step.moving.side_lost) return false;
-  step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
+/// Leaves what overlaps the character. False if there is no way out.
+[[nodiscard]] inline bool leave(Step& step) noexcept {
   const std::optional<Vec2> out = find_way_out(step);
-  if (out) {
-    note_colliders_left(step);
-    for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
-    step.moving.overlapping = 0;
-    step.start = step.position = *out;
-    push_corner(step, 0);
-  }
-  step.moving.ignored = passes_through;
-  return out.has_value();
+  if (!out) return false;
+  note_colliders_left(step);
+  step.start = step.position = *out;
+  // Movers that were ignored and do not overlap here are as solid as others again.
+  for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
+  if (step.moving.overlapping > 0) ignore_overlapping_movers(step);
+  push_corner(step, 0);
+  return true;
 }
 
 /// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
 [[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
-  if (!step.space.info(piece).is_one_way()) return true;
-  if (step.request.drop) return false;
-  return is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece)));
+  return !step.space.info(piece).is_one_way() ||
+         (!step.request.drop &&
+          is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece))));
 }
 
 /// Pushes the character off the nearest piece, again and again, until every gap is at least `hit`. Without success the
@@ -199,13 +188,12 @@ inline void restore_gap(Step& step) noexcept {
       least = best.separation;
       push = step.space.normal(piece, best.axis) * (tolerances.stop - best.separation);
     });
-    if (least >= tolerances.hit) {
-      if (!exactly_clear(step, step.position, q)) return;
-      step.position = q;
-      push_corner(step, 0);
-      return;
+    if (least < tolerances.hit) {
+      q += push;
+      continue;
     }
-    q += push;
+    if (exactly_clear(step, step.position, q)) step.position = q;
+    return push_corner(step, 0);
   }
 }
 
@@ -239,21 +227,17 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
 [[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step, Part part) noexcept {
   const CharacterState& state = step.request.state;
   if (state.has_last_free) step.moving.last_free = state.last_free;
-  if (state.crushed && ignore_overlapping_movers(step) && part == Part::whole && leaves_overlapping_movers(step))
-    return true;
+  if (state.crushed && ignore_overlapping_movers(step) && part == Part::whole && !step.moving.side_lost) {
+    // They are left as any solid, to the side from which the character came.
+    step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
+    const bool is_out = leave(step);
+    step.moving.ignored = passes_through;
+    if (is_out) return true;
+  }
   while (overlaps(step, step.position)) {  // each round ignores one more collider that moves
     // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!step.memory.crushers.empty()) return false;
-    const std::optional<Vec2> out = find_way_out(step);
-    if (out) {
-      if (step.movers.active) note_colliders_left(step);
-      step.start = step.position = *out;
-      // Movers that were ignored and do not overlap here are as solid as others again.
-      for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
-      if (step.moving.overlapping > 0) ignore_overlapping_movers(step);
-      push_corner(step, 0);
-      return true;
-    }
+    if (leave(step)) return true;
     // There is no free position beside the movers. Without those that overlap there may be one.
     if (!ignore_overlapping_movers(step)) return false;
   }
