@@ -44,18 +44,11 @@ struct PieceFace {
 }
 
 /// Separation from a circle along a direction, from differences of coordinates.
-[[nodiscard]] inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece, const Vec2& n,
-                                           const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece,
+                                                           Vec2 n, Vec2 p) noexcept {
   const Circle circle = space.circle(circle_piece);
   const Vec2 centre = circle.centre - p;
   return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
-}
-
-/// See `time_of_impact`.
-[[nodiscard]] PAPERPROOF_COLD inline Real time_of_impact_with_arc(const ConfigurationSpace& space, Vec2 from,
-                                                                  Real approach, PieceIndex piece, Vec2 n,
-                                                                  Real level) noexcept {
-  return std::clamp((separation_along(space, piece, n, from) - level) / approach, Real(0), Real(1));
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
@@ -67,10 +60,11 @@ struct PieceFace {
   const Real level = axes.missed ? tolerances.hit : Real(0);
   const Vec2 n = space.normal(piece, axes.impact);
   const Real approach = -(n.x() * displacement.x() + n.y() * displacement.y());
+  Real separation = 0;
   if (is_direction(axes.impact)) [[unlikely]]
-    return time_of_impact_with_arc(space, from, approach, piece, n, level);
-  const Real separation =
-      space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, n, from).high;
+    separation = separation_along(space, piece, n, from);
+  else
+    separation = space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, n, from).high;
   return std::clamp((separation - level) / approach, Real(0), Real(1));
 }
 
