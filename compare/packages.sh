@@ -21,6 +21,8 @@ test_packages=(
 # Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), the sanitizers' part
 # of clang (in older releases it comes with clang itself), and the prover of bounds of rounding.
 optional_test_packages=(chromium libclang-rt-dev gappa)
+# A compiler for Windows, and what runs its programs: for one slow test. 170 MB to download, half a minute to install.
+windows_test_packages=(g++-mingw-w64-x86-64-posix wine64)
 
 missing_packages() {
   local package

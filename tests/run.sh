@@ -25,6 +25,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source compare/packages.sh
 
 install_missing "${build_packages[@]}" "${test_packages[@]}"
+[[ -z $target ]] || optional_test_packages+=("${windows_test_packages[@]}")
 mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
 (install_missing "${optional[@]}") || echo "going on without ${optional[*]}: tests that need it are skipped"
 
