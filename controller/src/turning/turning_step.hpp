@@ -28,9 +28,8 @@ inline constexpr double turning_share = 0x1p-20;
 /// The ways of the vertices that are reported, the way of the character and its points count as exact. Of places
 /// relative to the character's first each component is off by less than 1.5e-10 (vertex and corner together), and the
 /// side of an edge by less than 3.4e-10 times its length. In all that is at most 6e-10 with no coordinate beyond 1e6 m,
-/// and nothing farther than 1e5 m from the character's first place. Gappa proves it (tests/controller/bounds). It is
-/// more beside a corner so flat that rounding turns it inside out: the line of a short edge there has a part of the
-/// piece on its outside.
+/// and nothing farther than 1e5 m from the character's first place. Gappa proves it (tests/controller/bounds). The piece
+/// itself is at most 5e-11 m beyond the line of its edge, or 3.4e-10 more by rounding: below 1e-9 in all.
 inline constexpr double proved = 1e-9;
 
 /// What a step is asked for.
