@@ -1,6 +1,7 @@
 #include "step/certificate.hpp"
 
 #include "geometry/exact.hpp"
+#include "step/narrow_phase.hpp"
 
 #include <paperproof/tolerances.hpp>
 
@@ -24,10 +25,10 @@ Terms exact_position(const ConfigurationSpace& space, PieceIndex piece, std::spa
   add(in_world.cast<double>());
   const MoverIndex mover = space.info(piece).source.mover;
   if (mover == no_mover) return position;
-  const auto [from, to] = std::pair(Vec2d(movers[mover].from), Vec2d(movers[mover].to));
-  add(time < 1 ? -from : -to);
+  const MoverMotion& motion = movers[mover];
+  add(time < 1 ? -motion.from : -motion.to);
   if (time > 0 && time < 1)
-    for (const Vec2d& part : geometry::part_of_way(from, to, static_cast<double>(time))) add(-part);
+    for (const Vec2d& part : geometry::part_of_way(motion.from, motion.to, static_cast<double>(time))) add(-part);
   return position;
 }
 
@@ -45,15 +46,6 @@ class BesideCircle {
  public:
   BesideCircle(const ConfigurationSpace& space, PieceIndex piece) noexcept
       : circle_(space.circle(piece)), octagon_(space.hull()) {}
-
-  /// Whether their open interiors are apart: an edge is, or the corner that is nearest.
-  [[nodiscard]] bool is_clear(const Terms& p) const noexcept {
-    const double separation = near(p).separation;
-    if (std::abs(separation) >= tolerances.certain) return separation > 0;
-    for (std::size_t k = 0; k < octagon_.size(); ++k)
-      if (is_edge_apart(k, p) || is_corner_apart(k, p)) return true;
-    return false;
-  }
 
   /// Whether a motion is proved to be clear. The distance is convex in time: a motion that does not come nearer from
   /// one end is clear if that end is. Else an edge, or a tangent of the circle that is nearest at one of the ends,
@@ -123,26 +115,25 @@ bool some_edge_separates(std::span<const Vec2d> ring, std::span<const Vec2d> poi
   return false;
 }
 
-bool some_line_separates(const ConfigurationSpace& space, PieceIndex piece, const Terms& from,
-                         const Terms& to) noexcept {
-  const PieceVertices vertices = space.vertices_of(piece);
-  return some_edge_separates(vertices, space.hull(), from, to, 1) ||
-         some_edge_separates(space.hull(), vertices, from, to, -1);
-}
-
 }  // namespace
 
 bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
                       const Vec2& position, Real time) noexcept {
-  const Terms p = exact_position(space, piece, movers, position, time);
-  return space.is_circle(piece) ? !BesideCircle(space, piece).is_clear(p) : !some_line_separates(space, piece, p, p);
+  const MoverIndex mover = space.info(piece).source.mover;
+  const Vec2 seen = mover == no_mover ? position : Vec2(position - Vec2(movers[mover].at(time)));
+  const Real separation = best_axis(space, piece, seen).separation;
+  if (std::abs(separation) >= tolerances.certain) return separation < 0;
+  return !clear_of_exactly(space, piece, movers, position, time, position, time);
 }
 
+/// The separating axis theorem with signs of exact determinants.
 bool clear_of_exactly(const ConfigurationSpace& space, PieceIndex piece, std::span<const MoverMotion> movers,
                       const Vec2& from, Real begin, const Vec2& to, Real end) noexcept {
   const Terms p = exact_position(space, piece, movers, from, begin);
   const Terms q = exact_position(space, piece, movers, to, end);
-  return space.is_circle(piece) ? BesideCircle(space, piece).are_clear(p, q) : some_line_separates(space, piece, p, q);
+  if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(p, q);
+  const PieceVertices vertices = space.vertices_of(piece);
+  return some_edge_separates(vertices, space.hull(), p, q, 1) || some_edge_separates(space.hull(), vertices, p, q, -1);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

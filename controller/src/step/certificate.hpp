@@ -9,8 +9,7 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// Whether the octagon's open interior meets the piece, exactly: the separating axis theorem with signs of exact
-/// determinants. Allocates nothing.
+/// Whether the octagon's open interior meets the piece: exactly, where separations do not tell. Allocates nothing.
 /// @param movers motions in the whole step. @param position in the world, at a fraction of the step.
 [[nodiscard]] bool overlaps_exactly(const ConfigurationSpace& space, PieceIndex piece,
                                     std::span<const MoverMotion> movers, const Vec2& position, Real time) noexcept;

@@ -5,6 +5,8 @@
 #include "inlining.hpp"
 #include "step/narrow_phase.hpp"
 
+#include <paperproof/report.hpp>
+
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// What of a piece faces the octagon along an axis with normal n: its highest points along n.
@@ -93,6 +95,20 @@ struct ContactPlace {
       std::clamp((std::max(there.from, face.from) + std::min(there.to, face.to)) / 2, there.from, there.to);
   return {{p.x() + n.x() * there.high - n.y() * middle, p.y() + n.y() * there.high + n.x() * middle},
           face.low - there.high};
+}
+
+/// @param at as the piece sees it. @param offset of the mover of the piece.
+[[nodiscard, gnu::always_inline]] inline Contact contact_with(const ConfigurationSpace& space, const UpFrame& up,
+                                                              PieceIndex piece, std::size_t axis, const Vec2& at,
+                                                              const Vec2& offset, Real fraction) noexcept {
+  const Vec2 normal = space.normal(piece, axis);
+  const ContactPlace place = contact_place(space, piece, axis, normal, at);
+  return {.collider = space.info(piece).source.collider,
+          .point = place.point + offset,
+          .normal = normal,
+          .fraction = fraction,
+          .separation = place.separation,
+          .side = up.side_of(normal)};
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -115,8 +115,7 @@ class Search {
   }
   [[nodiscard]] bool is_inside_something(const Vec2& p) const noexcept {
     return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
-      return solid(piece) && best(piece, seen(piece, p, query_.begin)).separation < tolerances.certain &&
-             overlaps_exactly(space_, piece, query_.movers, p, query_.begin);
+      return solid(piece) && overlaps_exactly(space_, piece, query_.movers, p, query_.begin);
     });
   }
   [[nodiscard]] bool starts_inside() const noexcept {

@@ -25,19 +25,6 @@ struct Surroundings {
   }
 };
 
-[[nodiscard]] inline Contact contact_with(const Surroundings& around, PieceIndex piece, std::size_t axis,
-                                          const Vec2& position, const Vec2& offset, Real fraction) noexcept {
-  const ConfigurationSpace& space = around.space;
-  const Vec2 normal = space.normal(piece, axis);
-  const ContactPlace place = contact_place(space, piece, axis, normal, Vec2(position - offset));
-  return {.collider = space.info(piece).source.collider,
-          .point = place.point + offset,
-          .normal = normal,
-          .fraction = fraction,
-          .separation = place.separation,
-          .side = around.up.side_of(normal)};
-}
-
 /// Calls `look(piece, motion)` for the pieces that may be touched from positions in a box, with the motion of each.
 template <class Look>
 void for_each_around(Surroundings& around, const Box2& box, const Look& look) noexcept {
@@ -60,8 +47,9 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
     const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
     if (first && (fraction > first->fraction || (fraction == first->fraction && up <= around.up.up_of(first->normal))))
       return;
-    first = contact_with(around, piece, hit.axes.normal, Vec2(position + displacement * fraction), mover.at(fraction),
-                         fraction);
+    const Vec2 offset = mover.at(fraction);
+    first = contact_with(space, around.up, piece, hit.axes.normal, Vec2(position + displacement * fraction - offset),
+                         offset, fraction);
   };
   const Box2 box = make_motion(space, position, displacement).box();
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
@@ -79,12 +67,10 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   const ConfigurationSpace& space = around.space;
   std::size_t count = 0;
   ColliderIndex last = no_collider;
-  for_each_around(around, {position, position}, [&](PieceIndex piece, const MoverMotion& mover) {
+  for_each_around(around, {position, position}, [&](PieceIndex piece, const MoverMotion&) {
     const PieceInfo& info = space.info(piece).source;
     if (info.collider == last || info.one_way) return;  // the pieces of a collider are consecutive
-    if (best_axis(space, piece, Vec2(position - mover.from)).separation >= tolerances.certain ||
-        !overlaps_exactly(space, piece, around.movers, position, Real(0)))
-      return;
+    if (!overlaps_exactly(space, piece, around.movers, position, Real(0))) return;
     last = info.collider;
     if (count < found.size()) found[count] = last;
     ++count;
@@ -120,7 +106,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
     // No contact has the normal of a seam. From further away the side of one piece may hide that of another.
     if (std::abs(best.separation) <= tolerances.touch && space.covered(piece, best.axis)) return;
     if (space.info(piece).source.one_way && !is_above(space, piece, at, lost_by(position, mover.from))) return;
-    const Contact contact = contact_with(around, piece, best.axis, position, mover.from, Real(0));
+    const Contact contact = contact_with(space, around.up, piece, best.axis, at, mover.from, Real(0));
     count = insert_contact(contact, found, count);
   });
   return count;

@@ -25,7 +25,6 @@ inline void remember(Step& step, const Crusher& now) noexcept {
 
 [[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
   return !step.space.info(piece).is_one_way() &&
-         best_axis(step.space, piece, local(step, piece, position)).separation < tolerances.certain &&
          overlaps_exactly(step.space, piece, step.movers.moving.motions, position, step.time);
 }
 

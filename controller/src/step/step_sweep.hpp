@@ -220,13 +220,8 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   if (known != contacts.end() &&
       (known < contacts.begin() + static_cast<std::ptrdiff_t>(this_moment) || known->fraction <= fraction))
     return;
-  const ContactPlace place = contact_place(step.space, piece, axis, normal, local(step, piece, step.position));
-  const Contact contact{.collider = collider,
-                        .point = place.point + offset(step, piece),
-                        .normal = normal,
-                        .fraction = fraction,
-                        .separation = place.separation,
-                        .side = step.up.side_of(normal)};
+  const Contact contact =
+      contact_with(step.space, step.up, piece, axis, local(step, piece, step.position), offset(step, piece), fraction);
   if (known != contacts.end())
     *known = contact;
   else
