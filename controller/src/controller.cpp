@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "inlining.hpp"
+#include "intent.hpp"
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
 #include "step/octagon_sweep.hpp"
@@ -13,129 +14,9 @@
 #include "turning/turning_step.hpp"
 
 namespace paperproof {
-namespace {
 
+using namespace intent;
 using namespace step_parts;
-
-PAPERPROOF_INLINE double steered(const CharacterDef& character, const CharacterState& state, double move,
-                                 double dt) noexcept {
-  const double acceleration =
-      state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
-  const double target = std::clamp(move, -1.0, 1.0) * character.walk_speed;
-  const double change = acceleration * dt;
-  return state.velocity.x() + std::clamp(target - state.velocity.x(), -change, change);
-}
-
-bool may_jump(const CharacterDef& character, const CharacterState& state, const Input& input,
-              bool wall_ahead) noexcept {
-  if (state.crushed || state.jumping || !(state.grounded || state.coyote_left > 0)) return false;
-  if (!character.no_jump_toward_wall) return true;
-  const double move = input.move.value_or(0);
-  return !wall_ahead && !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
-}
-
-/// Notes a press of the jump button, and ends one that has been pending for too long.
-void note_press(const CharacterDef& character, bool pressed, double dt, CharacterState& state) noexcept {
-  if (pressed && !state.jump_held) {
-    state.jump_pending = true;
-    if (character.jump_buffer) state.pending_left = *character.jump_buffer;
-  } else if (character.jump_buffer) {
-    state.pending_left = std::max(state.pending_left - dt, 0.0);
-    state.jump_pending = state.jump_pending && state.pending_left > 0;
-  } else if (!pressed) {
-    state.jump_pending = false;
-  }
-}
-
-/// The upward speed after the button was pressed or released, or a press is pending. Kept out of most steps.
-PAPERPROOF_COLD double use_button(const CharacterDef& character, const Input& input, bool wall_ahead, double dt,
-                                  CharacterState& state, double upwards) noexcept {
-  note_press(character, input.jump, dt, state);
-  const bool released = state.jump_held && !input.jump;
-  if (released && state.jumping && upwards > 0) upwards *= character.jump_cut;
-  state.jump_held = input.jump;
-  if (state.jump_pending && may_jump(character, state, input, wall_ahead)) {
-    upwards = character.jump_speed;
-    state.jumping = true;
-    state.grounded = state.jump_pending = false;
-    state.coyote_left = 0;
-    if (!input.jump) upwards *= character.jump_cut;
-  }
-  return upwards;
-}
-
-/// The upward speed of a walker that brakes or turns round on a slope: the climb slows with the walk. The walker would
-/// leave the ground with the speed of its climb otherwise. A rise that is steeper than walkable ground is no climb, nor
-/// is the speed of ground that moved and is gone.
-/// @param walk speed of the walk from now on.
-PAPERPROOF_COLD double slowed_climb(const CharacterDef& character, const CharacterState& state, double walk) noexcept {
-  const Vec2d& before = state.velocity;
-  const double cosine = character.walkable_cosine();
-  const double steepest = std::sqrt(1 - cosine * cosine) / cosine;
-  const bool is_left = state.ride.ground == Ride::none && !state.ground.velocity.isZero(0);
-  if (is_left || !(before.y() <= std::abs(before.x()) * steepest)) return before.y();
-  return before.y() * std::max(walk / before.x(), 0.0);
-}
-
-/// Counted from the first step that begins in the air.
-void count_down_coyote(const CharacterDef& character, double dt, CharacterState& state) noexcept {
-  if (character.coyote_time > 0)
-    state.coyote_left = state.grounded ? character.coyote_time : std::max(state.coyote_left - dt, 0.0);
-}
-
-/// @param wall_ahead there is a wall to jump against, whatever the last step touched.
-PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character, const Vec2d& gravity,
-                                                  const Input& input, double dt, bool wall_ahead,
-                                                  CharacterState& state) noexcept {
-  // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
-  double x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
-  const double change = x - state.velocity.x();
-  double y = state.velocity.y();
-  if (change * state.velocity.x() < 0 && state.grounded && y > 0) [[unlikely]]
-    y = slowed_climb(character, state, x);
-  if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
-    y = use_button(character, input, wall_ahead, dt, state, y);
-  count_down_coyote(character, dt, state);
-  x += gravity.x() * dt;
-  y += gravity.y() * dt;
-  if (character.max_fall_speed) y = std::max(y, -*character.max_fall_speed);
-  return {{x, y}, change};
-}
-
-/// Restores the members of a state that the intent changes, if the step is refused later. (A copy of the whole state
-/// costs a tenth of a step.)
-class Undo {
- public:
-  explicit Undo(const CharacterState& state) noexcept
-      : velocity_(state.velocity),
-        grounded_(state.grounded),
-        jumping_(state.jumping),
-        jump_held_(state.jump_held),
-        jump_pending_(state.jump_pending),
-        coyote_left_(state.coyote_left),
-        pending_left_(state.pending_left) {}
-
-  void restore(CharacterState& state) const noexcept {
-    state.velocity = velocity_;
-    state.grounded = grounded_;
-    state.jumping = jumping_;
-    state.jump_held = jump_held_;
-    state.jump_pending = jump_pending_;
-    state.coyote_left = coyote_left_;
-    state.pending_left = pending_left_;
-  }
-
- private:
-  Vec2d velocity_;
-  bool grounded_;
-  bool jumping_;
-  bool jump_held_;
-  bool jump_pending_;
-  double coyote_left_;
-  double pending_left_;
-};
-
-}  // namespace
 
 DesiredVelocity desired_velocity(const CharacterDef& character, const Vec2d& gravity, const Input& input, double dt,
                                  CharacterState& state, bool wall_ahead) noexcept {

@@ -98,9 +98,9 @@ struct ContactPlace {
 }
 
 /// @param at as the piece sees it. @param offset of the mover of the piece.
-[[nodiscard, gnu::always_inline]] inline Contact contact_with(const ConfigurationSpace& space, const UpFrame& up,
-                                                              PieceIndex piece, std::size_t axis, const Vec2& at,
-                                                              const Vec2& offset, Real fraction) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Contact contact_with(const ConfigurationSpace& space, const UpFrame& up,
+                                                     PieceIndex piece, std::size_t axis, const Vec2& at,
+                                                     const Vec2& offset, Real fraction) noexcept {
   const Vec2 normal = space.normal(piece, axis);
   const ContactPlace place = contact_place(space, piece, axis, normal, at);
   return {.collider = space.info(piece).source.collider,
