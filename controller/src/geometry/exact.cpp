@@ -98,35 +98,23 @@ ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<con
   return cross;
 }
 
-/// Sign of (to - from) x (a - b + c).
-///
-/// The filter: with u = 2^-53 and t = fl(a - b), the arm f = fl(t + c) is off by at most u(|t| + |f|) and the edge e by
-/// u|e|. A product is then off by |e| 3u(|t| + |f|), and their difference by another u of both; terms of order u^2 and
-/// the rounding of the bound itself are covered by taking 5u for 4u.
-int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
-  const double edge_x = to.x() - from.x();
-  const double edge_y = to.y() - from.y();
-  const double between_x = a.x() - b.x();
-  const double between_y = a.y() - b.y();
-  const double arm_x = between_x + c.x();
-  const double arm_y = between_y + c.y();
-  const double cross = edge_x * arm_y - edge_y * arm_x;
-  const double bound = std::abs(edge_x) * (5 * rounding * (std::abs(between_y) + std::abs(arm_y))) +
-                       std::abs(edge_y) * (5 * rounding * (std::abs(between_x) + std::abs(arm_x)));
+}  // namespace
+
+int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept { return turn_sign(a, b, a, c); }
+
+/// The filter: with u = 2^-53 the edges e and f are off by u|e| and u|f|. A product is then off by 3u|e||f|, and their
+/// difference by another u of both; terms of order u^2 and the rounding of the bound itself are covered by taking 5u
+/// for 4u.
+int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept {
+  const Vec2d edge = b - a;
+  const Vec2d other = d - c;
+  const double cross = edge.x() * other.y() - edge.y() * other.x();
+  const double bound =
+      5 * rounding * (std::abs(edge.x()) * std::abs(other.y()) + std::abs(edge.y()) * std::abs(other.x()));
   if (cross > bound) return 1;
   if (cross < -bound) return -1;
   if (bound == 0) return 0;
-  return exact_cross<3>(from, to, std::array<Vec2d, 3>{a, -b, c}).sign();
-}
-
-}  // namespace
-
-int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
-  return cross_sign(a, b, c, a, Vec2d::Zero());
-}
-
-int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept {
-  return cross_sign(a, b, d, c, Vec2d::Zero());
+  return exact_cross<2>(a, b, std::array{d, Vec2d(-c)}).sign();
 }
 
 /// The filter: n additions are off by at most n u times the sum of all magnitudes, the edge by u, and the products and
