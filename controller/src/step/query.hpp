@@ -39,24 +39,24 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
                                                  const Vec2& displacement) noexcept {
   const ConfigurationSpace& space = around.space;
   std::optional<Contact> first;
-  const auto look_at = [&](PieceIndex piece, const Motion& motion, const MoverMotion& mover) {
-    if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) return;
-    const PieceHit hit = find_hit(space, motion, piece, around.up);
-    if (!hit.hit) return;
-    const Real fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
-    const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
-    if (first && (fraction > first->fraction || (fraction == first->fraction && up <= around.up.up_of(first->normal))))
-      return;
-    const Vec2 offset = mover.at(fraction);
-    first = contact_with(space, around.up, piece, hit.axes.normal, Vec2(position + displacement * fraction - offset),
-                         offset, fraction);
-  };
   const Box2 box = make_motion(space, position, displacement).box();
-  around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    const MoverMotion other = around.motion_of(mover);
-    Motion motion = make_motion(space, Vec2(position - other.from), Vec2(displacement - (other.to - other.from)));
-    motion.lost = lost_by(position, other.from);
-    for (const PieceIndex piece : pieces) look_at(piece, motion, other);
+  around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex index) {
+    const MoverMotion mover = around.motion_of(index);
+    Motion motion = make_motion(space, Vec2(position - mover.from), Vec2(displacement - (mover.to - mover.from)));
+    motion.lost = lost_by(position, mover.from);
+    for (const PieceIndex piece : pieces) {
+      if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) continue;
+      const PieceHit hit = find_hit(space, motion, piece, around.up);
+      if (!hit.hit) continue;
+      const Real fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
+      const Real up = around.up.up_of(space.normal(piece, hit.axes.normal));
+      const bool later = first && (fraction > first->fraction ||
+                                   (fraction == first->fraction && up <= around.up.up_of(first->normal)));
+      if (later) continue;
+      const Vec2 offset = mover.at(fraction);
+      first = contact_with(space, around.up, piece, hit.axes.normal, Vec2(position + displacement * fraction - offset),
+                           offset, fraction);
+    }
   });
   return first;
 }
