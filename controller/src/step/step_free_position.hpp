@@ -72,6 +72,18 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
          !step.space.covered(near.piece, near.axis);
 }
 
+/// By bisection, the largest fraction of a way for which a condition holds, as it does at `low`.
+/// @param length of the way [m]. @param within so much of it the answer may be too small [m].
+template <class Holds>
+[[nodiscard]] Real last_where(Real low, Real high, Real length, Real within, const Holds& holds) noexcept {
+  while ((high - low) * length > within) {  // 49 halvings at most, of 4e6 m
+    const Real middle = (low + high) / 2;
+    if (!(middle > low && middle < high)) break;
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 /// Where a straight motion is nearest to a piece. The separation is the largest of several that are linear in time,
 /// hence convex: bisection finds its least value.
 [[nodiscard]] inline Nearest nearest_on_way(const Step& step, PieceIndex piece, const Vec2& from,
@@ -82,20 +94,13 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
     const Vec2 n = step.space.normal(piece, best.axis);
     return displacement.x() * n.x() + displacement.y() * n.y() < 0;
   };
-  BestAxis best = at(1);
-  if (falls(best)) return {piece, best.axis, best.separation, 1};
-  Real low = 0;  // where it falls
-  Real high = 1;
-  best = at(0);
-  if (!falls(best)) return {piece, best.axis, best.separation, 0};
-  while ((high - low) * displacement.cwiseAbs().maxCoeff() > tolerances.certain) {  // 49 halvings at most
-    const Real middle = (low + high) / 2;
-    if (!(middle > low && middle < high)) break;
-    const BestAxis there = at(middle);
-    (falls(there) ? low : high) = middle;
-    if (falls(there)) best = there;
+  Real when = 1;
+  if (!falls(at(1))) {
+    const auto falls_at = [&](Real time) { return falls(at(time)); };
+    when = falls_at(0) ? last_where(0, 1, displacement.cwiseAbs().maxCoeff(), tolerances.certain, falls_at) : Real(0);
   }
-  return {piece, best.axis, best.separation, low};
+  const BestAxis best = at(when);
+  return {piece, best.axis, best.separation, when};
 }
 
 /// The next piece that the motion from a corner comes as near to as a contact.
@@ -130,17 +135,15 @@ inline void extend_until_contact(Step& step, FreePosition& found) noexcept {
   const PathPoint from = step.result.path[found.corner];
   if (!(step.time > from.fraction) || next_near(step, found.corner, {found.position, 1}, {})) return;
   const Vec2 displacement = found.position - from.position;
-  Real low = 1;
-  Real high = (1 - from.fraction) / (step.time - from.fraction);
+  const Real high = (1 - from.fraction) / (step.time - from.fraction);
   const Real reach = length_of(Vec2(Vec2(from.position) + displacement * high - step.position));
   FreePositionQuery query = query_from(step, found.corner, Real(0), reach);
   const std::span<const PieceIndex> pieces = pieces_from(step, found.corner, query);
-  while ((high - low) * length_of(displacement) > tolerances.hit) {  // 46 halvings at most, of 4e6 m
-    const Real middle = (low + high) / 2;
-    if (!(middle > low && middle < high)) break;
-    (reaches(step.space, pieces, query, Vec2(from.position + displacement * middle)) ? low : high) = middle;
-  }
-  found.position = from.position + displacement * low;
+  const auto is_reached = [&](Real part) {
+    return reaches(step.space, pieces, query, Vec2(from.position + displacement * part));
+  };
+  found.position =
+      from.position + displacement * last_where(1, high, length_of(displacement), tolerances.hit, is_reached);
 }
 
 /// Takes back the path since a corner, and its contacts.
