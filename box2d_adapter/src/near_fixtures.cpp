@@ -4,10 +4,7 @@
 #include "shapes.hpp"
 
 #include <box2d/b2_body.h>
-#include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>
-#include <box2d/b2_edge_shape.h>
-#include <box2d/b2_polygon_shape.h>
 #include <box2d/b2_world.h>
 #include <box2d/b2_world_callbacks.h>
 

@@ -139,7 +139,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
     return report.status = StepStatus::invalid_input;
   if (is_divided(state, context, scratch)) [[unlikely]]
     return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
-  const Undo before(state);
+  const Intended before = intended(state);
   const bool wall_ahead =
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
@@ -149,7 +149,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
                     report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
-    before.restore(state);
+    intended(state) = before;
     return report.status;
   }
   end_step(input.drop, context, scratch, state, report);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "inlining.hpp"
 
@@ -96,37 +97,13 @@ PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character,
   return {{x, y}, change};
 }
 
-/// Restores the members of a state that the intent changes, if the step is refused later. (A copy of the whole state
-/// costs a tenth of a step.)
-class Undo {
- public:
-  explicit Undo(const CharacterState& state) noexcept
-      : velocity_(state.velocity),
-        grounded_(state.grounded),
-        jumping_(state.jumping),
-        jump_held_(state.jump_held),
-        jump_pending_(state.jump_pending),
-        coyote_left_(state.coyote_left),
-        pending_left_(state.pending_left) {}
-
-  void restore(CharacterState& state) const noexcept {
-    state.velocity = velocity_;
-    state.grounded = grounded_;
-    state.jumping = jumping_;
-    state.jump_held = jump_held_;
-    state.jump_pending = jump_pending_;
-    state.coyote_left = coyote_left_;
-    state.pending_left = pending_left_;
-  }
-
- private:
-  Vec2d velocity_;
-  bool grounded_;
-  bool jumping_;
-  bool jump_held_;
-  bool jump_pending_;
-  double coyote_left_;
-  double pending_left_;
-};
+/// The members of a state that the intent changes. They are restored if the step is refused later. (A copy of the whole
+/// state costs a tenth of a step.)
+template <class State>
+PAPERPROOF_INLINE auto intended(State& state) noexcept {
+  return std::tie(state.velocity, state.grounded, state.jumping, state.jump_held, state.jump_pending, state.coyote_left,
+                  state.pending_left);
+}
+using Intended = std::tuple<Vec2d, bool, bool, bool, bool, double, double>;
 
 }  // namespace paperproof::intent

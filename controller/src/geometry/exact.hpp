@@ -10,8 +10,6 @@ namespace paperproof::geometry {
 /// Smallest magnitude, other than zero, that the functions below are exact for. Its square is far above where doubles
 /// lose bits to underflow.
 inline constexpr double smallest_exact = 0x1p-300;
-/// Largest magnitude that the functions below are exact for.
-inline constexpr double largest_exact = 0x1p300;
 
 /// Zero instead of a magnitude below `smallest_exact`, else the value itself: brings finite lengths into the range.
 [[nodiscard]] constexpr double without_traces(double value) noexcept {
@@ -21,7 +19,7 @@ inline constexpr double largest_exact = 0x1p300;
 /// On which side of the directed line a->b does c lie?
 ///
 /// All functions of this header read every coordinate as the exact number that it stores. They are exact while
-/// coordinates are zero or have a magnitude in [`smallest_exact`, `largest_exact`]. They never allocate, hold no state
+/// coordinates are zero or have a magnitude in [`smallest_exact`, 2^300]. They never allocate, hold no state
 /// (any thread), and give the same answer on every target with IEEE 754 doubles. A floating-point filter decides most
 /// cases; expansions of doubles decide the others: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and
 /// Fast Robust Geometric Predicates", 1997.

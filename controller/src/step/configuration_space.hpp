@@ -270,7 +270,6 @@ class ConfigurationSpace {
   void drop_all();
   void find_axes(Obstacle& obstacle);
   void find_seams(PieceIndex piece);
-  void find_neighbours(PieceIndex piece);
   [[nodiscard]] double open_part(const Facet& facet);
   [[nodiscard]] Interval inside(const Facet& facet, PieceIndex other) const noexcept;
   [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis, double noise) const noexcept;

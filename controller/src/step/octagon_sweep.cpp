@@ -50,7 +50,9 @@ class OctagonSweep final : public SweepInParts {
   }
 
   void reserve(const Box2& positions, Scratch& scratch) const override {
-    Nearby(finder_, scratch.solids, nullptr, nullptr, &static_cast<StepMemory&>(*scratch.own)).reserve(positions);
+    auto& memory = static_cast<StepMemory&>(*scratch.own);
+    memory.reserve();
+    Nearby(finder_, scratch.solids, nullptr, nullptr, &memory).reserve(positions);
   }
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {

@@ -2,11 +2,12 @@
 ///
 /// A step goes this way (step_solve.hpp):
 ///   1. step_ride.hpp: a rider adds the motion of its ground to the desired displacement.
-///   2. step_start.hpp: a start that overlaps something, or is nearer than it should be, is made free.
-///   3. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
+///   2. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
 ///      stands still has none.
+///   3. step_start.hpp: a start that overlaps something, or is nearer than it should be, is made free: the first sweep
+///      has seen that, and is made again from there.
 ///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. The rest of it goes back
-///   to 3.
+///   to 2.
 ///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
 ///      free position; where there is none, the movers crush the character.
 ///   6. step_solve.hpp: does the character stand on ground?

@@ -22,7 +22,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   Real reach = 0;
   for (const TouchedSurface& surface : step.memory.surfaces)
     reach = std::max(reach, length_of(step.movers.displacement(surface.mover)));
-  if (!find_free_position(step, reach, {0, step.result.path.size()})) return false;
+  if (!move_to_free_position(step, reach, {0, step.result.path.size()})) return false;
   step.memory.surfaces.clear();
   return true;
 }
@@ -40,7 +40,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Movers squeeze the character out as a wedge does. A blunt one would fling it: the speed that they give it is
 /// limited.
 /// @param wanted before the response. @param allowed by the response.
-/// @return false if they would squeeze it out so far in this step that they crush it instead.
+/// @return false if they would squeeze it out too far in this step: then it goes to a free position, or is crushed.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_squeeze(const Step& step, const DesiredMotion& wanted,
                                                               DesiredMotion& allowed) noexcept {
   constexpr Real farthest = 32;  // times as far as they go
@@ -70,7 +70,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     return false;
   const bool has_left = std::any_of(step.memory.marked.begin(), step.memory.marked.end(),
                                     [&](ColliderIndex collider) { return step.memory.is(collider, leaving); });
-  if (!find_free_position(step, length_of(allowed), {has_left ? std::size_t{1} : 0, step.result.path.size()}))
+  if (!move_to_free_position(step, length_of(allowed), {has_left ? std::size_t{1} : 0, step.result.path.size()}))
     return false;
   step.memory.surfaces.clear();
   return true;
@@ -84,7 +84,7 @@ PAPERPROOF_COLD inline void undo_crushes(Step& step) noexcept {
   for (const ColliderIndex collider : step.result.crushed)
     reach = std::max(reach, length_of(displacement_of(step, collider)));
   step.memory.surfaces.clear();
-  if (find_free_position(step, reach, {0, step.moving.corners_before_crush})) {
+  if (move_to_free_position(step, reach, {0, step.moving.corners_before_crush})) {
     for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
     step.result.crushed.clear();
     step.result.status =

@@ -191,7 +191,7 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
 /// Moves to the nearest free position. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
 /// @param corners of the path at which the motion may begin.
-[[nodiscard]] inline bool find_free_position(Step& step, Real reach, Corners corners) noexcept {
+[[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, Corners corners) noexcept {
   if (step.moving.side_lost) return false;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = step.moving.ignored;

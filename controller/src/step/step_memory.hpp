@@ -78,6 +78,16 @@ struct StepMemory final : OwnMemory, PieceUser {
                  0);
   }
 
+  /// Makes room for as many surfaces as a report has contacts without growing, and for all that may crush.
+  void reserve() {
+    for (std::vector<TouchedSurface>* touched : {&surfaces, &surfaces_before})
+      touched->reserve(MoveResult::max_contacts);
+    for (std::vector<HalfPlane>* planes : {&displacement_planes, &velocity_planes})
+      planes->reserve(MoveResult::max_contacts);
+    marked.reserve(roles.size());
+    crushers.reserve(roles.size());
+  }
+
   /// Forgets the last step.
   void clear() noexcept {
     for (const ColliderIndex collider : marked) roles[Scenery::slot_of(collider)] = 0;

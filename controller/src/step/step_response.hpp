@@ -80,12 +80,18 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
   return DesiredMotion::plain(*allowed_displacement, allowed_velocity.value_or(Vec2::Zero()));
 }
 
-/// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
-PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
-  const auto falling = nearest_allowed_to(step, step.up.in_world({0, step.fall * step.movers.dt * (1 - step.time)}),
-                                          step.up.in_world({0, step.fall}));
+/// Takes the nearest motion to a fall that all surfaces allow, if that falls further than what is desired so far.
+inline void prefer_fall(const Step& step, const Vec2& displacement, const Vec2& velocity,
+                        DesiredMotion& desired) noexcept {
+  const auto falling = nearest_allowed_to(step, displacement, velocity);
   if (falling && step.up.up_of(falling->displacement.wanted) < step.up.up_of(desired.displacement.wanted))
     desired = *falling;
+}
+
+/// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
+PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
+  prefer_fall(step, step.up.in_world({0, step.fall * step.movers.dt * (1 - step.time)}),
+              step.up.in_world({0, step.fall}), desired);
 }
 
 /// The response to the first surface, and to a second one that the first response enters. False if that enters a third.
@@ -195,14 +201,10 @@ PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desire
   const auto wanted = nearest_allowed_to(step, displacement.wanted, velocity.wanted);
   if (!wanted) return false;
   desired = *wanted;
-  const auto falls_by = [&](const Vec2& down, const Vec2& velocity_of_fall) {
-    const auto falling = nearest_allowed_to(step, down, velocity_of_fall);
-    if (falling && step.up.up_of(falling->displacement.wanted) < step.up.up_of(desired.displacement.wanted))
-      desired = *falling;
-  };
-  falls_by(displacement.unsteered, velocity.unsteered);
+  prefer_fall(step, displacement.unsteered, velocity.unsteered, desired);
   const auto upwards = [&](const Vec2& v) { return step.up.in_world({0, step.up.up_of(v)}); };
-  if (step.up.up_of(displacement.unsteered) < 0) falls_by(upwards(displacement.unsteered), upwards(velocity.unsteered));
+  if (step.up.up_of(displacement.unsteered) < 0)
+    prefer_fall(step, upwards(displacement.unsteered), upwards(velocity.unsteered), desired);
   return true;
 }
 

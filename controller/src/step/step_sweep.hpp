@@ -297,7 +297,7 @@ PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this
   return std::max(first, turned);
 }
 
-/// Reports the contacts of one moment, the earliest impact first.
+/// Reports the contacts of one moment, the earliest impact first, and notes the ground among them.
 /// @param begin when the motion of the last sweep began.
 PAPERPROOF_FLATTEN inline void report(Step& step, Real begin) noexcept {
   const std::size_t before = step.result.contacts.size();
