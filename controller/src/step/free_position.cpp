@@ -376,7 +376,7 @@ class Search {
   std::span<const PieceIndex> pieces_;
   const FreePositionQuery& query_;
   bool takes_time_;
-  std::array<Kept, 64> kept_{};
+  std::array<Kept, 256> kept_{};  // of 128 pieces; with more, some are looked at again and again
   std::size_t last_covering_ = 0;
   Real nearest_;  ///< Distance of the best position so far [m].
   std::optional<Vec2> best_;
