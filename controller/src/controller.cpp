@@ -2,8 +2,6 @@
 #include <paperproof/scenery.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "inlining.hpp"
 #include "intent.hpp"

@@ -146,8 +146,7 @@ void PieceGrid::find(const Box2& box, std::span<const Box2> boxes, std::vector<P
           found.push_back(links_[link].piece);
       }
     };
-    const Vec2d places = (box.upper - box.lower) * scale + Vec2d(2, 2);
-    if (places.x() * places.y() < static_cast<double>(layer.cells.size())) {
+    if ((1.0 + right - left) * (1.0 + top - bottom) < static_cast<double>(layer.cells.size())) {
       for (std::int32_t x = left; x <= right; ++x)
         for (std::int32_t y = bottom; y <= top; ++y) {
           const Cell& cell = layer.cells[layer.index_of(x, y)];

@@ -85,7 +85,7 @@ struct StepMemory final : OwnMemory, PieceUser {
     for (std::vector<HalfPlane>* planes : {&displacement_planes, &velocity_planes})
       planes->reserve(MoveResult::max_contacts);
     marked.reserve(roles.size());
-    crushers.reserve(roles.size());
+    crushers.reserve(space.scenery().counts().moving_pieces);
   }
 
   /// Forgets the last step.

@@ -158,7 +158,7 @@ template <class MayPass>
 [[nodiscard]] inline bool leave(Step& step) noexcept {
   const std::optional<Vec2> out = find_way_out(step);
   if (!out) return false;
-  note_colliders_left(step);
+  if (step.movers.active) note_colliders_left(step);
   step.start = step.position = *out;
   // Movers that were ignored and do not overlap here are as solid as others again.
   for (const ColliderIndex collider : step.memory.marked) step.memory.unmark(collider, overlaps_since_start);
