@@ -145,7 +145,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
   const Around here = around(context, moving);
   sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, here, wall_ahead, state, report), scratch,
                     report.move);
-  report.status = status_of(report.move.status);
+  report.status = report.move.status;
   if (is_refused(report.status)) {
     intended(state) = before;
     return report.status;
@@ -170,7 +170,7 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   const Around here = around(context, moving);
   sweep_->move_part(octagon_sweep::Part::whole,
                     request_of(state, displacement, velocity, 0, false, false, context.dt, here), scratch, report.move);
-  report.status = status_of(report.move.status);
+  report.status = report.move.status;
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
   count_down_coyote(character_, context.dt, state);
@@ -289,7 +289,7 @@ bool Controller::begin_together(const CharacterState& before, const Input& input
 
 void Controller::end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
                               StepReport& report) const noexcept {
-  report.status = status_of(report.move.status);
+  report.status = report.move.status;
   end_step(input.drop, context, scratch, state, report);
 }
 

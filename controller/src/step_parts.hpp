@@ -71,24 +71,6 @@ template <class Maker>
   return !mark.owner_before(maker) && !maker.owner_before(mark);
 }
 
-[[nodiscard]] inline StepStatus status_of(MoveStatus status) noexcept {
-  switch (status) {
-    case MoveStatus::moved:
-      return StepStatus::moved;
-    case MoveStatus::dropped:
-      return StepStatus::dropped;
-    case MoveStatus::stuck:
-      return StepStatus::stuck;
-    case MoveStatus::crushed:
-      return StepStatus::crushed;
-    case MoveStatus::out_of_range:
-      return StepStatus::out_of_range;
-    case MoveStatus::refused:
-      return StepStatus::refused;
-  }
-  return StepStatus::moved;
-}
-
 /// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.
 [[nodiscard]] inline bool asks_for_wall(const CharacterDef& character, const Input& input,
                                         const CharacterState& state) noexcept {
@@ -103,8 +85,8 @@ template <class Maker>
 
 /// Notes whether a solid still overlaps the character after a move. If none does, the position is its last free one.
 inline void note_freedom(const MoveResult& move, CharacterState& state) noexcept {
-  state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
-  if (state.crushed || move.status == MoveStatus::stuck) return;
+  state.crushed = move.status == StepStatus::crushed || (state.crushed && move.status == StepStatus::stuck);
+  if (state.crushed || move.status == StepStatus::stuck) return;
   state.last_free = move.position;
   state.has_last_free = true;
 }
@@ -136,7 +118,7 @@ inline void adopt(const CharacterDef& character, const Vec2d& up, const MoveResu
     const double rise = frame.up_of(state.velocity);
     if (rise > 0) state.velocity = frame.in_world({frame.across_of(state.velocity), 0});
   }
-  const int stuck_steps = move.status == MoveStatus::stuck ? std::min(state.stuck_steps + 1, 255) : 0;
+  const int stuck_steps = move.status == StepStatus::stuck ? std::min(state.stuck_steps + 1, 255) : 0;
   state.stuck_steps = static_cast<std::uint8_t>(stuck_steps);
 }
 

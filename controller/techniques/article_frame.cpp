@@ -254,9 +254,9 @@ class Frame {
     record_.frame().arrive(position_, result_);
     result_.path.push_back({result_.position, 1});
     if (!result_.crushed.empty())
-      result_.status = MoveStatus::crushed;
+      result_.status = StepStatus::crushed;
     else if (began_inside_ && inside_)
-      result_.status = MoveStatus::stuck;
+      result_.status = StepStatus::stuck;
   }
 
   /// Movers that ran into the character crush it.

@@ -29,7 +29,7 @@ class SearchInOrder {
       respond(next);
     }
     if (meetings == most_meetings) {
-      result_.status = MoveStatus::dropped;
+      result_.status = StepStatus::dropped;
       movement_.setZero();
     }
     position_ += movement_ * (1 - time_);

@@ -111,10 +111,10 @@ bool in_range(const Vec2d& position) noexcept {
   return std::abs(position.x()) <= range && std::abs(position.y()) <= range;
 }
 
-void refuse(const MoveRequest& request, MoveResult& result, MoveStatus why) noexcept {
+void refuse(const MoveRequest& request, MoveResult& result, StepStatus why) noexcept {
   result.clear();
   result.status = why;
-  if (why == MoveStatus::refused) result.refusal = too_many_units;
+  if (why == StepStatus::refused) result.refusal = too_many_units;
   result.position = request.position;
   result.velocity = request.velocity + request.ride.velocity;
   result.technique_memory = request.technique_memory;
@@ -124,7 +124,7 @@ void refuse(const MoveRequest& request, MoveResult& result, MoveStatus why) noex
 }
 
 void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept {
-  result.status = MoveStatus::crushed;
+  result.status = StepStatus::crushed;
   result.position = request.position;
   result.velocity.setZero();
   result.grounded = false;
@@ -174,7 +174,7 @@ bool refuse(const Parts& parts, bool searches_by_units, const MoveRequest& reque
   const bool quick = !searches_by_units || length(searched) <= parts.unit * double(max_search_steps);
   const bool leaves = leaves_range(request.position, wanted, farthest);
   if (quick && !leaves) return false;
-  refuse(request, result, leaves ? MoveStatus::out_of_range : MoveStatus::refused);
+  refuse(request, result, leaves ? StepStatus::out_of_range : StepStatus::refused);
   return true;
 }
 

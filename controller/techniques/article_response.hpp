@@ -131,7 +131,7 @@ void move(const Parts& parts, ImpactSearch search, const MoveRequest& request, S
                           MoveResult& result) noexcept;
 
 /// Fills `result` as a refusal: nothing moved.
-void refuse(const MoveRequest& request, MoveResult& result, MoveStatus why = MoveStatus::out_of_range) noexcept;
+void refuse(const MoveRequest& request, MoveResult& result, StepStatus why = StepStatus::out_of_range) noexcept;
 
 /// Makes `result`, whose `crushed` is filled in, that of a character that stays where the step began.
 void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept;

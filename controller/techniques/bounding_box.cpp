@@ -203,7 +203,7 @@ void BoundingBox::push_out(Movers movers, Scratch& scratch, MoveResult& result) 
     result.position[component] = article::outwards(side) < 0 ? box.upper[component] : box.lower[component];
     meet(*piece, side, movers, result);
   }
-  if (inside() != nullptr) result.status = MoveStatus::stuck;
+  if (inside() != nullptr) result.status = StepStatus::stuck;
 }
 
 void BoundingBox::meet(PieceIndex piece, Side side, Movers movers, MoveResult& result) const noexcept {

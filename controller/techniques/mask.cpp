@@ -163,7 +163,7 @@ void Mask::move(const MoveRequest& request, Scratch& scratch, MoveResult& result
   result.path.push_back({result.position, 1});
   bool ends_inside = began_inside;
   if (began_inside) (void)parts_.start(parts_.corner_at(result.position), way, free, ends_inside);
-  if (ends_inside) result.status = MoveStatus::stuck;
+  if (ends_inside) result.status = StepStatus::stuck;
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ StepStatus TechniqueController::step(CharacterState& state, const Input& input, 
   const bool wall_ahead = asks_for_wall(driver_->character, input, state) &&
                           driver_->has_wall_ahead(state, *input.move, context, scratch, report.move);
   driver_->technique->move(driver_->begin(input, context, wall_ahead, state, report), scratch, report.move);
-  report.status = status_of(report.move.status);
+  report.status = report.move.status;
   if (is_refused(report.status))
     state = before;
   else
@@ -183,7 +183,7 @@ StepStatus TechniqueCrowd::step(std::span<CharacterState> states, std::span<cons
   for (std::size_t i = 0; i < count; ++i) {
     StepReport& own = report.members[i].step;
     report.members[i].sort_contacts();
-    own.status = status_of(own.move.status);
+    own.status = own.move.status;
     driver_->end(inputs[i].drop, context, memory.scratch, memory.states[i], own);
     states[i] = memory.states[i];
   }

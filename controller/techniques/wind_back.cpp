@@ -49,7 +49,7 @@ void WindBack::move(const MoveRequest& request, Scratch& scratch, MoveResult& re
     position = request.position + request.displacement * fraction;
     inside = parts_.inside(nearby, position);
   }
-  result.status = inside ? MoveStatus::stuck : MoveStatus::moved;
+  result.status = inside ? StepStatus::stuck : StepStatus::moved;
   result.position = position;
   result.velocity = request.velocity;
   result.path.push_back({request.position, 0});

@@ -35,15 +35,20 @@ struct PathPoint {
   double fraction = 0;            ///< Of the step, in [0, 1].
 };
 
-enum class MoveStatus : std::uint8_t {
+enum class StepStatus : std::uint8_t {
   moved,    ///< The result holds. It may be shorter than requested: see `contacts`.
   dropped,  ///< The result holds, but displacement was left and was dropped: the iterations ran out, or no exact proof
             ///< was found.
   stuck,    ///< The step began inside a solid and still ends inside it.
-  crushed,  ///< The result holds, but movers left no free position: see `crushed`.
-  out_of_range,  ///< Refused: the step would leave the range of the technique. Nothing moved.
-  refused,       ///< Refused for a reason of the technique's own: see `refusal`. Nothing moved.
+  crushed,  ///< The result holds, but movers left no free position: see `MoveResult::crushed`.
+  out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
+  refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
+  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, fewer movers
+  /// than the scenery has, an up that is no unit vector, scratch memory that another controller made, a
+  /// filter or an up that another technique does not read. Nothing changed at all. A move never says this.
+  invalid_input,
 };
+using MoveStatus = StepStatus;
 
 /// The report of one move. Its vectors grow: a report that is used again allocates no more once it has had the longest.
 /// `octagon_sweep` reports everything. Other techniques leave out contacts and corners beyond these numbers, and a
@@ -52,7 +57,7 @@ struct MoveResult {
   static constexpr std::size_t max_corners = 64;
   static constexpr std::size_t max_contacts = 32;
 
-  MoveStatus status = MoveStatus::moved;
+  StepStatus status = StepStatus::moved;
   Vec2d position{Vec2d::Zero()};
   Vec2d velocity{Vec2d::Zero()};
   Vec2d technique_memory{Vec2d::Zero()};  ///< See `CharacterState::technique_memory`.
@@ -78,7 +83,7 @@ struct MoveResult {
     crushed.reserve(count);
   }
   void clear() noexcept {
-    status = MoveStatus::moved;
+    status = StepStatus::moved;
     technique_memory.setZero();
     grounded = false;
     ground.state = GroundState::air;
@@ -88,19 +93,6 @@ struct MoveResult {
     crushed.clear();
     crushers.clear();
   }
-};
-
-enum class StepStatus : std::uint8_t {
-  moved,
-  dropped,       ///< See MoveStatus.
-  stuck,         ///< See MoveStatus.
-  crushed,       ///< See MoveStatus.
-  out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
-  refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
-  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, fewer movers
-  /// than the scenery has, an up that is no unit vector, scratch memory that another controller made, a
-  /// filter or an up that another technique does not read. Nothing changed at all.
-  invalid_input,
 };
 
 /// Whether a step was refused: nothing moved.

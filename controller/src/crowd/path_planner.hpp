@@ -174,7 +174,7 @@ class PathPlanner {
     const octagon_sweep::StepRequest request = request_at(member, at, end);
     if (!(request.dt > 0)) return false;
     move_part(at.time > 0 ? octagon_sweep::Part::rest : octagon_sweep::Part::whole, request);
-    if (step_.memory.part.status == MoveStatus::out_of_range) return false;
+    if (step_.memory.part.status == StepStatus::out_of_range) return false;
     take_part(end, path, at);
     return true;
   }
@@ -199,9 +199,9 @@ class PathPlanner {
     }
     for (const ColliderIndex collider : part.crushed)
       if (!contains(path.crushed, collider)) path.crushed.push_back(collider);
-    const bool was_dropped = path.status == MoveStatus::dropped && part.status == MoveStatus::moved;
+    const bool was_dropped = path.status == StepStatus::dropped && part.status == StepStatus::moved;
     if (!path.crushed.empty())
-      path.status = MoveStatus::crushed;
+      path.status = StepStatus::crushed;
     else if (!was_dropped)
       path.status = part.status;
     finish_part(part, end, at);

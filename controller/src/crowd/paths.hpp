@@ -120,7 +120,7 @@ class Paths {
     for (const ColliderIndex collider : path.crushed)
       if (!step_.rules.is_character(collider) && !contains(step_.made(i).crushed, collider))
         step_.made(i).crushed.push_back(collider);
-    member.dropped = member.dropped || path.status == MoveStatus::dropped;
+    member.dropped = member.dropped || path.status == StepStatus::dropped;
     step_.made(i).status = path.status;
   }
 

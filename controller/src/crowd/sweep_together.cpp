@@ -56,7 +56,7 @@ class SweepTogether {
       paths_.hold_position(i);
     else
       return false;
-    member.starts_stuck = member.plan.status == MoveStatus::stuck;
+    member.starts_stuck = member.plan.status == StepStatus::stuck;
     return true;
   }
 
@@ -284,11 +284,11 @@ class SweepTogether {
     const Member& member = step_.members[i];
     MoveResult& move = step_.made(i);
     if (!move.crushed.empty())
-      move.status = MoveStatus::crushed;
+      move.status = StepStatus::crushed;
     else if (!member.end.state.crushers.empty())
-      move.status = MoveStatus::stuck;  // a mover still overlaps it, even if the last part met a character alone
-    else if (move.status != MoveStatus::stuck || !member.starts_stuck)  // to overlap a character alone is not stuck
-      move.status = member.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
+      move.status = StepStatus::stuck;  // a mover still overlaps it, even if the last part met a character alone
+    else if (move.status != StepStatus::stuck || !member.starts_stuck)  // to overlap a character alone is not stuck
+      move.status = member.dropped || move.status == StepStatus::stuck ? StepStatus::dropped : StepStatus::moved;
     if (step_.rules.is_character(move.ground.collider)) move.ground.collider = no_collider;
     if (!move.grounded && move.ground.state != GroundState::steep) move.ground.state = GroundState::air;
     move.crushers = member.end.state.crushers;

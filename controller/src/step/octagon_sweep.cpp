@@ -124,7 +124,7 @@ class OctagonSweep final : public SweepInParts {
   }
 
   static void refuse(const StepRequest& request, MoveResult& result) noexcept {
-    result.status = MoveStatus::out_of_range;
+    result.status = StepStatus::out_of_range;
     result.position = request.state.position;
     result.velocity = request.velocity + request.state.ride.velocity;
     result.ride = request.state.ride;

@@ -93,7 +93,7 @@ struct MoverState {
   bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2> last_free{};        ///< The last free position before the step, if there was one.
   std::size_t corners_before_crush = 0;   ///< Of the path, when the first mover crushed; and
-  MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
+  StepStatus status_before_crush = StepStatus::moved;  ///< the status until then.
 };
 
 /// A free position, and the corner of the path from which it is reached.

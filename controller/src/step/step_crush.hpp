@@ -88,7 +88,7 @@ PAPERPROOF_COLD inline void undo_crushes(Step& step) noexcept {
     for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
     step.result.crushed.clear();
     step.result.status =
-        step.moving.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
+        step.moving.status_before_crush == StepStatus::dropped ? StepStatus::dropped : StepStatus::moved;
   }
   step.moving.ignored = passes_through;
 }
@@ -105,7 +105,7 @@ inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
   const ColliderIndex collider = collider_of(step, piece);
   step.memory.mark(collider, crushes);
   step.result.crushed.push_back(collider);
-  step.result.status = MoveStatus::crushed;
+  step.result.status = StepStatus::crushed;
   remember(step, {collider, step.position, step.movers.remaining(mover, since)});
 }
 
@@ -142,7 +142,7 @@ PAPERPROOF_COLD inline void find_movers_that_still_overlap(Step& step) noexcept 
   });
   for (const ColliderIndex collider : step.memory.marked) {
     const bool has_it_stuck = step.memory.is(collider, overlaps_at_end) && !step.memory.is(collider, crushes);
-    if (has_it_stuck && step.result.status != MoveStatus::crushed) step.result.status = MoveStatus::stuck;
+    if (has_it_stuck && step.result.status != StepStatus::crushed) step.result.status = StepStatus::stuck;
   }
   hand_on_crushers(step);
 }
@@ -180,7 +180,7 @@ PAPERPROOF_COLD inline void stay_in_place(Step& step) noexcept {
   ignore_overlapping_movers(step);
   wait(step, false);
   if (!step.memory.marked.empty()) find_movers_that_still_overlap(step);
-  if (step.result.status == MoveStatus::moved && overlaps(step, step.position)) step.result.status = MoveStatus::stuck;
+  if (step.result.status == StepStatus::moved && overlaps(step, step.position)) step.result.status = StepStatus::stuck;
   step.result.position = step.position;
   step.result.velocity = step.velocity;
 }

@@ -280,7 +280,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
 /// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
 /// present motion, with the motion of a touched surface, or at a free position.
 PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) noexcept {
-  if (step.result.status == MoveStatus::moved) step.result.status = MoveStatus::dropped;
+  if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
   if (!step.movers.active) return;
   const auto goes = [&](const Vec2& last) {
     sweep_along(step, last);

@@ -68,7 +68,7 @@ PAPERPROOF_COLD inline void end_at_surfaces(Step& step, DesiredMotion& desired) 
 
 /// Ends the step here, as the exact certificate or the range forbids the motion. Reports each piece that blocks it.
 PAPERPROOF_COLD inline void cut_short(Step& step) noexcept {
-  if (step.result.status == MoveStatus::moved) step.result.status = MoveStatus::dropped;
+  if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
   const Vec2 target = step.motion.from + step.motion.displacement * step.found.stop;
   const Real end = step.time + (1 - step.time) * step.found.stop;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
@@ -122,7 +122,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
     desired.displacement.wanted *= left;
     if (step.steered != 0) desired.displacement.unsteered *= left;
     if (++impacts == step.settings.iterations) {
-      if (step.result.status == MoveStatus::moved) step.result.status = MoveStatus::dropped;
+      if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
       if (!step.movers.active) return end_at_surfaces(step, desired);
       // The rest of the displacement is dropped. Movers still push the character.
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());
@@ -214,7 +214,7 @@ inline void solve(Step& step, Part part) noexcept {
   const bool near = step.found.least_separation < tolerances.hit;
   if (near) look_at_movers(step);  // the way out of a solid may be longer than the step
   if (near && !prepare_start(step, part)) {
-    step.result.status = MoveStatus::stuck;
+    step.result.status = StepStatus::stuck;
     halt(step);
     if (step.movers.active) {
       note_colliders_left(step);

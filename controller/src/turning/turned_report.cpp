@@ -93,9 +93,9 @@ void TurningStep::append(const StepReport& added, const Part& part) {
     report.requested = added.requested / part.end;
     report.steered = added.steered / part.end;
   }
-  const bool was_freed = to.status == MoveStatus::stuck && from.status != MoveStatus::crushed;
+  const bool was_freed = to.status == StepStatus::stuck && from.status != StepStatus::crushed;
   to.status = was_freed ? from.status : std::max(to.status, from.status);  // the later in the enum, the worse
-  report.status = step_parts::status_of(to.status);
+  report.status = to.status;
   to.position = from.position;
   to.velocity = from.velocity;
   to.technique_memory = from.technique_memory;

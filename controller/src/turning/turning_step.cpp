@@ -133,7 +133,7 @@ StepStatus TurningStep::step_straight(CharacterState& state, const Wish& wish) {
 }
 
 /// Reports a step that is refused.
-StepStatus TurningStep::refuse(MoveStatus why, const CharacterState& state) {
+StepStatus TurningStep::refuse(StepStatus why, const CharacterState& state) {
   memory_.turned.clear();
   report_.clear();
   MoveResult& move = report_.move;
@@ -143,7 +143,7 @@ StepStatus TurningStep::refuse(MoveStatus why, const CharacterState& state) {
   move.ride = state.ride;
   move.path.push_back({state.position, 0});
   move.path.push_back({state.position, 1});
-  return report_.status = step_parts::status_of(why);
+  return report_.status = why;
 }
 
 /// Tries as many parts as the turn wants, then more of them, then fewer.
@@ -177,7 +177,7 @@ void TurningStep::begin_part(const Part& part, CharacterState& state) const {
 
 StepStatus TurningStep::end(CharacterState& state) {
   step_parts::adopt(character(), context_.up, report_.move, state);
-  return report_.status = step_parts::status_of(report_.move.status);
+  return report_.status = report_.move.status;
 }
 
 /// @return nothing if the step cannot be proved; it is not complete then.

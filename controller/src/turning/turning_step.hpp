@@ -108,7 +108,7 @@ class TurningStep {
   void forget_gone(CharacterState& state) const;
   StepStatus go(CharacterState& state, const Wish& wish, double share, StepReport& report);
   StepStatus end(CharacterState& state);
-  StepStatus refuse(MoveStatus why, const CharacterState& state);
+  StepStatus refuse(StepStatus why, const CharacterState& state);
   StepStatus step_straight(CharacterState& state, const Wish& wish);
   StepStatus step_among_turning(CharacterState& state, const Wish& wish);
   [[nodiscard]] std::optional<StepStatus> step_in_parts(int parts, CharacterState& state, const Wish& wish);

@@ -120,13 +120,13 @@ StepStatus TurningStep::stay(CharacterState& state) {
   const bool is_held = !move.crushers.empty() || std::any_of(around.begin(), around.end(), [&](ColliderIndex collider) {
     return blocks(collider) && overlaps(collider, {}, state.position);
   });
-  move.status = is_held ? MoveStatus::stuck : MoveStatus::moved;
-  if (!move.crushed.empty()) move.status = MoveStatus::crushed;
+  move.status = is_held ? StepStatus::stuck : StepStatus::moved;
+  if (!move.crushed.empty()) move.status = StepStatus::crushed;
   return end(state);
 }
 
 StepStatus TurningStep::wait(CharacterState& state) {
-  if (!step_parts::in_range(state.position)) return refuse(MoveStatus::out_of_range, state);
+  if (!step_parts::in_range(state.position)) return refuse(StepStatus::out_of_range, state);
   memory_.turned.clear();
   read(box_at({state.position, state.position}));
   forget_gone(state);

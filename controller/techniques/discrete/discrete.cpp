@@ -172,7 +172,7 @@ std::size_t Discrete::move_all(Scratch& scratch) const noexcept {
     left_over = std::any_of(frames.begin(), frames.end(), [](const Frame& frame) { return frame.left_over; });
   }
   for (Frame& frame : frames) {
-    if (overflowed && !frame.stays) frame.result.status = MoveStatus::dropped;
+    if (overflowed && !frame.stays) frame.result.status = StepStatus::dropped;
     finish(frame, scratch);
   }
   return impacts;
@@ -361,8 +361,8 @@ void Discrete::finish(Frame& frame, Scratch& scratch) const noexcept {
     const Inside end = find_inside(frame, true, scratch);
     if (end.what_stands_still && !begin.what_stands_still && !frame.pushers.empty()) return stay(frame);
     frame.result.crushed.assign(end.movers.begin(), end.movers.end());
-    if (frame.left_over && begin.anything && end.anything) frame.result.status = MoveStatus::stuck;
-    if (!frame.result.crushed.empty()) frame.result.status = MoveStatus::crushed;
+    if (frame.left_over && begin.anything && end.anything) frame.result.status = StepStatus::stuck;
+    if (!frame.result.crushed.empty()) frame.result.status = StepStatus::crushed;
   }
   arrive(frame);
 }

@@ -73,7 +73,7 @@ void Grid::move(const MoveRequest& request, Scratch&, MoveResult& result) const 
   prevent(start, request, result);
   const Square end = step_from(start, result);
   result.position = position_in(end);
-  if (squares_.collider_at(start) && squares_.collider_at(end)) result.status = MoveStatus::stuck;
+  if (squares_.collider_at(start) && squares_.collider_at(end)) result.status = StepStatus::stuck;
   result.path.push_back({request.position, 0});
   result.path.push_back({result.position, 1});
 }
@@ -145,7 +145,7 @@ Square Grid::step_from(const Square& square, MoveResult& result) const noexcept 
   }
   if (wanted.cwiseAbs().maxCoeff() > side) {
     wanted = wanted.cwiseMax(-side).cwiseMin(side);
-    result.status = MoveStatus::dropped;
+    result.status = StepStatus::dropped;
   }
   return end;
 }

@@ -46,7 +46,7 @@ class PixelWalk {
     if (!began_inside) return;
     bool ends_inside = false;
     (void)parts_.start(parts_.corner_at(result_.position), way_, is_free(), ends_inside);
-    if (ends_inside) result_.status = MoveStatus::stuck;
+    if (ends_inside) result_.status = StepStatus::stuck;
   }
 
  private:

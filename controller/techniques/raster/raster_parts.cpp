@@ -25,7 +25,7 @@ bool RasterParts::refuse(const MoveRequest& request, MoveResult& result) const n
   result.path.push_back({request.position, 0});
   const bool stays = article::in_range(request.position) && article::in_range(end);
   if (stays && pixels <= double(article::max_search_steps)) return false;
-  result.status = stays ? MoveStatus::refused : MoveStatus::out_of_range;
+  result.status = stays ? StepStatus::refused : StepStatus::out_of_range;
   if (stays) result.refusal = article::too_many_units;
   result.path.push_back({request.position, 1});
   return true;
