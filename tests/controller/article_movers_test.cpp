@@ -103,7 +103,7 @@ TEST(MovingBlock, that_arrives_over_a_resting_character_pushes_it_by_units_or_by
     EXPECT_NEAR(result.position.x(), by_units ? 5 * px : 4.5 * px + gap, by_units ? 0 : rounding);
     EXPECT_EQ(result.position.y(), 0);
     EXPECT_EQ(result.velocity, Vec2d(by, 0));
-    EXPECT_EQ(result.status, MoveStatus::moved);
+    EXPECT_EQ(result.status, StepStatus::moved);
     EXPECT_EQ(only_contact(result).side, Side::left);
     EXPECT_NEAR(only_contact(result).fraction, by_units ? 1 : (2 - half_width) / by, rounding);
     EXPECT_NEAR(only_contact(result).separation, by_units ? px / 2 : gap, rounding);
@@ -154,7 +154,7 @@ TEST(ClosingWalls, crush_at_the_step_that_the_gap_gives) {
       const MoveResult& result = passenger.step(motions);
       ASSERT_GE(result.position.y(), half_height - rounding) << "never pushed into the floor";
       ASSERT_LE(result.position.y(), half_height + px);
-      if (result.status != MoveStatus::crushed) continue;
+      if (result.status != StepStatus::crushed) continue;
       if (crushed_at == 0) crushed_at = step;
       ASSERT_EQ(result.crushed.size(), 1U);
       EXPECT_EQ(result.crushed[0], 1U);
@@ -171,7 +171,7 @@ TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
     Passenger by_conveyor(kind, {conveyor(rectangle(-9, -1, 9, 0), 1e300)});
-    EXPECT_EQ(by_conveyor.fly({0, 1}, {0, -2}, {}).status, MoveStatus::out_of_range);
+    EXPECT_EQ(by_conveyor.fly({0, 1}, {0, -2}, {}).status, StepStatus::out_of_range);
     EXPECT_EQ(by_conveyor.result.position, Vec2d(0, 1));
   }
 }

@@ -35,9 +35,9 @@ TEST(StartInside, is_stuck_where_the_search_goes_back_and_free_once_an_end_is) {
   for (const Case& each : {Case{"wind_back"}, Case{"mask"}, Case{"mask", Response::shorten}}) {
     Rig rig(each.kind, {rectangle(-9, -2, 9, 0)}, {.response = each.response});
     EXPECT_EQ(rig.move({0, 10 * px}, {px, -3 * px}).position, Vec2d(0, 10 * px)) << each.kind;
-    EXPECT_EQ(rig.result.status, MoveStatus::stuck) << each.kind;
+    EXPECT_EQ(rig.result.status, StepStatus::stuck) << each.kind;
     EXPECT_EQ(rig.move({0, 10 * px}, {0, 30 * px}).position, Vec2d(0, 40 * px)) << each.kind;
-    EXPECT_EQ(rig.result.status, MoveStatus::moved) << each.kind;
+    EXPECT_EQ(rig.result.status, StepStatus::moved) << each.kind;
   }
 }
 

@@ -61,13 +61,13 @@ TEST(BoundingBox, looks_again_where_it_was_put_back_to) {
 TEST(BoundingBox, is_pushed_out_of_what_it_began_in_along_the_least_overlap_or_is_stuck) {
   Rig rig(kind, {rectangle(-5, -5, 5, 0)});
   EXPECT_EQ(rig.move({0, half_height - 0.25}, {0, 0}).position, Vec2d(0, half_height));
-  EXPECT_EQ(rig.result.status, MoveStatus::moved);
+  EXPECT_EQ(rig.result.status, StepStatus::moved);
   EXPECT_TRUE(rig.result.grounded);
   EXPECT_EQ(rig.move({5 + half_width - 0.125, -2}, {0, 0}).position, Vec2d(5 + half_width, -2));
   ASSERT_EQ(rig.result.contacts.size(), 1U);
   EXPECT_EQ(rig.result.contacts[0].side, Side::left);
   Rig between(kind, {rectangle(0, 0, 1, 9), rectangle(1, 0, 2, 9)});
-  EXPECT_EQ(between.move({1, 4.5}, {0, 0}).status, MoveStatus::stuck) << "each way out leads into the next box";
+  EXPECT_EQ(between.move({1, 4.5}, {0, 0}).status, StepStatus::stuck) << "each way out leads into the next box";
 }
 
 }  // namespace

@@ -93,9 +93,9 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
 TEST(Discrete, begins_inside_and_comes_out_the_nearest_way_or_is_stuck) {
   Rig rig(kind, {rectangle(-5, -5, 5, 0)});
   EXPECT_NEAR(rig.move({0, half_height - 0.125}, {0, 0}).position.y(), half_height + gap, 1e-12);
-  EXPECT_EQ(rig.result.status, MoveStatus::moved);
+  EXPECT_EQ(rig.result.status, StepStatus::moved);
   Rig narrow(kind, {rectangle(-5, -5, 0.1, 5), rectangle(-0.1, -5, 5, 5)});
-  EXPECT_EQ(narrow.move({0, 0}, {0, 0}).status, MoveStatus::stuck);
+  EXPECT_EQ(narrow.move({0, 0}, {0, 0}).status, StepStatus::stuck);
 }
 
 /// Sorted. @param find fills a list.

@@ -182,10 +182,10 @@ TEST(Grid, puts_the_feet_on_the_edge_of_the_square_and_replays_from_a_copy_of_th
 
 TEST(Grid, begins_inside_and_stays_stuck_until_there_is_a_free_square) {
   GridWalk walk({rectangle(0, 0, 3, 3)}, centre_of(1, 1));
-  EXPECT_EQ(walk.move({0.75, 0}).status, MoveStatus::stuck);
+  EXPECT_EQ(walk.move({0.75, 0}).status, StepStatus::stuck);
   EXPECT_TRUE(walk.is_in(1, 1));
   GridWalk beside({rectangle(0, 0, 3, 3)}, centre_of(2, 1));
-  EXPECT_EQ(beside.move({0.75, 0}).status, MoveStatus::moved);
+  EXPECT_EQ(beside.move({0.75, 0}).status, StepStatus::moved);
   EXPECT_TRUE(beside.is_in(3, 1));
 }
 

@@ -333,7 +333,7 @@ TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   EXPECT_EQ(played.step(), StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
   const MoveResult& move = played.report.move;
-  EXPECT_EQ(move.status, MoveStatus::out_of_range);
+  EXPECT_EQ(move.status, StepStatus::out_of_range);
   ASSERT_GE(move.path.size(), 1U);
   EXPECT_EQ(move.path.back().position, before.position);
   EXPECT_EQ(move.position, before.position);

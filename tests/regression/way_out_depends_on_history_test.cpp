@@ -23,7 +23,7 @@ TEST(Regression, a_way_out_does_not_depend_on_earlier_steps) {
   }
   const auto from_the_middle = [](Stepper& stepper) {
     stepper.state = {};
-    EXPECT_EQ(stepper.at(0.2, 0.3).fly(0, 0).status, MoveStatus::moved);
+    EXPECT_EQ(stepper.at(0.2, 0.3).fly(0, 0).status, StepStatus::moved);
     return stepper.state.position;
   };
   Stepper fresh({cross});
