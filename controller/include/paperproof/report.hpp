@@ -48,7 +48,6 @@ enum class StepStatus : std::uint8_t {
   /// filter or an up that another technique does not read. Nothing changed at all. A move never says this.
   invalid_input,
 };
-using MoveStatus = StepStatus;
 
 /// The report of one move. Its vectors grow: a report that is used again allocates no more once it has had the longest.
 /// `octagon_sweep` reports everything. Other techniques leave out contacts and corners beyond these numbers, and a
