@@ -212,16 +212,11 @@ Box2 Controller::reach(const CharacterState& state, const StepContext& context) 
   const double reach = (character_.jump_speed + acceleration * dt) * dt + character_.snap + character_.step_height +
                        character_.wall_reach + 2 * most_turned;
   const Vec2d goes = state.position + (state.velocity + state.ride.velocity) * dt;
-  const Box2& extent = character_.shape.box();
-  return Box2{state.position.cwiseMin(goes) + extent.lower, state.position.cwiseMax(goes) + extent.upper}.inflated(
-      reach);
+  return (Box2::between(state.position, goes) + character_.shape.box()).inflated(reach);
 }
 
 Box2 Controller::reach(const MoveResult& move) const noexcept {
-  Box2 positions{move.position, move.position};
-  for (const PathPoint& corner : move.path) positions = positions.merged({corner.position, corner.position});
-  const Box2& extent = character_.shape.box();
-  return Box2{positions.lower + extent.lower, positions.upper + extent.upper}.inflated(most_turned);
+  return (box_around(move.path, {}).with(move.position) + character_.shape.box()).inflated(most_turned);
 }
 
 bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
@@ -236,9 +231,7 @@ bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, co
 template <class Ask>
 auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                         Scratch& scratch, const Ask& ask) const noexcept {
-  const Box2& extent = character_.shape.box();
-  const Vec2d end = position + displacement;
-  const Box2 box{position.cwiseMin(end) + extent.lower, position.cwiseMax(end) + extent.upper};
+  const Box2 box = Box2::between(position, position + displacement) + character_.shape.box();
   StepContext posed = context;
   std::optional<turning::TurningStep> question;
   if (any_angle(context.movers))

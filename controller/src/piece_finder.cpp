@@ -22,7 +22,7 @@ PieceFinder::PieceFinder(const Scenery& scenery, Kind kind, const Box2& reach, P
       kind_(kind),
       search_(search),
       reach_(reach),
-      look_ahead_(look_ahead_share * (reach.upper - reach.lower).maxCoeff()) {}
+      look_ahead_(look_ahead_share * reach.size().maxCoeff()) {}
 
 void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex>& found) const {
   if (mover != no_mover && !box.overlaps(whole(mover))) return;
@@ -49,12 +49,8 @@ bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const no
 }
 
 Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
-  const Vec2d first = path.front().position - motion.at(path.front().fraction);
-  Box2 positions{first, first};
-  for (const PathPoint& corner : path.subspan(1)) {
-    const Vec2d at = corner.position - motion.at(corner.fraction);
-    positions = positions.merged({at, at});
-  }
+  Box2 positions = Box2::nowhere();
+  for (const PathPoint& corner : path) positions = positions.with(corner.position - motion.at(corner.fraction));
   return positions;
 }
 
@@ -96,8 +92,7 @@ void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
   const bool goes_on = !known_.valid || known_.box.overlaps(positions);
   const Vec2d most = Vec2d::Constant(goes_on ? finder_.look_ahead() : 0);
   const Vec2d ahead = (way * steps_ahead).cwiseMin(most).cwiseMax(-most);
-  known_.box =
-      positions.merged({positions.lower + ahead, positions.upper + ahead}).inflated(finder_.look_ahead() * sides);
+  known_.box = positions.merged(positions + ahead).inflated(finder_.look_ahead() * sides);
   known_.pieces.clear();
   find(no_mover, finder_.touched_from(known_.box), 0, known_.pieces);
   name(known_.pieces, no_mover);

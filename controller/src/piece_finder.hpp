@@ -46,9 +46,7 @@ class PieceFinder {
     return {box.lower - motion.from.cwiseMax(motion.to), box.upper - motion.from.cwiseMin(motion.to)};
   }
   /// What the character touches from positions in a box, and a little more.
-  [[nodiscard]] Box2 touched_from(const Box2& positions) const noexcept {
-    return {positions.lower + reach_.lower, positions.upper + reach_.upper};
-  }
+  [[nodiscard]] Box2 touched_from(const Box2& positions) const noexcept { return positions + reach_; }
   [[nodiscard]] const Scenery& scenery() const noexcept { return *scenery_; }
   /// Whether it finds pieces of this kind.
   [[nodiscard]] bool has(PieceIndex piece) const noexcept {

@@ -71,7 +71,7 @@ void PieceGrid::Layer::erase(std::size_t index) {
 /// The finest layer whose cells are larger than a box. The box meets four of them at most.
 PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
   int exponent = 0;
-  std::frexp((box.upper - box.lower).maxCoeff(), &exponent);  // the size is less than 2^exponent
+  std::frexp(box.size().maxCoeff(), &exponent);  // the size is less than 2^exponent
   const double cells_per_metre = std::ldexp(1.0, -std::max(exponent, finest));
   const auto same = [&](const Layer& layer) { return layer.cells_per_metre == cells_per_metre; };
   const auto known = std::find_if(layers_.begin(), layers_.end(), same);
@@ -120,7 +120,7 @@ void PieceGrid::shrink(const Box2& removed, std::span<const Box2> boxes) {
   const bool is_within =
       (removed.lower.array() > whole_.lower.array()).all() && (removed.upper.array() < whole_.upper.array()).all();
   if (is_within) return;
-  whole_ = nowhere();
+  whole_ = Box2::nowhere();
   for (const Layer& layer : layers_)
     for (const Cell& cell : layer.cells)
       for (std::uint32_t link = cell.is_used ? cell.first : no_link; link != no_link; link = links_[link].next)

@@ -67,7 +67,8 @@ Sensors::Overlap Sensors::overlap_with(PieceIndex piece, double angle) const {
   const double far = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   // A little larger, so that rounding here cannot hide an overlap that the separations show.
   const Box2 any = Box2{box.lower - shape.upper, box.upper - shape.lower}.inflated(Tolerances{}.look);
-  if (info.is_circle()) return {info.collider, angle, {vertices[0], scenery.circle(piece).radius}, any, nowhere(), {}};
+  if (info.is_circle())
+    return {info.collider, angle, {vertices[0], scenery.circle(piece).radius}, any, Box2::nowhere(), {}};
   return {info.collider,
           angle,
           {},
@@ -82,14 +83,14 @@ Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& be
   segment.to = end.position - motion.at(end.fraction);
   segment.begin = begin.fraction;
   segment.end = end.fraction;
-  segment.positions = {segment.from.cwiseMin(segment.to), segment.from.cwiseMax(segment.to)};
+  segment.positions = Box2::between(segment.from, segment.to);
   return segment;
 }
 
 void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
                       const ColliderFilter* filter) noexcept {
   Nearby near(finder_, near_, &moving, filter, this);
-  if (!near_.valid) quiet_ = nowhere();
+  if (!near_.valid) quiet_ = Box2::nowhere();
   const Box2 positions = box_around(path, {});
   const bool may_change = positions.lower != positions.upper && !is_quiet(positions);
   if (may_change || finder_.search() == PieceSearch::none) {
@@ -120,7 +121,7 @@ Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoin
       if (segment.from != segment.to) observe(sensor, near.subspan(first, i + 1 - first), segment, events);
     }
   }
-  return all_quiet ? quiet : nowhere();
+  return all_quiet ? quiet : Box2::nowhere();
 }
 
 OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const noexcept {
@@ -135,7 +136,7 @@ std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const C
   std::size_t count = 0;
   ColliderIndex last = no_collider;
   Nearby near(finder_, near_, &moving, filter, this);
-  if (!near_.valid) quiet_ = nowhere();
+  if (!near_.valid) quiet_ = Box2::nowhere();
   near.for_each_group({position, position}, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const MoverMotion motion = mover == no_mover ? MoverMotion{} : moving.motions[mover];
     const Segment here = seen_by(motion, {position, 0}, {position, 0});

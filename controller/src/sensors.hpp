@@ -88,8 +88,6 @@ class Sensors final : public OwnMemory, private PieceUser {
   };
   [[nodiscard]] Overlap overlap_with(PieceIndex piece, double angle) const;
 
-  static Box2 nowhere() noexcept { return {Vec2d::Constant(1), Vec2d::Constant(-1)}; }
-
   PieceFinder finder_;
   std::vector<Vec2d> outline_;  ///< Of the character.
   Candidates near_;             ///< Of `overlaps_`.
@@ -97,7 +95,7 @@ class Sensors final : public OwnMemory, private PieceUser {
   std::unordered_map<PieceIndex, PieceIndex> known_;  ///< By piece, in `overlaps_`.
   std::vector<geometry::OverlapTime> stays_;          ///< In the pieces of one sensor.
   /// While the character moves among these positions, nothing happens between it and any piece that stands still.
-  Box2 quiet_ = nowhere();
+  Box2 quiet_ = Box2::nowhere();
 };
 
 }  // namespace paperproof

@@ -38,16 +38,11 @@ class Frame {
  private:
   /// Where the character may come during the frame by itself.
   [[nodiscard]] Box2 total_box() const noexcept {
-    const Box2& body = parts_.points.box;
-    const Vec2d there = position_ + movement_;
-    return {position_.cwiseMin(there) + body.lower, position_.cwiseMax(there) + body.upper};
+    return Box2::between(position_, position_ + movement_) + parts_.points.box;
   }
 
   /// How far penetration resolution may push beyond it.
-  [[nodiscard]] double most_push() const noexcept {
-    const Vec2d extent = parts_.points.box.upper - parts_.points.box.lower;
-    return extent.maxCoeff() + parts_.unit;
-  }
+  [[nodiscard]] double most_push() const noexcept { return parts_.points.box.size().maxCoeff() + parts_.unit; }
 
   /// What moves elsewhere changes nothing here: the frame is that of scenery that stands still.
   [[nodiscard]] bool something_moves_near() noexcept {
@@ -63,10 +58,9 @@ class Frame {
 
   /// How far the movement can lead: each component is at any time the one that was wanted, or that of something hit.
   void measure_reach() noexcept {
-    reach_ = {movement_.cwiseMin(Vec2d::Zero()), movement_.cwiseMax(Vec2d::Zero())};
+    reach_ = Box2::between(movement_, Vec2d::Zero());
     const auto include = [&](MoverIndex mover) {
-      const Vec2d motion = record_.frame().shift_at_start(mover) - record_.frame().shift_at_end(mover);
-      reach_ = reach_.merged({motion, motion});
+      reach_ = reach_.with(record_.frame().shift_at_start(mover) - record_.frame().shift_at_end(mover));
     };
     include(no_mover);
     for (MoverIndex mover = 0; mover < request_.movers.size(); ++mover) include(mover);
@@ -76,13 +70,8 @@ class Frame {
 
   /// Finds the pieces near the total bounding box: anew in every iteration.
   void look_around() noexcept {
-    const Box2& body = parts_.points.box;
     Box2 total = total_box();
-    if (moves_)
-      total = total
-                  .merged({record_.frame().start() + reach_.lower + body.lower,
-                           record_.frame().start() + reach_.upper + body.upper})
-                  .inflated(most_push());
+    if (moves_) total = total.merged(reach_ + record_.frame().start() + parts_.points.box).inflated(most_push());
     groups_ = parts_.groups_near(total, record_.frame(), scratch_);
   }
 

@@ -56,7 +56,7 @@ Scratch Parts::make_scratch() const {
 }
 
 NearbyScenery Parts::near(const Vec2d& here, const Vec2d& there, Scratch& scratch) const noexcept {
-  const Box2 total{here.cwiseMin(there) + points.box.lower, here.cwiseMax(there) + points.box.upper};
+  const Box2 total = Box2::between(here, there) + points.box;
   scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
   scratch.solids.count = broad_phase->query(total, scratch.solids.pieces);
   return {*scenery, std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count)};
@@ -73,7 +73,7 @@ std::span<const PieceGroup> Parts::groups_near(const Box2& box, const FrameOfRef
     const Vec2d first = frame.shift_at_start(mover);
     const Vec2d last = frame.shift_at_end(mover);
     const std::span<PieceIndex> room = found.subspan(scratch.solids.count);
-    std::size_t count = find(Box2{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
+    std::size_t count = find(box + Box2::between(first, last), room);
     if (frame.drops()) count = without_one_way(*scenery, room.first(count));
     scratch.solids.count += count;
     if (count > 0) groups.push_back({{*scenery, room.first(count)}, mover, first, last});

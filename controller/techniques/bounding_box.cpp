@@ -117,7 +117,7 @@ void BoundingBox::move(const MoveRequest& request, Scratch& scratch, MoveResult&
 
 typename BoundingBox::Pieces BoundingBox::near(const Vec2d& here, const Vec2d& there, Movers movers,
                                                Scratch& scratch) const noexcept {
-  const Box2 total{here.cwiseMin(there), here.cwiseMax(there)};
+  const Box2 total = Box2::between(here, there);
   scratch.solids.valid = false;
   scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
   for (PieceIndex piece = moving_.first; piece < moving_.end; ++piece)

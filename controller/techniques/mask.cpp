@@ -28,7 +28,7 @@ using raster::RasterParts;
 /// The picture of the character that is given.
 Bitmap figure_of(const TechniqueDef& def, const CharacterShape& shape) {
   const std::vector<std::string>& rows = def.sprite;
-  const Vec2d size = (shape.box().upper - shape.box().lower) * def.article.raster_pixels_per_metre;
+  const Vec2d size = shape.box().size() * def.article.raster_pixels_per_metre;
   const auto width = static_cast<std::int64_t>(std::llround(size.x()));
   const auto height = static_cast<std::int64_t>(std::llround(size.y()));
   const auto fits = [&](const std::string& row) { return static_cast<std::int64_t>(row.size()) == width; };

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -198,11 +197,7 @@ class PieceGrid {
   std::vector<Layer> layers_;
   std::vector<Link> links_;
   std::uint32_t unused_ = no_link;  ///< Links of no cell, as a list.
-  static Box2 nowhere() noexcept {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
-  }
-  Box2 whole_ = nowhere();
+  Box2 whole_ = Box2::nowhere();
 };
 
 /// Ranges of a vector that are used no more, to be used again.

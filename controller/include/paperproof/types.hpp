@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -74,14 +75,25 @@ struct Box2 {
   [[nodiscard]] Box2 merged(const Box2& other) const noexcept {
     return {lower.cwiseMin(other.lower), upper.cwiseMax(other.upper)};
   }
+  /// Around this box and a point.
+  [[nodiscard]] Box2 with(const Vec2d& point) const noexcept { return merged({point, point}); }
   [[nodiscard]] Vec2d middle() const noexcept { return (lower + upper) / 2; }
+  [[nodiscard]] Vec2d size() const noexcept { return upper - lower; }
   [[nodiscard]] Box2 inflated(double by) const noexcept {
     return {lower - Vec2d::Constant(by), upper + Vec2d::Constant(by)};
   }
-  /// @param points at least one.
+  /// Where the sums of a point of each are: what a shape covers from positions in a box.
+  friend Box2 operator+(const Box2& a, const Box2& b) noexcept { return {a.lower + b.lower, a.upper + b.upper}; }
+  friend Box2 operator+(const Box2& box, const Vec2d& by) noexcept { return {box.lower + by, box.upper + by}; }
+  [[nodiscard]] static Box2 between(const Vec2d& a, const Vec2d& b) noexcept { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+  /// Around no point: it meets no box.
+  [[nodiscard]] static Box2 nowhere() noexcept {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
+  }
   [[nodiscard]] static Box2 around(std::span<const Vec2d> points) noexcept {
-    Box2 box{points[0], points[0]};
-    for (const Vec2d& point : points) box = box.merged({point, point});
+    Box2 box = nowhere();
+    for (const Vec2d& point : points) box = box.with(point);
     return box;
   }
 };
@@ -107,8 +119,6 @@ class FixedVector {
     std::construct_at(items_.data() + size_++, value);
     return true;
   }
-  /// Elements that belong here were refused elsewhere, if `lost`.
-  void note_overflow(bool lost) noexcept { overflowed_ = overflowed_ || lost; }
   void clear() noexcept {
     size_ = 0;
     overflowed_ = false;

@@ -57,8 +57,7 @@ inline void place(std::span<const Vec2d> given, const Pose& pose, std::vector<Ve
 [[nodiscard]] inline Box2 swept_box(const Box2& box, const MoverMotion& motion) noexcept {
   const Box2 before = Turn(motion.from_angle)(box);
   const Box2 after = Turn(motion.to_angle)(box);
-  const Box2 both = Box2{before.lower + motion.from, before.upper + motion.from}.merged(
-      {after.lower + motion.to, after.upper + motion.to});
+  const Box2 both = (before + motion.from).merged(after + motion.to);
   const double turn = std::min(std::abs(motion.turn()), 2.0);
   return both.inflated(2 * turn * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm());
 }

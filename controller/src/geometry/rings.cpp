@@ -24,7 +24,7 @@ std::vector<Side> sides_by_left_end(std::span<const Ring> rings) {
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       const Vec2d& from = rings[r][i];
       const Vec2d& to = rings[r][(i + 1) % rings[r].size()];
-      sides.push_back({from, to, {from.cwiseMin(to), from.cwiseMax(to)}, r, i});
+      sides.push_back({from, to, Box2::between(from, to), r, i});
     }
   }
   std::stable_sort(sides.begin(), sides.end(),

@@ -173,7 +173,7 @@ class EarClipper {
     const Vec2d& a = outline_.at_previous(tip);
     const Vec2d& b = outline_.at(tip);
     const Vec2d& c = outline_.at_next(tip);
-    const Box2 box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    const Box2 box = Box2::between(a, b).with(c);
     // Clipping makes no node reflex: a node that is left out here stays out.
     std::erase_if(reflex_, [&](NodeIndex i) { return !is_reflex_[i]; });
     return std::none_of(reflex_.begin(), reflex_.end(), [&](NodeIndex i) {

@@ -170,7 +170,7 @@ class ConfigurationSpace {
 
   /// What the octagon covers or touches while its reference point is in `box` [m].
   [[nodiscard]] Box2 touched_from(const Box2& box) const noexcept {
-    return Box2{box.lower + axes_.box.lower, box.upper + axes_.box.upper}.inflated(tolerances.touch);
+    return (box + axes_.box).inflated(tolerances.touch);
   }
 
   /// Shared axes per piece: 8 or 12, in groups of four.
@@ -262,7 +262,7 @@ class ConfigurationSpace {
 
   /// A lane that no axis has.
   [[nodiscard]] bool is_unused(std::size_t axis) const noexcept { return axis >= axes_.count && axis < axes_.lanes; }
-  [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.upper - axes_.box.lower; }
+  [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.size(); }
   [[nodiscard]] const OneWaySurfaces& surfaces_of(MoverIndex mover, double angle);
   [[nodiscard]] PieceIndex make(PieceIndex source, double angle);
   void fill(Obstacle& obstacle, PieceIndex source, double angle);

@@ -38,7 +38,7 @@ struct Motion {
 
   [[nodiscard]] Box2 box() const noexcept {
     const Vec2 to = from + extended;
-    return {from.cwiseMin(to), from.cwiseMax(to)};
+    return Box2::between(from, to);
   }
 };
 

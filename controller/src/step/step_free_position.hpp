@@ -54,7 +54,7 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
   constexpr Real beyond = 16 * tolerances.stop;
   const Real whole = reach + beyond;
   // Mostly there is one nearby, among few pieces.
-  const Real near = std::min<Real>(whole, (step.space.hull_box().upper - step.space.hull_box().lower).maxCoeff());
+  const Real near = std::min<Real>(whole, step.space.hull_box().size().maxCoeff());
   for (const Real radius : {near, whole}) {
     FreePosition found{radius, Vec2::Zero(), corners.end};
     for (std::size_t corner = corners.end; corner-- > corners.first;) search_from(step, corner, gap, found);
@@ -120,7 +120,7 @@ template <class Holds>
       if (is_contact(step, near) && (!last || before(*last, near)) && (!next || before(near, *next))) next = near;
     }
   };
-  const Box2 box{from.position.cwiseMin(to.position), from.position.cwiseMax(to.position)};
+  const Box2 box = Box2::between(from.position, to.position);
   step.near.for_each_group(box.inflated(tolerances.look), Vec2d::Zero(),
                            [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
                              look_at(from.position - step.movers.offset(mover, from.fraction),

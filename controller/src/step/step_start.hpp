@@ -80,10 +80,10 @@ inline void note_colliders_left(Step& step) noexcept {
     for (PieceIndex part = solid.first; part < solid.end; ++part) {
       Box2 box = step.space.scenery().box(part);
       if (angle != 0) box = geometry::Turn(angle)(box);
-      whole = whole.merged({box.lower + shift, box.upper + shift});
+      whole = whole.merged(box + shift);
     }
   });
-  const Vec2 extent = step.space.hull_box().upper - step.space.hull_box().lower;
+  const Vec2 extent = step.space.hull_box().size();
   return length_of(Vec2((middle - Vec2(whole.lower)).cwiseMax(Vec2(whole.upper) - middle) + extent));
 }
 
@@ -101,11 +101,10 @@ inline void note_colliders_left(Step& step) noexcept {
 template <class MayPass>
 [[nodiscard]] inline std::span<const PieceIndex> pieces_for(Step& step, FreePositionQuery& query,
                                                             const MayPass& may_pass) noexcept {
-  Box2 box = Box2{query.near, query.near}.inflated(query.reach).merged({query.from, query.from});
-  const auto add = [&box](const Vec2& p) { box = box.merged({p, p}); };
-  if (query.last_free) add(*query.last_free);
-  if (query.entered_from) add(*query.entered_from);
-  for (const Crusher& crusher : query.crushers) add(crusher.last_free + crusher.displacement);
+  Box2 box = Box2{query.near, query.near}.inflated(query.reach).with(query.from);
+  for (const std::optional<Vec2>& before : {query.last_free, query.entered_from})
+    if (before) box = box.with(*before);
+  for (const Crusher& crusher : query.crushers) box = box.with(crusher.last_free + crusher.displacement);
   const std::span<PieceIndex> around = step.near.take(box);  // those of one collider are in a row
   const Box2 touched = step.space.touched_from(box);
   const auto is_out_of_way = [&](PieceIndex piece) {
@@ -129,7 +128,7 @@ template <class MayPass>
 /// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole: 52
 /// times at most from 1 nm on, as solids are less than 4e6 m wide.
 [[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, FreePositionQuery query, Real whole) noexcept {
-  const Vec2 extent = step.space.hull_box().upper - step.space.hull_box().lower;
+  const Vec2 extent = step.space.hull_box().size();
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
     const std::span<const PieceIndex> pieces =
         pieces_for(step, query, [&](PieceIndex piece) { return overlaps(step, piece, step.position); });
@@ -181,7 +180,7 @@ inline void restore_gap(Step& step) noexcept {
   for (int round = 0; round < restore_rounds; ++round) {
     Real least = std::numeric_limits<Real>::infinity();
     Vec2 push = Vec2::Zero();
-    for_each_near(step, {q.cwiseMin(step.position), q.cwiseMax(step.position)}, [&](PieceIndex piece) {
+    for_each_near(step, Box2::between(q, step.position), [&](PieceIndex piece) {
       const BestAxis best = best_axis(step.space, piece, local(step, piece, q));
       if (best.separation >= least || !may_block(step, piece, step.position)) return;
       least = best.separation;
@@ -211,7 +210,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
   const Vec2 before = step.position;
   for (const HalfPlane& push : pushes) {
     const Vec2 q = step.position + push.normal * push.least;
-    const bool narrows = any_near(step, {q.cwiseMin(step.position), q.cwiseMax(step.position)}, [&](PieceIndex piece) {
+    const bool narrows = any_near(step, Box2::between(q, step.position), [&](PieceIndex piece) {
       if (!may_block(step, piece, step.position)) return false;
       const Real now = best_axis(step.space, piece, local(step, piece, step.position)).separation;
       const Real then = best_axis(step.space, piece, local(step, piece, q)).separation;

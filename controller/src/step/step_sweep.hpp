@@ -89,7 +89,7 @@ template <class Condition>
 
 /// Whether a straight motion that takes no time is clear of every piece, exactly.
 [[nodiscard]] inline bool exactly_clear(Step& step, const Vec2& from, const Vec2& to) noexcept {
-  return !any_near(step, {from.cwiseMin(to), from.cwiseMax(to)},
+  return !any_near(step, Box2::between(from, to),
                    [&](PieceIndex piece) { return !exactly_clear(step, piece, from, to, step.time); });
 }
 

@@ -101,16 +101,14 @@ double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
 
 bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Vec2d origin = character.from;
-  const Box2 shape = Box2::around(character.hull);
-  const Box2 hull{origin.cwiseMin(character.to) + shape.lower, origin.cwiseMax(character.to) + shape.upper};
+  const Box2 hull = Box2::between(origin, character.to) + Box2::around(character.hull);
   Scene scene{{}, character.hull, {{0, 0}, character.to - origin}, least};
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Box2 whole{Vec2d::Constant(far), Vec2d::Constant(-far)};
+  Box2 whole = Box2::nowhere();
   for (std::size_t i = 0; i < piece.from.size(); ++i) {
     const Vec2d from = between(piece.from[i], piece.to[i], piece.begin);
     const Vec2d to = between(piece.from[i], piece.to[i], piece.end);
     scene.piece.push_back({from, to});
-    whole = whole.merged({from.cwiseMin(to), from.cwiseMax(to)});
+    whole = whole.merged(Box2::between(from, to));
   }
   if (!hull.inflated(std::abs(least)).overlaps(whole.inflated(piece.radius))) return true;
   if (piece.radius > 0) return circle_stays_apart(character, scene.piece[0], piece.radius, least);

@@ -119,7 +119,7 @@ StepStatus TurningStep::step(CharacterState& state, const Wish& wish) {
     const Box2 way = controller_.reach(report_.move);
     if (needed.contains(way)) return status;
     state = before;
-    needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));
+    needed = needed.merged(way.inflated(needed.size().maxCoeff()));
   }
 }
 

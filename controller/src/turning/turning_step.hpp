@@ -28,8 +28,8 @@ inline constexpr double turning_share = 0x1p-20;
 /// The ways of the vertices that are reported, the way of the character and its points count as exact. Of places
 /// relative to the character's first each component is off by less than 1.5e-10 (vertex and corner together), and the
 /// side of an edge by less than 3.4e-10 times its length. In all that is at most 6e-10 with no coordinate beyond 1e6 m,
-/// and nothing farther than 1e5 m from the character's first place. Gappa proves it (tests/controller/bounds). The piece
-/// itself is at most 5e-11 m beyond the line of its edge, or 3.4e-10 more by rounding: below 1e-9 in all.
+/// and nothing farther than 1e5 m from the character's first place. Gappa proves it (tests/controller/bounds). The
+/// piece itself is at most 5e-11 m beyond the line of its edge, or 3.4e-10 more by rounding: below 1e-9 in all.
 inline constexpr double proved = 1e-9;
 
 /// What a step is asked for.
@@ -98,9 +98,7 @@ class TurningStep {
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
   /// What the character covers from positions in a box.
-  [[nodiscard]] Box2 box_at(const Box2& positions) const noexcept {
-    return {positions.lower + character().shape.box().lower, positions.upper + character().shape.box().upper};
-  }
+  [[nodiscard]] Box2 box_at(const Box2& positions) const noexcept { return positions + character().shape.box(); }
   [[nodiscard]] bool is_there(ColliderIndex collider) const;
   [[nodiscard]] bool blocks(ColliderIndex collider) const;
 

@@ -30,8 +30,7 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
 
 /// Into how many shorter steps a step must be divided.
 int TurningStep::parts_wanted() const {
-  const Box2& extent = character().shape.box();
-  const double size = (extent.upper - extent.lower).norm();
+  const double size = character().shape.box().size().norm();
   double most = 0;
   for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover)
     if (memory_.turns[mover]) most = std::max(most, std::abs(context_.movers[mover].turn()) * size);

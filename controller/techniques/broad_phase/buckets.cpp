@@ -38,7 +38,7 @@ double spacing(std::span<const Box2> boxes) {
 
 double median_of_longer_sides(std::span<const Box2> boxes) {
   std::vector<double> sides;
-  for (const Box2& box : boxes) sides.push_back((box.upper - box.lower).maxCoeff());
+  for (const Box2& box : boxes) sides.push_back(box.size().maxCoeff());
   return quantile(sides, 2);
 }
 

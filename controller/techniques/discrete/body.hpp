@@ -30,7 +30,7 @@ struct Body {
   [[nodiscard]] Box2 total_box() const noexcept {
     const Vec2d start = base.from + position;
     const Vec2d end = base.to + expected();
-    return {start.cwiseMin(end) + box.lower, start.cwiseMax(end) + box.upper};
+    return Box2::between(start, end) + box;
   }
 };
 

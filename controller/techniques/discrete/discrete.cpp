@@ -307,8 +307,7 @@ bool Discrete::pushed_through(Frames frames, BodyIndex character, Scratch& scrat
 bool Discrete::passes_static(const Vec2d& from, const Vec2d& to, Scratch& scratch) const noexcept {
   using Time = geometry::OverlapTime;
   std::vector<PieceIndex>& in_way = workplace_of(scratch).in_way;
-  const std::size_t count =
-      broad_phase_->query({from.cwiseMin(to) + box_.lower, from.cwiseMax(to) + box_.upper}, in_way);
+  const std::size_t count = broad_phase_->query(Box2::between(from, to) + box_, in_way);
   return std::any_of(in_way.begin(), in_way.begin() + static_cast<std::ptrdiff_t>(count), [&](PieceIndex piece) {
     if (scenery_->pieces()[piece].one_way) return false;
     const Time time =

@@ -128,7 +128,7 @@ PixelBox pixels_around(const SceneryDef& scenery, double pixels_per_metre) {
   const Vec2d& any = scenery.colliders[solids.front()].points.front();
   Box2 box{any, any};
   for (const ColliderIndex solid : solids) {
-    for (const Vec2d& point : scenery.colliders[solid].points) box = box.merged({point, point});
+    for (const Vec2d& point : scenery.colliders[solid].points) box = box.with(point);
   }
   const Pixel lower{floor_to_pixel(box.lower.x() * pixels_per_metre), floor_to_pixel(box.lower.y() * pixels_per_metre)};
   const Pixel upper{floor_to_pixel(box.upper.x() * pixels_per_metre), floor_to_pixel(box.upper.y() * pixels_per_metre)};

@@ -46,7 +46,7 @@ Sprite::Sprite(const CharacterShape& shape, double pixels_per_metre) : mask_(mas
   if (edge(Side::bottom).empty()) {
     throw NotExpressible("the character has no pixel at " + std::to_string(pixels_per_metre) + " pixels per metre");
   }
-  const Vec2d size = (shape.box().upper - shape.box().lower) * pixels_per_metre;
+  const Vec2d size = shape.box().size() * pixels_per_metre;
   for (const Vec2d& point : shape.points()) {
     const Vec2d at = (point - shape.box().lower) * pixels_per_metre;
     points_.push_back({pixel_of(at.x(), size.x() / 2), pixel_of(at.y(), size.y() / 2)});
