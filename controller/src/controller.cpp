@@ -68,29 +68,13 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
   CharacterState free = state;
   free.crushed = false;
   free.crushers.clear();
-  sweep_->move_part(octagon_sweep::Part::whole,
-                    request_of(free, there, there / context.dt, 0, false, false, context.dt, here), scratch, tried);
+  sweep_->move_part(octagon_sweep::Part::whole, {free, there, there / context.dt, context.dt, here}, scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
 PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context,
                                                            const Moving& moving) const noexcept {
   return {&moving, filter_of(context), context.up};
-}
-
-PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::request_of(const CharacterState& state,
-                                                                    const Vec2d& displacement, const Vec2d& velocity,
-                                                                    double steered, bool drop, bool jumps, double dt,
-                                                                    const Around& here) noexcept {
-  return {.state = state,
-          .displacement = displacement,
-          .velocity = velocity,
-          .steered = steered,
-          .grounded = state.grounded,
-          .drop = drop,
-          .next_dt = jumps ? 0 : dt,
-          .dt = dt,
-          .around = here};
 }
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,
@@ -107,7 +91,8 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, report.requested, velocity, steered, input.drop, state.jumping && !rises, dt, here);
+  const bool jumps = state.jumping && !rises;
+  return {state, report.requested, velocity, dt, here, steered, input.drop, jumps ? 0 : dt};
 }
 
 [[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
@@ -135,7 +120,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
   report.dropped_through.clear();
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
-  if (is_divided(state, context, scratch)) [[unlikely]]
+  if (needs_turning_step(state, context, scratch)) [[unlikely]]
     return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
   const Intended before = intended(state);
   const bool wall_ahead =
@@ -162,14 +147,14 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
       !FiniteCheck().add(displacement).add(velocity).passed())
     return report.status = StepStatus::invalid_input;
-  if (is_divided(state, context, scratch))
+  if (needs_turning_step(state, context, scratch))
     return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
   report.requested = displacement;
   report.steered = 0;
   const Moving moving = moving_in(context, scratch);
   const Around here = around(context, moving);
-  sweep_->move_part(octagon_sweep::Part::whole,
-                    request_of(state, displacement, velocity, 0, false, false, context.dt, here), scratch, report.move);
+  sweep_->move_part(octagon_sweep::Part::whole, {state, displacement, velocity, context.dt, here}, scratch,
+                    report.move);
   report.status = report.move.status;
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -178,8 +163,8 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   return report.status;
 }
 
-bool Controller::is_divided(const CharacterState& state, const StepContext& context,
-                            const Scratch& scratch) const noexcept {
+bool Controller::needs_turning_step(const CharacterState& state, const StepContext& context,
+                                    const Scratch& scratch) const noexcept {
   if (turning::memory_of(scratch).is_in_part) return false;
   const bool all_there =
       state.crushers.empty() || std::all_of(state.crushers.begin(), state.crushers.end(),
@@ -219,18 +204,17 @@ Box2 Controller::reach(const MoveResult& move) const noexcept {
   return (box_around(move.path, {}).with(move.position) + character_.shape.box()).inflated(most_turned);
 }
 
-bool Controller::can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
-                            const Scratch& scratch) const noexcept {
-  return is_made_by(sweep_, scratch.maker) && in_range(position) && in_range(Vec2d(position + displacement)) &&
-         context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
-         (context.movers.empty() || finite(context.movers, 1.0));
-}
-
 /// Asks about a character that goes from a position.
-/// @param within [m] of its way. @param ask called with what is around it.
+/// @param within [m] of its way. @param ask called with what is around it, unless the question cannot be answered:
+/// then the answer is an empty one.
 template <class Ask>
 auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                         Scratch& scratch, const Ask& ask) const noexcept {
+  const bool is_answered = is_made_by(sweep_, scratch.maker) && in_range(position) &&
+                           in_range(Vec2d(position + displacement)) && within <= Tolerances{}.range &&
+                           context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
+                           (context.movers.empty() || finite(context.movers, 1.0));
+  if (!is_answered) return decltype(ask(Around{})){};
   const Box2 box = Box2::between(position, position + displacement) + character_.shape.box();
   StepContext posed = context;
   std::optional<turning::TurningStep> question;
@@ -243,28 +227,25 @@ auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double
 
 std::optional<Contact> Controller::cast(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
                                         Scratch& scratch) const noexcept {
-  if (!can_answer(position, displacement, context, scratch)) return std::nullopt;
   return answer(position, displacement, 0, context, scratch,
                 [&](const Around& around) { return sweep_->cast(position, displacement, around, scratch); });
 }
 
 std::optional<std::size_t> Controller::overlaps(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                                 std::span<ColliderIndex> found) const noexcept {
-  if (!can_answer(position, {0, 0}, context, scratch)) return std::nullopt;
-  return answer(position, {0, 0}, 0, context, scratch,
-                [&](const Around& around) { return sweep_->overlaps(position, around, scratch, found); });
+  return answer(position, {0, 0}, 0, context, scratch, [&](const Around& around) {
+    return std::optional(sweep_->overlaps(position, around, scratch, found));
+  });
 }
 
 std::size_t Controller::contacts_at(const Vec2d& position, double within, const StepContext& context, Scratch& scratch,
                                     std::span<Contact> found) const noexcept {
-  if (!can_answer(position, {0, 0}, context, scratch) || !(within <= Tolerances{}.range)) return 0;
   return answer(position, {0, 0}, std::max(within, 0.0), context, scratch,
                 [&](const Around& around) { return sweep_->contacts_at(position, within, around, scratch, found); });
 }
 
 std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                    std::span<ColliderIndex> found) const noexcept {
-  if (!can_answer(position, {0, 0}, context, scratch)) return 0;
   return answer(position, {0, 0}, 0, context, scratch, [&](const Around& around) {
     return static_cast<Sensors&>(*scratch.sensors).around(position, *around.moving, around.filter, found);
   });

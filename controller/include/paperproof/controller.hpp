@@ -105,7 +105,8 @@ class Controller {
 
   /// What a step can touch: only a way out of solids may lead farther.
   [[nodiscard]] Box2 reach(const CharacterState& state, const StepContext& context) const noexcept;
-  /// What decided a move. A game that loads only what is near loads more where this leads beyond it, and steps again.
+  /// What the character may have touched in a move. A game that loads only what is near compares this with what it has
+  /// loaded: where it is larger, the game loads more, and makes the step again.
   [[nodiscard]] Box2 reach(const MoveResult& move) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing. They read
@@ -161,9 +162,9 @@ class Controller {
   using StepRequest = octagon_sweep::StepRequest;
 
   friend class turning::TurningStep;
-  /// Whether a mover has an angle; or what the state names is gone, and it must be told.
-  [[nodiscard]] bool is_divided(const CharacterState& state, const StepContext& context,
-                                const Scratch& scratch) const noexcept;
+  /// Whether a mover has an angle, or the state names a collider that is gone.
+  [[nodiscard]] bool needs_turning_step(const CharacterState& state, const StepContext& context,
+                                        const Scratch& scratch) const noexcept;
   StepStatus step_in_parts(CharacterState& state, const turning::Wish& wish, const StepContext& context,
                            Scratch& scratch, StepReport& report) const noexcept;
   friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
@@ -180,11 +181,8 @@ class Controller {
                                     Scratch& scratch, MoveResult& tried) const noexcept;
   /// @param moving must outlive the answer.
   [[nodiscard]] Around around(const StepContext& context, const Moving& moving) const noexcept;
-  /// @param state must outlive the request, as `here`.
-  [[nodiscard]] static StepRequest request_of(const CharacterState& state, const Vec2d& displacement,
-                                              const Vec2d& velocity, double steered, bool drop, bool jumps, double dt,
-                                              const Around& here) noexcept;
   /// Begins an accepted step: turns the intent into a request.
+  /// @param state must outlive the request, as `here`.
   [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Around& here,
                                        bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
   [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
@@ -205,9 +203,6 @@ class Controller {
   void end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
                     StepReport& report) const noexcept;
 
-  /// Whether a question about a position can be answered.
-  [[nodiscard]] bool can_answer(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
-                                const Scratch& scratch) const noexcept;
   template <class Ask>
   [[nodiscard]] auto answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                             Scratch& scratch, const Ask& ask) const noexcept;

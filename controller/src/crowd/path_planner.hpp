@@ -162,12 +162,12 @@ class PathPlanner {
     return {.state = at.state,
             .displacement = at.own_velocity * duration,
             .velocity = at.own_velocity,
+            .dt = duration,
+            .around = around_,
             .steered = at.steered,
-            .grounded = member.follows_ground && !member.ground_taken && end == 1,
             .drop = member.drops,
             .next_dt = member.next_dt,
-            .dt = duration,
-            .around = around_};
+            .grounded = member.follows_ground && !member.ground_taken && end == 1};
   }
 
   [[nodiscard]] bool plan_part(const Member& member, double end, MoveResult& path, Moment& at) noexcept {

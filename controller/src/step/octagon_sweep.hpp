@@ -28,14 +28,15 @@ struct StepRequest {
   const CharacterState& state;
   Vec2d displacement;  ///< The wanted displacement [m].
   Vec2d velocity;      ///< The velocity behind the displacement [m/s].
-  double steered;      ///< The part of `velocity` across up that this step's steering added [m/s].
-  bool grounded;       ///< The last step ended on the ground, and this one does not begin with a jump.
-  bool drop;           ///< One-way chains do not block: see `Input::drop`.
+  double dt;           ///< [s]
+  const Around& around;
+  double steered = 0;  ///< The part of `velocity` across up that this step's steering added [m/s].
+  bool drop = false;   ///< One-way chains do not block: see `Input::drop`.
   /// Duration of one more step [s]: a motion leaves ground if it goes away from it by more than `Tolerances::touch` in
   /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
-  double next_dt;
-  double dt;  ///< [s]
-  const Around& around;
+  double next_dt = dt;
+  /// The last step ended on the ground, and this one does not begin with a jump.
+  bool grounded = state.grounded;
 };
 
 /// Which part of a step a move makes.
