@@ -5,7 +5,6 @@
 
 #include "inlining.hpp"
 #include "intent.hpp"
-#include "one_way_chains.hpp"
 #include "sensors.hpp"
 #include "step/octagon_sweep.hpp"
 #include "step_parts.hpp"
@@ -26,11 +25,7 @@ Controller::Controller(const Scenery& scenery, const CharacterDef& character, co
 
 Controller::Controller(const Scenery& scenery, const CharacterDef& character,
                        std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search)
-    : scenery_(&scenery),
-      asks_all_(search == PieceSearch::none),
-      character_(character),
-      sweep_(std::move(sweep)),
-      one_way_(std::make_shared<OneWayChains>(character_.shape)) {}
+    : scenery_(&scenery), asks_all_(search == PieceSearch::none), character_(character), sweep_(std::move(sweep)) {}
 
 Scratch Controller::make_scratch() const {
   Scratch scratch = sweep_->make_scratch();
@@ -95,22 +90,19 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
   return {state, report.requested, velocity, dt, here, steered, input.drop, jumps ? 0 : dt};
 }
 
-[[nodiscard]] PAPERPROOF_INLINE bool Controller::may_pass_something(bool drop) const noexcept {
-  return asks_all_ || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0);
-}
-
 /// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.
 PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
                                                    StepReport& report) const noexcept {
   const std::span<const PathPoint> path = report.move.path;
   const Moving moving = moving_in(context, scratch);
   static_cast<Sensors&>(*scratch.sensors).observe(path, moving, report.sensors, filter_of(context));
-  if (drop) sweep_->find_passed(around(context, moving), path, *one_way_, scratch, report.dropped_through);
+  if (drop) sweep_->find_passed(around(context, moving), path, scratch, report.dropped_through);
 }
 
 PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
                                             CharacterState& state, StepReport& report) const noexcept {
-  if (may_pass_something(drop)) note_passed(drop, context, scratch, report);
+  if (asks_all_ || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0))
+    note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
 }
 

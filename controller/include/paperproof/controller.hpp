@@ -40,7 +40,6 @@ namespace turning {
 class TurningStep;
 struct Wish;
 }  // namespace turning
-class OneWayChains;
 class Crowd;
 struct Moving;
 
@@ -185,7 +184,6 @@ class Controller {
   /// @param state must outlive the request, as `here`.
   [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Around& here,
                                        bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
-  [[nodiscard]] bool may_pass_something(bool drop) const noexcept;
   void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
@@ -212,7 +210,6 @@ class Controller {
   CharacterDef character_;
   /// Scratch memory refers to it.
   std::shared_ptr<const octagon_sweep::SweepInParts> sweep_;
-  std::shared_ptr<const OneWayChains> one_way_;
 };
 
 }  // namespace paperproof

@@ -1,5 +1,6 @@
 #include "step/octagon_sweep.hpp"
 
+#include "one_way_chains.hpp"
 #include "step/query.hpp"
 #include "step/step_solve.hpp"
 
@@ -39,6 +40,7 @@ class OctagonSweep final : public SweepInParts {
   OctagonSweep(const SweepDef& def, const Scenery& scenery, const CharacterDef& character)
       : finder_(find_solids(scenery, character.shape, def.search)),
         shape_(character.shape),
+        chains_(character.shape),
         settings_(settings_for(def, character)) {}
 
   [[nodiscard]] const PieceFinder& finder() const noexcept override { return finder_; }
@@ -71,7 +73,7 @@ class OctagonSweep final : public SweepInParts {
     solve(step, part);
   }
 
-  void find_passed(const Around& around, std::span<const PathPoint> path, const OneWayChains& chains, Scratch& scratch,
+  void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
                    std::vector<ColliderIndex>& passed) const noexcept override {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
@@ -80,8 +82,8 @@ class OctagonSweep final : public SweepInParts {
       const PieceVertices ends = memory.space.vertices_of(piece);
       return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
     };
-    chains.find_passed(path, around.moving->motions, {finder_, scratch.solids, around.moving, around.filter, &memory},
-                       segment_of, passed);
+    chains_.find_passed(path, around.moving->motions, {finder_, scratch.solids, around.moving, around.filter, &memory},
+                        segment_of, passed);
   }
 
   template <class Question>
@@ -144,6 +146,7 @@ class OctagonSweep final : public SweepInParts {
 
   PieceFinder finder_;
   CharacterShape shape_;
+  OneWayChains chains_;
   Settings settings_;
 };
 

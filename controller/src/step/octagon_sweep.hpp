@@ -5,7 +5,6 @@
 #include <paperproof/step_context.hpp>
 #include <paperproof/up_frame.hpp>
 
-#include "one_way_chains.hpp"
 #include "piece_finder.hpp"
 
 #include <memory>
@@ -63,8 +62,8 @@ class SweepInParts {
                          MoveResult& result) const noexcept = 0;
 
   /// See `OneWayChains`.
-  virtual void find_passed(const Around& around, std::span<const PathPoint> path, const OneWayChains& chains,
-                           Scratch& scratch, std::vector<ColliderIndex>& passed) const noexcept = 0;
+  virtual void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
+                           std::vector<ColliderIndex>& passed) const noexcept = 0;
 
   // See the calls of these names in `Controller`.
   [[nodiscard]] virtual std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement,
