@@ -10,10 +10,13 @@
 
 #include "geometry/exact.hpp"
 #include "geometry/pose.hpp"
+#include "geometry/vectors.hpp"
 
 namespace paperproof {
 namespace {
 
+using geometry::least_along;
+using geometry::normal_of;
 using geometry::orientation_sign;
 using geometry::orientation_sign_of_sum;
 using geometry::turn_sign;
@@ -142,14 +145,8 @@ void OneWaySurfaces::add_surface(std::span<const Vec2d> line, const Vec2d& one_w
   for (std::size_t i = 0; i < line.size(); ++i) {
     Edge edge{.from = line[i], .begins = frames_[frame].across.dot(line[i]), .normal = Vec2d::Zero(), .offset = 0};
     if (i + 1 < line.size()) {
-      const Vec2d along = line[i + 1] - line[i];
-      const Vec2d normal = Vec2d{-along.y(), along.x()} / std::sqrt(along.dot(along));
-      edge.normal = normal;
-      // The offset belongs to the rounded normal, because positions are multiplied with that normal.
-      const Vec2d rounded = edge.normal;
-      double lowest = std::numeric_limits<double>::infinity();
-      for (const Vec2d& o : hull()) lowest = std::min(lowest, rounded.dot(o));
-      edge.offset = std::max(rounded.dot(line[i]), rounded.dot(line[i + 1])) - lowest;
+      edge.normal = normal_of(line[i + 1] - line[i]);
+      edge.offset = std::max(edge.normal.dot(line[i]), edge.normal.dot(line[i + 1])) - least_along(hull(), edge.normal);
     }
     edges_.push_back(edge);
   }
@@ -160,21 +157,17 @@ std::uint32_t OneWaySurfaces::find_frame(const Vec2d& one_way) {
     if (frames_[known].one_way == one_way) return known;
   Frame frame;
   frame.one_way = one_way;
-  const Vec2d up = one_way / std::sqrt(one_way.dot(one_way));
-  frame.across = Vec2d{up.y(), -up.x()};
+  frame.across = -normal_of(one_way);
   const auto add_axis = [&](const Vec2d& normal) {
-    Axis axis{normal, std::numeric_limits<double>::infinity()};
-    for (const Vec2d& o : hull()) axis.low = std::min(axis.low, axis.normal.dot(o));
-    frame.axes.push_back(axis);
-    return axis.low;
+    frame.axes.push_back({normal, least_along(hull(), normal)});
+    return frame.axes.back().low;
   };
   for (std::size_t k = 0; k < hull().size(); ++k) {
     const Vec2d a = hull()[k];
     const Vec2d b = hull()[(k + 1) % hull().size()];
     if (turn_sign(a, b, Vec2d::Zero(), one_way) <= 0) continue;
     frame.lower.push_back(static_cast<std::uint8_t>(k));
-    const Vec2d along = b - a;
-    add_axis(Vec2d{-along.y(), along.x()} / std::sqrt(along.dot(along)));
+    add_axis(normal_of(b - a));
   }
   frame.first = add_axis(frame.across);
   frame.last = -add_axis(-frame.across);

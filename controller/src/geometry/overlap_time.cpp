@@ -3,7 +3,6 @@
 #include "geometry/vectors.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace paperproof::geometry {
 namespace {
@@ -17,9 +16,7 @@ Vec2d edge_to(std::span<const Vec2d> outline, std::size_t i) noexcept {
 SeparatingAxis axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
   if (i < standing.size()) {
     const Vec2d along = edge_to(standing, i);
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec2d& point : mover) least = std::min(least, -cross(along, point));
-    return {along, standing[i], Vec2d::Zero(), least};
+    return {along, standing[i], Vec2d::Zero(), least_along(mover, {along.y(), -along.x()})};
   }
   const std::size_t edge = i - standing.size();
   const Vec2d along = edge_to(mover, edge);

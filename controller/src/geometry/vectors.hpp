@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace paperproof::geometry {
 
@@ -28,6 +29,18 @@ template <class Vector>
   const Number x = v.x() / scale;
   const Number y = v.y() / scale;
   return scale * std::sqrt(x * x + y * y);
+}
+
+/// The unit normal on the left of an edge.
+[[nodiscard]] inline Vec2d normal_of(const Vec2d& edge) noexcept {
+  return Vec2d{-edge.y(), edge.x()} / std::sqrt(dot(edge, edge));
+}
+
+/// The least n·q of some points.
+[[nodiscard]] inline double least_along(const auto& points, const Vec2d& n) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& q : points) least = std::min(least, n.x() * q.x() + n.y() * q.y());
+  return least;
 }
 
 }  // namespace paperproof::geometry

@@ -1,5 +1,7 @@
 #include "step/configuration_space.hpp"
 
+#include "geometry/vectors.hpp"
+
 #include <paperproof/tolerances.hpp>
 
 #include <cmath>
@@ -18,18 +20,8 @@ constexpr double open_enough = 1e-6;
 /// A facet is hidden when no more of it is open than what counts as closed [m].
 constexpr double hidden_enough = 2e-7;
 
-/// The least n·q of some points.
-template <class Points>
-double least_along(const Points& points, const Vec2d& n) noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& q : points) least = std::min(least, n.x() * q.x() + n.y() * q.y());
-  return least;
-}
-
-Vec2d unit_normal_right_of(const Vec2d& edge) {
-  const double length = std::sqrt(edge.x() * edge.x() + edge.y() * edge.y());
-  return {edge.y() / length, -edge.x() / length};
-}
+using geometry::least_along;
+using geometry::normal_of;
 
 /// Of the points that reach furthest along a normal, the first and the last across it.
 /// @param noise that counts as equally far [m].
@@ -62,8 +54,7 @@ SharedAxes::SharedAxes(const CharacterShape& shape) : box(shape.box()) {
   add({1, 0});
   add({-1, 0});
   add({0, -1});
-  for (std::size_t k = 0; k < points.size(); ++k)
-    add(-unit_normal_right_of(Vec2d(points[(k + 1) % points.size()] - points[k])));
+  for (std::size_t k = 0; k < points.size(); ++k) add(normal_of(points[(k + 1) % points.size()] - points[k]));
   lanes = count <= 8 ? 8 : most;
   for (std::size_t k = 0; k < count; ++k) {
     const Vec2 n{x[k], y[k]};
@@ -233,7 +224,7 @@ void ConfigurationSpace::find_axes(Obstacle& obstacle) {
   const PieceVertices vertices = vertices_of(obstacle);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d edge = vertices[(j + 1) % vertices.size()] - vertices[j];
-    const std::size_t axis = axis_of(unit_normal_right_of(edge));
+    const std::size_t axis = axis_of(-normal_of(edge));
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) obstacle.one_way_axis = static_cast<std::uint8_t>(axis);
   }
