@@ -8,7 +8,6 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "geometry/exact.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vectors.hpp"
 

@@ -8,6 +8,7 @@
 /// segment blocks any other character.
 #pragma once
 
+#include "geometry/exact.hpp"
 #include "inlining.hpp"
 
 #include <paperproof/character.hpp>
@@ -95,15 +96,10 @@ class OneWaySurfaces {
   std::unordered_map<PieceIndex, Index> of_piece_;
 };
 
-/// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference (D. E.
-/// Knuth). Without the error, a character that touches a mover to the last bit would be above it in one step and not in
-/// the next.
+/// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference. Without
+/// the error, a character that touches a mover to the last bit would be above it in one step and not in the next.
 [[nodiscard]] inline Vec2d lost_by(const Vec2d& position, const Vec2d& offset) noexcept {
-  const auto lost = [](double a, double b) {
-    const double difference = a - b;
-    const double part = difference - a;
-    return (a - (difference - part)) - (b + part);
-  };
+  const auto lost = [](double a, double b) { return geometry::two_sum(a, -b).low; };
   return {lost(position.x(), offset.x()), lost(position.y(), offset.y())};
 }
 

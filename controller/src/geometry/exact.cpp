@@ -12,20 +12,6 @@ namespace {
 /// Largest relative error of one rounded operation.
 constexpr double rounding = 0x1p-53;
 
-/// The number high + low, where high is that sum rounded.
-struct TwoDoubles {
-  double high;
-  double low;
-};
-
-/// Knuth's sum: exact for any order of magnitudes.
-TwoDoubles two_sum(double a, double b) noexcept {
-  const double sum = a + b;
-  const double b_virtual = sum - a;
-  const double a_virtual = sum - b_virtual;
-  return {sum, (a - a_virtual) + (b - b_virtual)};
-}
-
 /// Veltkamp's split into two halves of at most 26 bits, so that products of halves are exact.
 TwoDoubles split(double a) noexcept {
   constexpr double splitter = 0x1p27 + 1;

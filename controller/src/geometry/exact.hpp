@@ -16,6 +16,20 @@ inline constexpr double smallest_exact = 0x1p-300;
   return value < smallest_exact && value > -smallest_exact ? 0.0 : value;
 }
 
+/// The number high + low, where high is that sum rounded.
+struct TwoDoubles {
+  double high;
+  double low;
+};
+
+/// Knuth's sum: exact for any order of magnitudes.
+[[nodiscard]] inline TwoDoubles two_sum(double a, double b) noexcept {
+  const double sum = a + b;
+  const double b_virtual = sum - a;
+  const double a_virtual = sum - b_virtual;
+  return {sum, (a - a_virtual) + (b - b_virtual)};
+}
+
 /// On which side of the directed line a->b does c lie?
 ///
 /// All functions of this header read every coordinate as the exact number that it stores. They are exact while
