@@ -202,9 +202,6 @@ class ConfigurationSpace {
   [[nodiscard]] geometry::NearCircle near_circle(PieceIndex piece, const Vec2& p) const noexcept {
     return geometry::near_circle(hull(), p, circle(piece));
   }
-  [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle& near) noexcept {
-    return axis_along(near.normal);
-  }
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return axes_.lanes + info(piece).own.size(); }
   [[nodiscard]] PAPERPROOF_INLINE Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < axes_.lanes) return {axes_.x[axis], axes_.y[axis]};

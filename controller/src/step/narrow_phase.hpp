@@ -249,9 +249,9 @@ inline constexpr Real covered_share = Real(0.5);
   const std::size_t no_axis = space.axis_count(piece);
   return {stop.time <= 1,
           stop.time,
-          {space.axis_of(stop.there),
-           impact   ? space.axis_of(impact->there)
-           : missed ? space.axis_of(near->there)
+          {axis_along(stop.there.normal),
+           impact   ? axis_along(impact->there.normal)
+           : missed ? axis_along(near->there.normal)
                     : no_axis,
            missed, false}};
 }
@@ -345,8 +345,8 @@ template <Covered covered = Covered::yields>
   };
   for (std::size_t axis = 0; axis < space.axis_count(piece); ++axis)
     if (separates(axis)) return true;
-  return space.is_circle(piece) && (separates(space.axis_of(space.near_circle(piece, from))) ||
-                                    separates(space.axis_of(space.near_circle(piece, to))));
+  return space.is_circle(piece) && (separates(axis_along(space.near_circle(piece, from).normal)) ||
+                                    separates(axis_along(space.near_circle(piece, to).normal)));
 }
 
 /// The axis of largest separation at a position, and that separation.
@@ -358,7 +358,7 @@ struct BestAxis {
 [[nodiscard]] PAPERPROOF_COLD inline BestAxis best_axis_of_circle(const ConfigurationSpace& space, PieceIndex piece,
                                                                   const Vec2& p) noexcept {
   const geometry::NearCircle near = space.near_circle(piece, p);
-  return {space.axis_of(near), near.separation};
+  return {axis_along(near.normal), near.separation};
 }
 
 [[nodiscard]] PAPERPROOF_INLINE BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece,

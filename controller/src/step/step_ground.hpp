@@ -42,18 +42,17 @@ PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex pie
   return !step.space.is_circle(piece) || leaving > falls_away_from_tangent(step, piece, Vec2(step.velocity - ground));
 }
 
-/// The normal of a piece, if the character touches it now and it is walkable ground.
-[[nodiscard]] PAPERPROOF_INLINE std::optional<Vec2> touched_ground(const Step& step, PieceIndex piece) noexcept {
-  if (passes_one_way(step, piece)) return std::nullopt;
-  const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
-  if (!(std::abs(best.separation) <= tolerances.touch)) return std::nullopt;
-  const Vec2 normal = step.space.normal(piece, best.axis);
-  return walkable(step, normal) && may_block(step, piece, step.position) ? std::optional<Vec2>(normal) : std::nullopt;
+/// The same, if it is walkable ground.
+[[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> touched_ground(const Step& step,
+                                                                             PieceIndex piece) noexcept {
+  const std::optional<TouchedSurface> surface = touched_here(step, piece);
+  return surface && walkable(step, surface->normal) ? surface : std::nullopt;
 }
 
-[[nodiscard]] PAPERPROOF_INLINE bool stands_on(const Step& step, PieceIndex piece) noexcept {
-  const std::optional<Vec2> normal = touched_ground(step, piece);
-  return normal && !leaves(step, piece, *normal);
+/// The same, if the motion does not leave it: the character stands on it.
+[[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> stood_on(const Step& step, PieceIndex piece) noexcept {
+  const std::optional<TouchedSurface> ground = touched_ground(step, piece);
+  return ground && !leaves(step, piece, ground->normal) ? ground : std::nullopt;
 }
 
 [[nodiscard]] PAPERPROOF_COLD inline bool touches_ground(Step& step) noexcept {

@@ -50,11 +50,10 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   bool rides = false;
   bool stands_still = false;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    if (passes_one_way(step, piece)) return;
-    const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
-    const Vec2 normal = step.space.normal(piece, best.axis);
-    if (std::abs(best.separation) > tolerances.touch || step.up.up_of(normal) <= 0) return;
-    if ((walkable_only && !walkable(step, normal)) || !may_block(step, piece, step.position)) return;
+    const std::optional<TouchedSurface> surface = touched_here(step, piece);
+    if (!surface || step.up.up_of(surface->normal) <= 0) return;
+    const Vec2 normal = surface->normal;
+    if (walkable_only && !walkable(step, normal)) return;
     if (!carries(step, piece)) {
       stands_still = stands_still || walkable(step, normal);
       return;
@@ -62,7 +61,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     const bool known = collider_of(step, piece) == ridden;
     if (carrier && (known < rides || (known == rides && step.up.up_of(normal) <= step.up.up_of(carrier->normal))))
       return;
-    carrier = surface_at(step, piece, best.axis);
+    carrier = surface;
     rides = known;
   });
   if (!rides && stands_still) return std::nullopt;

@@ -27,12 +27,12 @@ PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) noexcept {
   step.time = begin;
   if (!ends_on_ground) return;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
-    if (!touched_ground(step, piece) || step.space.covered(piece, best.axis)) return;
-    const Vec2 displacement = step.movers.relative(step.motion.displacement, mover_of(step, piece), step.time);
+    const std::optional<TouchedSurface> ground = touched_ground(step, piece);
+    if (!ground || step.space.covered(piece, ground->axis)) return;
+    const Vec2 displacement = step.movers.relative(step.motion.displacement, ground->mover, step.time);
     const Motion motion = make_motion(step.space, local(step, piece, step.position), displacement);
-    if (!enters(displacement, step.space.normal(piece, best.axis)) || !in_way(step, motion, piece)) return;
-    keep_stop(step, {piece, 0, 0, {best.axis, best.axis, false, false}}, motion.length);
+    if (!enters(displacement, ground->normal) || !in_way(step, motion, piece)) return;
+    keep_stop(step, {piece, 0, 0, {ground->axis, ground->axis, false, false}}, motion.length);
   });
   order_stops(step);
 }
@@ -144,28 +144,26 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
 
 PAPERPROOF_COLD inline void look_for_ground(Step& step) noexcept {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    if (!step.result.grounded && stands_on(step, piece))
-      note_ground(step, GroundState::walkable, piece, *touched_ground(step, piece));
+    if (step.result.grounded) return;
+    if (const auto ground = stood_on(step, piece)) note_ground(step, GroundState::walkable, piece, ground->normal);
   });
   const auto is_steep = [&](const Vec2& normal) { return step.up.up_of(normal) > 0 && !walkable(step, normal); };
   if (step.result.grounded || std::none_of(step.result.contacts.begin(), step.result.contacts.end(),
                                            [&](const Contact& contact) { return is_steep(contact.normal); }))
     return;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
-    const Vec2 normal = step.space.normal(piece, best.axis);
-    const bool touched = std::abs(best.separation) <= tolerances.touch && !step.space.covered(piece, best.axis);
-    if (!touched || !is_steep(normal) || passes_one_way(step, piece) || !may_block(step, piece, step.position)) return;
+    const std::optional<TouchedSurface> surface = touched_here(step, piece);
+    if (!surface || !is_steep(surface->normal) || step.space.covered(piece, surface->axis)) return;
     const bool first = step.result.ground.state == GroundState::air;
-    if (first || step.up.up_of(normal) > step.up.up_of(step.result.ground.normal))
-      note_ground(step, GroundState::steep, piece, normal);
+    if (first || step.up.up_of(surface->normal) > step.up.up_of(step.result.ground.normal))
+      note_ground(step, GroundState::steep, piece, surface->normal);
   });
 }
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
 /// leave, or a wedge that ended its fall; or what it slides down.
 PAPERPROOF_INLINE void find_ground(Step& step) noexcept {
-  if (step.on_ground || step.wedged || (step.met_ground && stands_on(step, step.ground))) {  // the usual case
+  if (step.on_ground || step.wedged || (step.met_ground && stood_on(step, step.ground))) {  // the usual case
     const Vec2 normal = step.space.normal(step.ground, step.ground_axis);
     note_ground(step, walkable(step, normal) ? GroundState::walkable : GroundState::wedge, step.ground, normal);
   } else if (!step.result.contacts.empty() ||
@@ -181,14 +179,10 @@ PAPERPROOF_INLINE void find_ground(Step& step) noexcept {
 PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) noexcept {
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
-    const Vec2 before = step.start - offset(step, piece, 0);
-    const bool was_above = !step.space.info(piece).is_one_way() ||
-                           is_above(step.space, piece, before, lost_by(step.start, offset(step, piece, 0)));
-    if (!was_above || !stands_on(step, piece)) return;
-    step.memory.surfaces.push_back(
-        surface_at(step, piece, best_axis(step.space, piece, local(step, piece, step.position)).axis));
-    const Vec2 displacement = step.movers.relative(wanted, mover_of(step, piece), Real(0));
-    if (enters(displacement, step.memory.surfaces.back().normal)) report_touched(step, piece);
+    const std::optional<TouchedSurface> ground = stood_on(step, piece);
+    if (!ground || !may_block(step, piece, step.start, Real(0))) return;
+    step.memory.surfaces.push_back(*ground);
+    if (enters(step.movers.relative(wanted, ground->mover, Real(0)), ground->normal)) report_touched(step, piece);
   });
   if (step.memory.surfaces.empty()) return;
   DesiredMotion desired = desired_motion(step);

@@ -166,11 +166,21 @@ template <class MayPass>
   return true;
 }
 
-/// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
-[[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
-  return !step.space.info(piece).is_one_way() ||
-         (!step.request.drop &&
-          is_above(step.space, piece, local(step, piece, position), lost_by(position, offset(step, piece))));
+/// Whether a piece blocks a character that is at `p` at a fraction of the step. A one-way segment blocks only from
+/// above its surface.
+[[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& p, Real time) noexcept {
+  if (!step.space.info(piece).is_one_way()) return true;
+  const Vec2 shift = offset(step, piece, time);
+  return !step.request.drop && is_above(step.space, piece, Vec2(p - shift), lost_by(p, shift));
+}
+
+/// The surface of a piece that the character touches now, if it may block.
+[[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> touched_here(const Step& step,
+                                                                           PieceIndex piece) noexcept {
+  const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
+  const bool touches = std::abs(best.separation) <= tolerances.touch;
+  if (!touches || !may_block(step, piece, step.position, step.time)) return std::nullopt;
+  return surface_at(step, piece, best.axis);
 }
 
 /// Pushes the character off the nearest piece, again and again, until every gap is at least `hit`. Without success the
@@ -182,7 +192,7 @@ inline void restore_gap(Step& step) noexcept {
     Vec2 push = Vec2::Zero();
     for_each_near(step, Box2::between(q, step.position), [&](PieceIndex piece) {
       const BestAxis best = best_axis(step.space, piece, local(step, piece, q));
-      if (best.separation >= least || !may_block(step, piece, step.position)) return;
+      if (best.separation >= least || !may_block(step, piece, step.position, step.time)) return;
       least = best.separation;
       push = step.space.normal(piece, best.axis) * (tolerances.stop - best.separation);
     });
@@ -202,7 +212,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
   pushes.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(step, piece);
-    if (step.movers.displacement(mover) == Vec2::Zero() || !may_block(step, piece, step.position)) return;
+    if (step.movers.displacement(mover) == Vec2::Zero() || !may_block(step, piece, step.position, step.time)) return;
     const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
     if (best.separation < tolerances.hit)
       add_plane({step.space.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);
@@ -211,7 +221,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
   for (const HalfPlane& push : pushes) {
     const Vec2 q = step.position + push.normal * push.least;
     const bool narrows = any_near(step, Box2::between(q, step.position), [&](PieceIndex piece) {
-      if (!may_block(step, piece, step.position)) return false;
+      if (!may_block(step, piece, step.position, step.time)) return false;
       const Real now = best_axis(step.space, piece, local(step, piece, step.position)).separation;
       const Real then = best_axis(step.space, piece, local(step, piece, q)).separation;
       return then < std::min(now, tolerances.hit) - tolerances.certain;
