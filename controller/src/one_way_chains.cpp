@@ -1,9 +1,7 @@
 #include "one_way_chains.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 #include "geometry/overlap_time.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <paperproof/controller.hpp>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>

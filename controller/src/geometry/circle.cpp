@@ -2,8 +2,6 @@
 
 #include "geometry/vectors.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace paperproof::geometry {

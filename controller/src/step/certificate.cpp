@@ -3,8 +3,6 @@
 #include "geometry/exact.hpp"
 #include "step/narrow_phase.hpp"
 
-#include <paperproof/tolerances.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,8 +2,6 @@
 
 #include "geometry/vectors.hpp"
 
-#include <paperproof/tolerances.hpp>
-
 #include <cmath>
 #include <limits>
 

@@ -24,9 +24,7 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/tolerances.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <span>

@@ -21,8 +21,6 @@
 #include "step/one_way.hpp"
 #include "step/shadow.hpp"
 
-#include <paperproof/tolerances.hpp>
-
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 namespace {
 

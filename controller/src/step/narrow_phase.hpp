@@ -9,7 +9,6 @@
 #include "inlining.hpp"
 #include "step/configuration_space.hpp"
 
-#include <paperproof/tolerances.hpp>
 #include <paperproof/up_frame.hpp>
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 namespace paperproof {
 namespace {

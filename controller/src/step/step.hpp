@@ -27,11 +27,7 @@
 #include "step/response.hpp"
 #include "step/step_memory.hpp"
 
-#include <paperproof/tolerances.hpp>
-
-#include <algorithm>
 #include <optional>
-#include <span>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 

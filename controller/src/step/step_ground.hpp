@@ -42,7 +42,7 @@ PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex pie
   return !step.space.is_circle(piece) || leaving > falls_away_from_tangent(step, piece, Vec2(step.velocity - ground));
 }
 
-/// The same, if it is walkable ground.
+/// The surface of a piece that the character touches now, if it is walkable ground.
 [[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> touched_ground(const Step& step,
                                                                              PieceIndex piece) noexcept {
   const std::optional<TouchedSurface> surface = touched_here(step, piece);
