@@ -41,11 +41,6 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   static_cast<Sensors&>(*scratch.sensors).reserve(positions);
 }
 
-PAPERPROOF_INLINE Moving Controller::moving_in(const StepContext& context, const Scratch& scratch) const noexcept {
-  const std::vector<PieceIndex>& circles = turning::memory_of(scratch).circles;
-  return {context.movers.first(scenery_->mover_count() + circles.size()), circles};
-}
-
 PAPERPROOF_INLINE bool Controller::accepts(const CharacterState& state, const Input& input,
                                            const StepContext& context) const noexcept {
   return context.dt > 0 && context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
@@ -57,8 +52,7 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
                                                       const StepContext& context, Scratch& scratch,
                                                       MoveResult& tried) const noexcept {
   const double reach = character_.wall_reach;
-  const Moving moving = moving_in(context, scratch);
-  const Around here = around(context, moving);
+  const Around here = around(context, scratch);
   const Vec2d there = here.up.in_world({move < 0 ? -reach : reach, 0});
   CharacterState free = state;
   free.crushed = false;
@@ -68,8 +62,10 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
 }
 
 PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context,
-                                                           const Moving& moving) const noexcept {
-  return {&moving, filter_of(context), context.up};
+                                                           const Scratch& scratch) const noexcept {
+  const std::vector<PieceIndex>& circles = turning::memory_of(scratch).circles;
+  const Moving moving{context.movers.first(scenery_->mover_count() + circles.size()), circles};
+  return {moving, filter_of(context), context.up};
 }
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,
@@ -94,9 +90,9 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
 PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
                                                    StepReport& report) const noexcept {
   const std::span<const PathPoint> path = report.move.path;
-  const Moving moving = moving_in(context, scratch);
-  static_cast<Sensors&>(*scratch.sensors).observe(path, moving, report.sensors, filter_of(context));
-  if (drop) sweep_->find_passed(around(context, moving), path, scratch, report.dropped_through);
+  const Around here = around(context, scratch);
+  static_cast<Sensors&>(*scratch.sensors).observe(path, here.moving, report.sensors, here.filter);
+  if (drop) sweep_->find_passed(here, path, scratch, report.dropped_through);
 }
 
 PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
@@ -118,8 +114,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
   const bool wall_ahead =
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  const Moving moving = moving_in(context, scratch);
-  const Around here = around(context, moving);
+  const Around here = around(context, scratch);
   sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, here, wall_ahead, state, report), scratch,
                     report.move);
   report.status = report.move.status;
@@ -143,8 +138,7 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
     return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
   report.requested = displacement;
   report.steered = 0;
-  const Moving moving = moving_in(context, scratch);
-  const Around here = around(context, moving);
+  const Around here = around(context, scratch);
   sweep_->move_part(octagon_sweep::Part::whole, {state, displacement, velocity, context.dt, here}, scratch,
                     report.move);
   report.status = report.move.status;
@@ -213,8 +207,7 @@ auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double
   if (any_angle(context.movers))
     posed.movers = question.emplace(*this, context, scratch, turning::memory_of(scratch).of_part)
                        .hold_angles(box.inflated(within));
-  const Moving moving = moving_in(posed, scratch);
-  return ask(around(posed, moving));
+  return ask(around(posed, scratch));
 }
 
 std::optional<Contact> Controller::cast(const Vec2d& position, const Vec2d& displacement, const StepContext& context,
@@ -239,7 +232,7 @@ std::size_t Controller::contacts_at(const Vec2d& position, double within, const 
 std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& context, Scratch& scratch,
                                    std::span<ColliderIndex> found) const noexcept {
   return answer(position, {0, 0}, 0, context, scratch, [&](const Around& around) {
-    return static_cast<Sensors&>(*scratch.sensors).around(position, *around.moving, around.filter, found);
+    return static_cast<Sensors&>(*scratch.sensors).around(position, around.moving, around.filter, found);
   });
 }
 

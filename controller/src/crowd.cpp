@@ -58,7 +58,7 @@ StepStatus Crowd::step(std::span<CharacterState> states, std::span<const Input> 
     context.filter = &filter;
   }
   auto& memory = static_cast<crowd::CrowdMemory&>(*scratch.own);
-  const octagon_sweep::Around here{&nothing_moves, context.filter, context.up};
+  const octagon_sweep::Around here{{}, context.filter, context.up};
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i].clear(static_cast<CharacterIndex>(i));
     const bool rides = states[i].ride.ground != Ride::none;

@@ -23,8 +23,6 @@ struct Moving {
   [[nodiscard]] std::size_t mover_count() const noexcept { return motions.size() - circles.size(); }
 };
 
-inline constexpr Moving nothing_moves{};
-
 /// Finds the solid pieces of a scenery, or its sensors, by positions of a character. Immutable; shareable between
 /// threads.
 class PieceFinder {

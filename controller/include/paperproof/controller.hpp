@@ -41,7 +41,6 @@ class TurningStep;
 struct Wish;
 }  // namespace turning
 class Crowd;
-struct Moving;
 
 /// How a collider went in a step: between two instants each vertex goes evenly on a straight line.
 struct TurnedCollider {
@@ -171,15 +170,13 @@ class Controller {
   /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
   Controller(const Scenery& scenery, const CharacterDef& character,
              std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search);
-  [[nodiscard]] Moving moving_in(const StepContext& context, const Scratch& scratch) const noexcept;
   [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
                              const StepContext& context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
                                     Scratch& scratch, MoveResult& tried) const noexcept;
-  /// @param moving must outlive the answer.
-  [[nodiscard]] Around around(const StepContext& context, const Moving& moving) const noexcept;
+  [[nodiscard]] Around around(const StepContext& context, const Scratch& scratch) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
   /// @param state must outlive the request, as `here`.
   [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Around& here,

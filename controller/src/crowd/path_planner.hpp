@@ -53,8 +53,7 @@ inline void set_crushers(const auto& crushers, const SweepRules& rules, Characte
 /// part.
 class PathPlanner {
  public:
-  explicit PathPlanner(CrowdStep& step) noexcept
-      : step_(step), moving_{step.memory.motions}, around_{&moving_, step.filter, step.up} {}
+  explicit PathPlanner(CrowdStep& step) noexcept : step_(step), around_{{step.memory.motions}, step.filter, step.up} {}
 
   /// Plans the path of a character from a moment on.
   /// @param at where the path begins; becomes the moment in which it ends.
@@ -229,7 +228,6 @@ class PathPlanner {
   }
 
   CrowdStep& step_;
-  Moving moving_;
   octagon_sweep::Around around_;
 };
 

@@ -28,16 +28,14 @@ Settings settings_for(const SweepDef& def, const CharacterDef& character) {
       .iterations = def.iterations};
 }
 
-PieceFinder find_solids(const Scenery& scenery, const CharacterShape& shape, PieceSearch search) {
-  // A sweep looks beyond the end of a motion, and the rounding of an offset moves a piece.
-  constexpr double more = 2 * given_tolerances.look + given_tolerances.touch;
-  return {scenery, PieceFinder::Kind::solids, shape.box().inflated(more), search};
-}
+/// What is found around a character beyond its shape [m]: a sweep looks beyond the end of a motion, and the rounding of
+/// an offset moves a piece.
+constexpr double found_around = 2 * given_tolerances.look + given_tolerances.touch;
 
 class OctagonSweep final : public SweepInParts {
  public:
   OctagonSweep(const SweepDef& def, const Scenery& scenery, const CharacterDef& character)
-      : finder_(find_solids(scenery, character.shape, def.search)),
+      : finder_(scenery, PieceFinder::Kind::solids, character.shape.box().inflated(found_around), def.search),
         shape_(character.shape),
         chains_(character.shape),
         settings_(settings_for(def, character)) {}
@@ -58,7 +56,7 @@ class OctagonSweep final : public SweepInParts {
 
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
-    const Moving& moving = *request.around.moving;
+    const Moving& moving = request.around.moving;
     if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0))) return refuse(request, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers =
@@ -81,16 +79,16 @@ class OctagonSweep final : public SweepInParts {
       const PieceVertices ends = memory.space.vertices_of(piece);
       return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
     };
-    chains_.find_passed(path, around.moving->motions, {finder_, scratch.solids, around.moving, around.filter, &memory},
-                        segment_of, passed);
+    const Nearby near(finder_, scratch.solids, &around.moving, around.filter, &memory);
+    chains_.find_passed(path, around.moving.motions, near, segment_of, passed);
   }
 
   template <class Question>
   [[nodiscard]] auto ask(const Around& around, Scratch& scratch, const Question& question) const noexcept {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     Surroundings surroundings{memory.space,
-                              {finder_, scratch.solids, around.moving, around.filter, &memory},
-                              around.moving->motions,
+                              {finder_, scratch.solids, &around.moving, around.filter, &memory},
+                              around.moving.motions,
                               around.up};
     const Box2 before = scratch.solids.box;
     const auto answer = question(surroundings);
@@ -140,7 +138,7 @@ class OctagonSweep final : public SweepInParts {
     const Vec2d& at = request.state.position;
     const Real reach =
         request.displacement.cwiseAbs().sum() + settings_.snap + settings_.step_height + 2 * tolerances.look;
-    return finder_.any_comes_into(space.touched_from(Box2{at, at}.inflated(reach)), *request.around.moving);
+    return finder_.any_comes_into(space.touched_from(Box2{at, at}.inflated(reach)), request.around.moving);
   }
 
   PieceFinder finder_;

@@ -15,7 +15,7 @@ namespace paperproof::octagon_sweep {
 
 /// What is around a character in a step or a question.
 struct Around {
-  const Moving* moving = &nothing_moves;   ///< With a motion for each mover of the scenery.
+  Moving moving{};                         ///< With a motion for each mover of the scenery.
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   UpFrame up{};                            ///< See `StepContext::up`.
 };

@@ -158,9 +158,8 @@ bool TurningStep::find_way(Part& part, const MoveResult& move) {
 
 /// What the character touches once everything has turned.
 std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, std::span<Contact> room) {
-  const Moving moving{memory_.motions, memory_.circles};
-  return room.first(controller_.sweep_->contacts_at(
-      position, Tolerances{}.touch, {&moving, controller_.filter_of(context_), context_.up}, scratch_, room));
+  const octagon_sweep::Around around{{memory_.motions, memory_.circles}, controller_.filter_of(context_), context_.up};
+  return room.first(controller_.sweep_->contacts_at(position, Tolerances{}.touch, around, scratch_, room));
 }
 
 /// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
