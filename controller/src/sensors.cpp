@@ -69,22 +69,14 @@ Sensors::Overlap Sensors::overlap_with(PieceIndex piece, double angle) const {
   const Box2 any = Box2{box.lower - shape.upper, box.upper - shape.lower}.inflated(Tolerances{}.look);
   if (info.is_circle())
     return {info.collider, angle, {vertices[0], scenery.circle(piece).radius}, any, Box2::nowhere(), {}};
-  return {info.collider,
-          angle,
-          {},
-          any,
-          geometry::deep_overlap(outline_, vertices, beyond_rounding(far)),
-          geometry::separating_axes(outline_, vertices)};
+  const Box2 well_inside = geometry::deep_overlap(outline_, vertices, beyond_rounding(far));
+  return {info.collider, angle, {}, any, well_inside, geometry::separating_axes(outline_, vertices)};
 }
 
 Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end) noexcept {
-  Segment segment;
-  segment.from = begin.position - motion.at(begin.fraction);
-  segment.to = end.position - motion.at(end.fraction);
-  segment.begin = begin.fraction;
-  segment.end = end.fraction;
-  segment.positions = Box2::between(segment.from, segment.to);
-  return segment;
+  const Vec2d from = begin.position - motion.at(begin.fraction);
+  const Vec2d to = end.position - motion.at(end.fraction);
+  return {from, to, Box2::between(from, to), begin.fraction, end.fraction};
 }
 
 void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Events& events,

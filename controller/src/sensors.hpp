@@ -52,9 +52,9 @@ class Sensors final : public OwnMemory, private PieceUser {
   struct Segment {
     Vec2d from;
     Vec2d to;
-    Box2 positions;    ///< Around both.
-    double begin = 0;  ///< Fractions of the step.
-    double end = 1;
+    Box2 positions;  ///< Around both.
+    double begin;    ///< Fractions of the step.
+    double end;
 
     [[nodiscard]] double fraction(double of_segment) const noexcept {
       return std::min(end, begin + (end - begin) * of_segment);

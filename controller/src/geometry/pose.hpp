@@ -46,10 +46,7 @@ inline void place(std::span<const Vec2d> given, const Pose& pose, std::vector<Ve
 
 /// The pose at a fraction of a step.
 [[nodiscard]] inline Pose pose_at(const MoverMotion& motion, double fraction) noexcept {
-  if (fraction == 0) return {motion.from, motion.from_angle};
-  if (fraction == 1) return {motion.to, motion.to_angle};
-  return {motion.from + (motion.to - motion.from) * fraction,
-          motion.from_angle + (motion.to_angle - motion.from_angle) * fraction};
+  return {motion.at(fraction), fraction < 1 ? motion.from_angle + motion.turn() * fraction : motion.to_angle};
 }
 
 /// Encloses what is in a box during a step. The box turns about any point that is no farther from the mover's origin

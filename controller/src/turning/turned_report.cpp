@@ -62,8 +62,7 @@ void TurningStep::note_vertices(double instant, const Part* turned) {
 /// it ends so.
 void TurningStep::append(const StepReport& added, const Part& part) {
   const MoveResult& from = added.move;
-  StepReport& report = report_;
-  MoveResult& to = report.move;
+  MoveResult& to = report_.move;
   const auto when = [&](double fraction) {
     return fraction < 1 ? part.turned() + (part.end - part.turned()) * fraction : part.end;
   };
@@ -85,17 +84,17 @@ void TurningStep::append(const StepReport& added, const Part& part) {
     if (!contains(to.crushed, collider)) to.crushed.push_back(collider);
   for (SensorEvent event : added.sensors) {
     event.fraction = when(event.fraction);
-    report.sensors.push_back(event);
+    report_.sensors.push_back(event);
   }
   for (const ColliderIndex collider : added.dropped_through)
-    if (!contains(report.dropped_through, collider)) report.dropped_through.push_back(collider);
+    if (!contains(report_.dropped_through, collider)) report_.dropped_through.push_back(collider);
   if (part.begin == 0) {
-    report.requested = added.requested / part.end;
-    report.steered = added.steered / part.end;
+    report_.requested = added.requested / part.end;
+    report_.steered = added.steered / part.end;
   }
   const bool was_freed = to.status == StepStatus::stuck && from.status != StepStatus::crushed;
   to.status = was_freed ? from.status : std::max(to.status, from.status);  // the later in the enum, the worse
-  report.status = to.status;
+  report_.status = to.status;
   to.position = from.position;
   to.velocity = from.velocity;
   to.technique_memory = from.technique_memory;
