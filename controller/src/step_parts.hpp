@@ -71,6 +71,16 @@ template <class Maker>
   return !mark.owner_before(maker) && !maker.owner_before(mark);
 }
 
+/// Reports a move that is refused: the character stays where it is.
+inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& velocity, MoveResult& move) noexcept {
+  move.status = why;
+  move.position = state.position;
+  move.velocity = velocity;
+  move.ride = state.ride;
+  move.path.push_back({state.position, 0});
+  move.path.push_back({state.position, 1});
+}
+
 /// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.
 [[nodiscard]] inline bool asks_for_wall(const CharacterDef& character, const Input& input,
                                         const CharacterState& state) noexcept {

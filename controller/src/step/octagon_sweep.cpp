@@ -3,6 +3,7 @@
 #include "one_way_chains.hpp"
 #include "step/query.hpp"
 #include "step/step_solve.hpp"
+#include "step_parts.hpp"
 
 #include <paperproof/scenery.hpp>
 
@@ -57,11 +58,13 @@ class OctagonSweep final : public SweepInParts {
   void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
     const Moving& moving = request.around.moving;
-    if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0))) return refuse(request, result);
+    const CharacterState& state = request.state;
+    if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0)))
+      return step_parts::refuse(StepStatus::out_of_range, state, request.velocity + state.ride.velocity, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers =
         !moving.motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
-    const bool rides = request.state.ride.ground != Ride::none;
+    const bool rides = state.ride.ground != Ride::none;
     Step step(
         request, settings_,
         {finder_, scratch.solids, looks_at_movers ? &moving : nullptr, request.around.filter, &memory},
@@ -120,15 +123,6 @@ class OctagonSweep final : public SweepInParts {
     const Vec2d& position = request.state.position;
     return within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
            within(position.y() + request.displacement.y());
-  }
-
-  static void refuse(const StepRequest& request, MoveResult& result) noexcept {
-    result.status = StepStatus::out_of_range;
-    result.position = request.state.position;
-    result.velocity = request.velocity + request.state.ride.velocity;
-    result.ride = request.state.ride;
-    result.path.push_back({request.state.position, 0});
-    result.path.push_back({request.state.position, 1});
   }
 
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than

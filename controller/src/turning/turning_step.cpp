@@ -136,13 +136,7 @@ StepStatus TurningStep::step_straight(CharacterState& state, const Wish& wish) {
 StepStatus TurningStep::refuse(StepStatus why, const CharacterState& state) {
   memory_.turned.clear();
   report_.clear();
-  MoveResult& move = report_.move;
-  move.status = why;
-  move.position = state.position;
-  move.velocity = state.velocity;
-  move.ride = state.ride;
-  move.path.push_back({state.position, 0});
-  move.path.push_back({state.position, 1});
+  step_parts::refuse(why, state, state.velocity, report_.move);
   return report_.status = why;
 }
 
