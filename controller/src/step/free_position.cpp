@@ -355,8 +355,7 @@ class Search {
     if (query_.drops && !solid(piece)) return true;
     const Vec2 from = seen(piece, place, query_.begin);
     const Vec2 to = seen_at_end(piece, q);
-    Motion motion = make_motion(space_, from, Vec2(to - from));
-    motion.lost = lost_by(place, offset(piece, query_.begin));
+    const Motion motion = make_motion(space_, from, Vec2(to - from), lost_by(place, offset(piece, query_.begin)));
     return !blocks(space_, motion, piece) || one_axis_separates(space_, piece, from, to) ||
            clear_of_exactly(space_, piece, query_.movers, place, query_.begin, q, query_.end) || passes(motion, piece);
   }

@@ -42,9 +42,9 @@ struct Motion {
 };
 
 /// In place: a motion is large.
-/// @param look how far beyond the end of the motion the sweep looks [m].
+/// @param lost see `Motion`.
 PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& space, const Vec2& from,
-                                  const Vec2& displacement, Real look = tolerances.look) noexcept {
+                                  const Vec2& displacement, const Vec2& lost = Vec2::Zero()) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Real shortest = std::numeric_limits<Real>::min() * Real(1e8);
   motion.from = from;
@@ -52,20 +52,20 @@ PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& spac
   motion.length = length_of(displacement);
   // By the larger component: a look up to 1.42 times as far is as good, and nothing waits for a square root.
   const Real larger = std::max(std::abs(displacement.x()), std::abs(displacement.y()));
-  motion.reach = 1 + look / std::max(larger, shortest);
+  motion.reach = 1 + tolerances.look / std::max(larger, shortest);
   motion.extended = displacement * motion.reach;
   space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     motion.at.group(k) = space.shared_x(k) * from.x() + space.shared_y(k) * from.y();
     motion.along.group(k) = space.shared_x(k) * motion.extended.x() + space.shared_y(k) * motion.extended.y();
   });
-  motion.lost = Vec2::Zero();
+  motion.lost = lost;
   motion.known_surface = OneWaySurfaces::none;
 }
 
 [[nodiscard]] PAPERPROOF_INLINE Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
-                                                   const Vec2& displacement, Real look = tolerances.look) noexcept {
+                                                   const Vec2& displacement, const Vec2& lost = Vec2::Zero()) noexcept {
   Motion motion;
-  set_motion(motion, space, from, displacement, look);
+  set_motion(motion, space, from, displacement, lost);
   return motion;
 }
 

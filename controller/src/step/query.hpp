@@ -42,8 +42,8 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   const Box2 box = make_motion(space, position, displacement).box();
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex index) {
     const MoverMotion mover = around.motion_of(index);
-    Motion motion = make_motion(space, Vec2(position - mover.from), Vec2(displacement - (mover.to - mover.from)));
-    motion.lost = lost_by(position, mover.from);
+    const Vec2 seen = displacement - (mover.to - mover.from);
+    const Motion motion = make_motion(space, Vec2(position - mover.from), seen, lost_by(position, mover.from));
     for (const PieceIndex piece : pieces) {
       if (kept_by_box(space, motion, piece) >= tolerances.hit || !blocks(space, motion, piece)) continue;
       const PieceHit hit = find_hit(space, motion, piece, around.up);

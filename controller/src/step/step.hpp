@@ -231,14 +231,9 @@ inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
 /// Offset of the mover of a piece now, at fraction `time`; zero for a piece that stands still.
 [[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece) noexcept { return offset(step, piece, step.time); }
 
-/// A one-way segment in a step that drops through them.
-[[nodiscard]] inline bool passes_one_way(const Step& step, PieceIndex piece) noexcept {
-  return step.request.drop && step.space.info(piece).is_one_way();
-}
-
-/// Whether a piece can stop a motion at all.
+/// Whether a piece can stop a motion at all. In a step that drops no one-way segment does.
 [[nodiscard]] inline bool in_way(const Step& step, const Motion& motion, PieceIndex piece) noexcept {
-  return blocks(step.space, motion, piece) && !passes_one_way(step, piece);
+  return blocks(step.space, motion, piece) && !(step.request.drop && step.space.info(piece).is_one_way());
 }
 
 /// A position relative to the mover of a piece: the piece itself is stored at offset zero.

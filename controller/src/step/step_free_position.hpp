@@ -113,7 +113,7 @@ template <class Holds>
     return a.when != b.when ? a.when < b.when : step.space.info(a.piece).piece < step.space.info(b.piece).piece;
   };
   const auto look_at = [&](const Vec2& begin, const Vec2& end, std::span<const PieceIndex> pieces) {
-    const Motion motion = make_motion(step.space, begin, Vec2(end - begin), Real(0));
+    const Motion motion = make_motion(step.space, begin, Vec2(end - begin));
     for (const PieceIndex piece : pieces) {
       if (ignored(step, piece) || may_pass(step, piece, corner) || !in_way(step, motion, piece)) continue;
       const Nearest near = nearest_on_way(step, piece, begin, end);

@@ -81,8 +81,7 @@ template <class Condition>
   const Vec2 from = local(step, piece, begin);
   const Vec2 to = target - offset(step, piece, end);
   if (one_axis_separates(step.space, piece, from, to)) return true;
-  Motion motion = make_motion(step.space, from, Vec2(to - from));
-  motion.lost = lost_by(begin, offset(step, piece));
+  const Motion motion = make_motion(step.space, from, Vec2(to - from), lost_by(begin, offset(step, piece)));
   if (!in_way(step, motion, piece)) return true;
   return clear_of_exactly(step.space, piece, step.movers.moving.motions, begin, step.time, target, end);
 }
@@ -98,10 +97,8 @@ template <class Condition>
 [[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) noexcept {
   if (mover == no_mover) return step.motion;
   const Vec2 offset = step.movers.offset(mover, begin);
-  Motion seen = make_motion(step.space, Vec2(step.motion.from - offset),
-                            step.movers.relative(step.motion.displacement, mover, begin));
-  seen.lost = lost_by(step.motion.from, offset);
-  return seen;
+  const Vec2 displacement = step.movers.relative(step.motion.displacement, mover, begin);
+  return make_motion(step.space, Vec2(step.motion.from - offset), displacement, lost_by(step.motion.from, offset));
 }
 
 /// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
@@ -287,8 +284,7 @@ PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this
   for (const Contact& contact : step.result.contacts) first = std::min<Real>(first, contact.fraction);
   const Vec2 at_first = offset(step, piece, 0);
   const Vec2 way = step.wanted - step.movers.displacement(mover_of(step, piece));
-  Motion motion = make_motion(step.space, Vec2(step.start - at_first), way);
-  motion.lost = lost_by(step.start, at_first);
+  const Motion motion = make_motion(step.space, Vec2(step.start - at_first), way, lost_by(step.start, at_first));
   if (in_way(step, motion, piece)) {
     const PieceHit hit = find_hit(step.space, motion, piece, step.up);
     const Real wanted = hit.hit ? time_of_impact(step.space, motion.from, way, piece, hit.axes) : first;
