@@ -1,7 +1,6 @@
 /// A line or an arc on which a position is searched, and a spot on it.
 #pragma once
 
-#include "geometry/vectors.hpp"
 #include "step/real.hpp"
 
 #include <algorithm>
@@ -9,8 +8,6 @@
 #include <limits>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
-
-using geometry::dot;
 
 /// A line, or an arc of at most half a turn.
 struct Curve {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "geometry/time_below.hpp"
-#include "geometry/vectors.hpp"
 #include "inlining.hpp"
 #include "step/configuration_space.hpp"
 
@@ -18,8 +17,6 @@
 #include <utility>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
-
-using geometry::length_of;
 
 /// A straight motion of the reference point, with all that is the same for every piece.
 struct Motion {

@@ -2,6 +2,8 @@
 /// controller/in_float defines `PAPERPROOF_REAL`, `Real` and `Vec2` first, and then includes them.
 #pragma once
 
+#include "geometry/vectors.hpp"
+
 #include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>
 
@@ -28,6 +30,9 @@ struct RealTolerances {
   Real range = static_cast<Real>(given_tolerances.range);
 };
 inline constexpr RealTolerances tolerances{};
+
+using geometry::dot;
+using geometry::length_of;
 
 }  // namespace PAPERPROOF_REAL
 using namespace PAPERPROOF_REAL;

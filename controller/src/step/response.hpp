@@ -38,7 +38,6 @@
 /// impacts.
 #pragma once
 
-#include "geometry/vectors.hpp"
 #include "inlining.hpp"
 #include "step/half_planes.hpp"
 
@@ -55,9 +54,6 @@ inline constexpr Real same_plane = std::numeric_limits<Real>::epsilon() * 16;
 
 /// A motion that points into a plane by less than this share of its length runs along it.
 inline constexpr Real along_plane = std::numeric_limits<Real>::epsilon() * 64;
-
-using geometry::dot;
-using geometry::length_of;
 
 /// Whether a motion goes into a plane that it touches, rather than along it.
 [[nodiscard]] inline bool enters(const Vec2& displacement, const Vec2& normal) noexcept {
