@@ -28,8 +28,7 @@ class FiniteCheck {
 
 /// Positions and offsets [m]. Written so that NaN is out of range.
 [[nodiscard]] inline bool in_range(const Vec2d& at) noexcept {
-  constexpr double range = Tolerances{}.range;
-  return std::abs(at.x()) <= range && std::abs(at.y()) <= range;
+  return std::abs(at.x()) <= Tolerances{}.range && std::abs(at.y()) <= Tolerances{}.range;
 }
 
 /// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that

@@ -117,9 +117,8 @@ class OctagonSweep final : public SweepInParts {
 
  private:
   [[nodiscard]] static bool in_range(const StepRequest& request) noexcept {
-    constexpr Real range = tolerances.range;
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.
-    const auto within = [](Real value) { return std::abs(value) <= range; };
+    const auto within = [](Real value) { return std::abs(value) <= tolerances.range; };
     const Vec2d& position = request.state.position;
     return within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
            within(position.y() + request.displacement.y());

@@ -10,12 +10,11 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// straight one that is decided exactly; elsewhere a product tells.
 [[nodiscard]] PAPERPROOF_INLINE bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
                                               const Vec2& rest) noexcept {
-  constexpr Real certain = tolerances.certain;
   const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Real apart = space.separation(piece, info.one_way_axis, p);
-    if (apart >= certain) return true;
-    if (apart <= -certain) return false;
+    if (apart >= tolerances.certain) return true;
+    if (apart <= -tolerances.certain) return false;
   }
   return info.surfaces->is_above(info.surface, p, rest);
 }

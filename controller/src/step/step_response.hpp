@@ -94,6 +94,14 @@ PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desire
               step.up.in_world({0, step.fall}), desired);
 }
 
+/// Notes that a fall ends between the surfaces that are touched.
+/// @param ground the one that points up most.
+PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground) noexcept {
+  step.wedged = true;
+  step.ground = ground.piece;
+  step.ground_axis = ground.axis;
+}
+
 /// The response to the first surface, and to a second one that the first response enters. False if that enters a third.
 [[nodiscard]] inline bool respond_one_by_one(const Step& step, DesiredMotion& desired) noexcept {
   const DesiredMotion wanted = desired;
@@ -169,11 +177,7 @@ PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desire
   const bool on_ground = std::any_of(step.memory.surfaces.begin(), step.memory.surfaces.end(),
                                      [&](const TouchedSurface& surface) { return walkable(step, surface.normal); });
   desired = with_body;
-  step.wedged = fall < 0;
-  if (step.wedged) {
-    step.ground = first.piece;
-    step.ground_axis = first.axis;
-  }
+  if (fall < 0) note_wedge(step, first);
   if (fall >= 0 || on_ground) return true;
   const Vec2 displacement = step.up.in_world({0, fall * step.movers.dt * (1 - step.time)});
   const Vec2 falls = step.up.in_world({0, fall});
@@ -248,11 +252,8 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
   if (step.steered == 0) desired = DesiredMotion::plain(desired.displacement.wanted, desired.velocity.wanted);
   if (!respond_one_by_one(step, desired) && !respond_in_crease(step, desired) && !respond_together(step, desired))
     return false;
-  if (step.movers.active && !step.wedged && ends_fall_in_wedge(step, desired)) {
-    step.wedged = true;
-    step.ground = step.memory.surfaces[0].piece;
-    step.ground_axis = step.memory.surfaces[0].axis;
-  }
+  if (step.movers.active && !step.wedged && ends_fall_in_wedge(step, desired))
+    note_wedge(step, step.memory.surfaces[0]);
   return true;
 }
 

@@ -64,8 +64,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     carrier = surface;
     rides = known;
   });
-  if (!rides && stands_still) return std::nullopt;
-  return carrier;
+  return rides || !stands_still ? carrier : std::nullopt;
 }
 
 /// From now on this ground carries the character.

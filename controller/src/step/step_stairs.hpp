@@ -87,25 +87,24 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// Goes up, on sideways, and down to ground that is higher. @return false if it does not end there.
 [[nodiscard]] inline bool climb_by(Step& step, Real rise, Real sideways, Real speed) noexcept {
-  constexpr Real touch = tolerances.touch;
   const Vec2 before = step.position;
   if (!go_along(step, step.up.in_world({0, rise})) || !go_along(step, step.up.in_world({sideways, 0}))) return false;
   const Vec2 by = step.up.seen(Vec2(step.position - before));
   const auto ground = ground_below(step, std::copysign(Real(1), sideways), by.y(), by.y());
-  const bool is_higher = (1 - step.found.stop) * by.y() > touch && by.x() * sideways > touch * std::abs(sideways);
+  const bool is_higher =
+      (1 - step.found.stop) * by.y() > tolerances.touch && by.x() * sideways > tolerances.touch * std::abs(sideways);
   return ground && is_higher && step_down_to(step, *ground, speed);
 }
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
 PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) noexcept {
-  constexpr Real touch = tolerances.touch;
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
   if (!step.request.grounded || !step.climbs || step.result.status != StepStatus::moved || is_passed_through(step))
     return;
   for (int stair = 0; stair < most_stairs; ++stair) {
     const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(step.request.state.position))));
-    const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > touch;
+    const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > tolerances.touch;
     const bool is_stopped =
         std::any_of(step.result.contacts.begin(), step.result.contacts.end(), [&](const auto& contact) {
           return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&

@@ -27,7 +27,6 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
 /// one that points up most.
 inline void update_surfaces(Step& step) noexcept {
-  constexpr Real touch = tolerances.touch;
   const auto less_up = [&](const TouchedSurface& a, const TouchedSurface& b) {
     return step.up.up_of(a.normal) < step.up.up_of(b.normal);
   };
@@ -40,8 +39,8 @@ inline void update_surfaces(Step& step) noexcept {
                                    [&surface](const Stop& stop) { return stop.piece == surface.piece; });
     if (again || ignored(step, surface.piece)) continue;
     const Vec2 at = local(step, surface.piece, step.position);
-    const bool touched = best_axis(step.space, surface.piece, at).separation <= touch &&
-                         std::abs(step.space.separation(surface.piece, surface.axis, at)) <= touch;
+    const bool touched = best_axis(step.space, surface.piece, at).separation <= tolerances.touch &&
+                         std::abs(step.space.separation(surface.piece, surface.axis, at)) <= tolerances.touch;
     if (touched || step.moving.waits) surfaces.push_back(surface);
   }
   if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
