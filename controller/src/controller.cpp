@@ -118,11 +118,10 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
   sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, here, wall_ahead, state, report), scratch,
                     report.move);
   report.status = report.move.status;
-  if (is_refused(report.status)) {
+  if (is_refused(report.status))
     intended(state) = before;
-    return report.status;
-  }
-  end_step(input.drop, context, scratch, state, report);
+  else
+    end_step(input.drop, context, scratch, state, report);
   return report.status;
 }
 
