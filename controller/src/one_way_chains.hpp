@@ -30,14 +30,14 @@ class OneWayChains {
   /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
   /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
   /// finds is left out.
-  /// @param path straight between its corners. @param motions of the movers. @param near the solid pieces.
+  /// @param path straight between its corners. @param near the solid pieces.
   /// @param segment_of gives the one-way segment that a piece is, or nothing.
   template <class SegmentOf>
-  void find_passed(std::span<const PathPoint> path, std::span<const MoverMotion> motions, Nearby near,
-                   const SegmentOf& segment_of, Passed& passed) const {
+  void find_passed(std::span<const PathPoint> path, const Moving& moving, Nearby near, const SegmentOf& segment_of,
+                   Passed& passed) const {
     passed.clear();
     near.for_each_group(box_around(path, {}), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-      const MoverMotion motion = mover == no_mover ? MoverMotion{} : motions[mover];
+      const MoverMotion motion = moving.motion_of(mover);
       for (const PieceIndex piece : pieces)
         if (const std::optional<OneWaySegment> segment = segment_of(piece)) look_at(*segment, path, motion, passed);
     });

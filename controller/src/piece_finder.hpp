@@ -21,6 +21,10 @@ struct Moving {
   std::span<const PieceIndex> circles{};
 
   [[nodiscard]] std::size_t mover_count() const noexcept { return motions.size() - circles.size(); }
+  /// @param mover index of a motion, or `no_mover`.
+  [[nodiscard]] MoverMotion motion_of(MoverIndex mover) const noexcept {
+    return mover == no_mover ? MoverMotion{} : motions[mover];
+  }
 };
 
 /// Finds the solid pieces of a scenery, or its sensors, by positions of a character. Immutable; shareable between

@@ -130,7 +130,7 @@ std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const C
   Nearby near(finder_, near_, &moving, filter, this);
   if (!near_.valid) quiet_ = Box2::nowhere();
   near.for_each_group({position, position}, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    const MoverMotion motion = mover == no_mover ? MoverMotion{} : moving.motions[mover];
+    const MoverMotion motion = moving.motion_of(mover);
     const Segment here = seen_by(motion, {position, 0}, {position, 0});
     for (const PieceIndex piece : pieces) {
       const ColliderIndex sensor = overlaps_[piece].sensor;

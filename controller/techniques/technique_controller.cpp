@@ -98,7 +98,7 @@ struct TechniqueController::Driver {
     };
     Candidates near;
     const Moving moving{context.movers};
-    one_way.find_passed(path, context.movers, {solids, near, &moving, nullptr}, segment_of, passed);
+    one_way.find_passed(path, moving, {solids, near, &moving, nullptr}, segment_of, passed);
   }
 
   /// After the move has filled `report.move`.

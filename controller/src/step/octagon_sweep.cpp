@@ -83,16 +83,13 @@ class OctagonSweep final : public SweepInParts {
       return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
     };
     const Nearby near(finder_, scratch.solids, &around.moving, around.filter, &memory);
-    chains_.find_passed(path, around.moving.motions, near, segment_of, passed);
+    chains_.find_passed(path, around.moving, near, segment_of, passed);
   }
 
   template <class Question>
   [[nodiscard]] auto ask(const Around& around, Scratch& scratch, const Question& question) const noexcept {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
-    Surroundings surroundings{memory.space,
-                              {finder_, scratch.solids, &around.moving, around.filter, &memory},
-                              around.moving.motions,
-                              around.up};
+    Surroundings surroundings{around, memory.space, {finder_, scratch.solids, &around.moving, around.filter, &memory}};
     const Box2 before = scratch.solids.box;
     const auto answer = question(surroundings);
     // A wide question would make the next steps slow.

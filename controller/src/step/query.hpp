@@ -3,9 +3,8 @@
 
 #include "step/certificate.hpp"
 #include "step/contact_geometry.hpp"
+#include "step/octagon_sweep.hpp"
 #include "step/one_way.hpp"
-
-#include "piece_finder.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -14,22 +13,16 @@
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// The colliders around one character.
-struct Surroundings {
+struct Surroundings : Around {
   const ConfigurationSpace& space;
   Nearby near;
-  std::span<const MoverMotion> movers;  ///< One for each mover.
-  UpFrame up;                           ///< See `StepContext::up`.
-
-  [[nodiscard]] MoverMotion motion_of(MoverIndex mover) const noexcept {
-    return mover == no_mover ? MoverMotion{} : movers[mover];
-  }
 };
 
 /// Calls `look(piece, motion)` for the pieces that may be touched from positions in a box, with the motion of each.
 template <class Look>
 void for_each_around(Surroundings& around, const Box2& box, const Look& look) noexcept {
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    const MoverMotion motion = around.motion_of(mover);
+    const MoverMotion motion = around.moving.motion_of(mover);
     for (const PieceIndex piece : pieces) look(piece, motion);
   });
 }
@@ -41,7 +34,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   std::optional<Contact> first;
   const Box2 box = make_motion(space, position, displacement).box();
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex index) {
-    const MoverMotion mover = around.motion_of(index);
+    const MoverMotion mover = around.moving.motion_of(index);
     const Vec2 seen = displacement - (mover.to - mover.from);
     const Motion motion = make_motion(space, Vec2(position - mover.from), seen, lost_by(position, mover.from));
     for (const PieceIndex piece : pieces) {
@@ -70,7 +63,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
   for_each_around(around, {position, position}, [&](PieceIndex piece, const MoverMotion&) {
     const PieceInfo& info = space.info(piece).source;
     if (info.collider == last || info.one_way) return;  // the pieces of a collider are consecutive
-    if (!overlaps_exactly(space, piece, around.movers, position, Real(0))) return;
+    if (!overlaps_exactly(space, piece, around.moving.motions, position, Real(0))) return;
     last = info.collider;
     if (count < found.size()) found[count] = last;
     ++count;

@@ -112,20 +112,17 @@ template <class Holds>
   const auto before = [&](const Nearest& a, const Nearest& b) {
     return a.when != b.when ? a.when < b.when : step.space.info(a.piece).piece < step.space.info(b.piece).piece;
   };
-  const auto look_at = [&](const Vec2& begin, const Vec2& end, std::span<const PieceIndex> pieces) {
+  const Box2 box = Box2::between(from.position, to.position).inflated(tolerances.look);
+  step.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const Vec2 begin = from.position - step.movers.offset(mover, from.fraction);
+    const Vec2 end = to.position - step.movers.offset(mover, to.fraction);
     const Motion motion = make_motion(step.space, begin, Vec2(end - begin));
     for (const PieceIndex piece : pieces) {
       if (ignored(step, piece) || may_pass(step, piece, corner) || !in_way(step, motion, piece)) continue;
       const Nearest near = nearest_on_way(step, piece, begin, end);
       if (is_contact(step, near) && (!last || before(*last, near)) && (!next || before(near, *next))) next = near;
     }
-  };
-  const Box2 box = Box2::between(from.position, to.position);
-  step.near.for_each_group(box.inflated(tolerances.look), Vec2d::Zero(),
-                           [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-                             look_at(from.position - step.movers.offset(mover, from.fraction),
-                                     to.position - step.movers.offset(mover, to.fraction), pieces);
-                           });
+  });
   return next;
 }
 

@@ -229,13 +229,12 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
                                                                           const Motion& motion,
                                                                           const Vec2& from) noexcept {
   Real earliest = std::numeric_limits<Real>::infinity();
-  const auto look_at = [&](PieceIndex other) {
+  for_each_near(step, step.motion.box(), [&](PieceIndex other) {
     if (other == stop.piece || collider_of(step, other) != collider_of(step, stop.piece)) return;
     if (!in_way(step, motion, other)) return;
     const PieceHit hit = find_hit(step.space, motion, other, step.up);
     if (hit.hit) earliest = std::min(earliest, time_of_impact(step.space, from, motion.displacement, other, hit.axes));
-  };
-  for_each_near(step, step.motion.box(), look_at);
+  });
   return earliest;
 }
 
@@ -261,17 +260,16 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
 PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
-  const auto report_hit = [&](const Motion& motion, PieceIndex piece) {
-    if (ignored(step, piece) || !in_way(step, motion, piece)) return;
-    const Real together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Real(0);
-    const PieceHit hit = find_hit(step.space, motion, piece, step.up);
-    if (hit.hit && hit.stop <= step.found.stop + together)
-      report_contact(step, piece, hit.axes.normal, fraction_of(step, {piece, hit.stop, together, hit.axes}, begin),
-                     this_moment);
-  };
   step.near.for_each_group(step.motion.box(), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const Motion motion = motion_seen_by(step, mover, begin);
-    for (const PieceIndex piece : pieces) report_hit(motion, piece);
+    const Real together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Real(0);
+    for (const PieceIndex piece : pieces) {
+      if (ignored(step, piece) || !in_way(step, motion, piece)) continue;
+      const PieceHit hit = find_hit(step.space, motion, piece, step.up);
+      if (!hit.hit || hit.stop > step.found.stop + together) continue;
+      const Real fraction = fraction_of(step, {piece, hit.stop, together, hit.axes}, begin);
+      report_contact(step, piece, hit.axes.normal, fraction, this_moment);
+    }
   });
 }
 
