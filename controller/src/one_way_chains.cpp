@@ -21,9 +21,8 @@ OneWayChains::OneWayChains(const CharacterShape& shape) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {
-    const Vec2d grown = corner + margin_share * (corner - middle);
     outline_.push_back(corner);
-    grown_.push_back(grown);
+    grown_.push_back(corner + margin_share * (corner - middle));
   }
 }
 

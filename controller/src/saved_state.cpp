@@ -12,14 +12,9 @@ void for_each_member(State& state, std::uint32_t& crusher_count, const Visit& vi
     visit(v.x());
     visit(v.y());
   };
-  vector(state.position);
-  vector(state.velocity);
-  vector(state.last_free);
-  vector(state.technique_memory);
-  vector(state.ride.place);
-  vector(state.ride.velocity);
-  vector(state.ground.normal);
-  vector(state.ground.velocity);
+  for (auto* v : {&state.position, &state.velocity, &state.last_free, &state.technique_memory, &state.ride.place,
+                  &state.ride.velocity, &state.ground.normal, &state.ground.velocity})
+    vector(*v);
   visit(state.coyote_left);
   visit(state.pending_left);
   visit(state.ride.ground);

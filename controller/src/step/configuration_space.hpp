@@ -73,16 +73,9 @@ struct OwnAxis {
   const double tangent = static_cast<double>(rest - (std::int64_t{1} << 59U)) * 0x1p-59;
   const double large = 1 / std::sqrt(1 + tangent * tangent);
   const double small = tangent * large;
-  switch (axis >> 61U & 3U) {
-    case 0:
-      return {large, small};
-    case 1:
-      return {0 - small, large};
-    case 2:
-      return {-large, 0 - small};
-    default:
-      return {small, -large};
-  }
+  const std::array quarters{Vec2d(large, small), Vec2d(0 - small, large), Vec2d(-large, 0 - small),
+                            Vec2d(small, -large)};
+  return quarters[axis >> 61U & 3U];
 }
 
 /// Whether an axis is a direction.
