@@ -37,13 +37,10 @@ void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex
 bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const noexcept {
   for (MoverIndex mover = 0; mover < moving.motions.size(); ++mover) {
     const MoverMotion& motion = moving.motions[mover];
-    const Box2 seen = seen_by(box, motion);
-    if (mover >= moving.mover_count()) {
-      if (seen.overlaps(scenery_->box(moving.circles[mover - moving.mover_count()]))) return true;
-    } else if (motion.to_angle == 0 ? seen.overlaps(whole(mover))
-                                    : seen.overlaps(geometry::Turn(motion.to_angle)(whole(mover)))) {
-      return true;
-    }
+    const bool is_circle = mover >= moving.mover_count();
+    const Box2& its = is_circle ? scenery_->box(moving.circles[mover - moving.mover_count()]) : whole(mover);
+    const bool is_turned = !is_circle && motion.to_angle != 0;
+    if (seen_by(box, motion).overlaps(is_turned ? geometry::Turn(motion.to_angle)(its) : its)) return true;
   }
   return false;
 }

@@ -23,11 +23,8 @@ void append_piece(const std::vector<Vec2d>& outline, ConvexPieces& pieces) {
 
 void append_ring(Ring ring, int wanted_winding, DirectedRings& rings) {
   rings.first_vertex.push_back(static_cast<std::uint32_t>(rings.vertices.size()));
-  if (winding(ring) == wanted_winding) {
-    rings.vertices.insert(rings.vertices.end(), ring.begin(), ring.end());
-  } else {
-    rings.vertices.insert(rings.vertices.end(), ring.rbegin(), ring.rend());
-  }
+  rings.vertices.insert(rings.vertices.end(), ring.begin(), ring.end());
+  if (winding(ring) != wanted_winding) std::reverse(rings.vertices.end() - std::ssize(ring), rings.vertices.end());
 }
 
 /// The sides of a tiling, each directed with its piece on the left. Sides 3k, 3k + 1, 3k + 2 begin as triangle k.

@@ -103,8 +103,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
       return;
     }
     if (sweeps > 0) sweep_along(step, displacement);
-    if (step.found.hit && step.found.stop == 0 &&
-        (displacement.x() != desired.displacement.wanted.x() || displacement.y() != desired.displacement.wanted.y())) {
+    if (step.found.hit && step.found.stop == 0 && displacement != desired.displacement.wanted) {
       // The gap cannot be restored here: give that up for this step.
       displacement = desired.displacement.wanted;
       may_aim = false;
