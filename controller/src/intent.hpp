@@ -99,8 +99,7 @@ PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character,
 
 /// The members of a state that the intent changes. They are restored if the step is refused later. (A copy of the whole
 /// state costs a tenth of a step.)
-template <class State>
-PAPERPROOF_INLINE auto intended(State& state) noexcept {
+PAPERPROOF_INLINE auto intended(CharacterState& state) noexcept {
   return std::tie(state.velocity, state.grounded, state.jumping, state.jump_held, state.jump_pending, state.coyote_left,
                   state.pending_left);
 }

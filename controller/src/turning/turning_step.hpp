@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -125,7 +126,7 @@ class TurningStep {
   [[nodiscard]] bool stays_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
                                  std::span<const PathPoint> way, double least = proved) const;
   [[nodiscard]] const MovingCollider* find_moving(ColliderIndex collider) const;
-  [[nodiscard]] std::vector<ColliderIndex> standing(const Box2& box, bool sensors) const;
+  [[nodiscard]] std::set<ColliderIndex> standing(const Box2& box, bool sensors) const;
 
   // turned_report.cpp
   void note_pushes(const Part& part);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace paperproof::turning {
 
@@ -176,18 +175,18 @@ bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_al
     if (!is_clear(collider.id, pose_at(collider.motion, part.begin), turned_pose(collider, part))) return false;
   }
   if (!of_all) return true;
-  const std::vector<ColliderIndex> around = standing(box_at(box_around(part.way, {})), false);
+  const std::set<ColliderIndex> around = standing(box_at(box_around(part.way, {})), false);
   return std::all_of(around.begin(), around.end(), [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
 }
 
 /// The colliders that stand in a box, by id.
-std::vector<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) const {
+std::set<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) const {
   const Scenery::Group& group = scenery_.group_of(no_mover);
   memory_.pieces.clear();
   (sensors ? group.sensors : group.solids).find(box, scenery_.boxes(), memory_.pieces);
   std::set<ColliderIndex> found;
   for (const PieceIndex piece : memory_.pieces) found.insert(scenery_.pieces()[piece].collider);
-  return {found.begin(), found.end()};
+  return found;
 }
 
 /// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would

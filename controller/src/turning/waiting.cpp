@@ -116,7 +116,7 @@ StepStatus TurningStep::stay(CharacterState& state) {
   MoveResult& move = report_.move;
   report_.clear();
   go_straight(0, 0, state.position, state);
-  const std::vector<ColliderIndex> around = standing(box_at({state.position, state.position}), false);
+  const std::set<ColliderIndex> around = standing(box_at({state.position, state.position}), false);
   const bool is_held = !move.crushers.empty() || std::any_of(around.begin(), around.end(), [&](ColliderIndex collider) {
     return blocks(collider) && overlaps(collider, {}, state.position);
   });
