@@ -59,7 +59,10 @@ void check_circle(const ColliderDef& circle) {
 constexpr MoverIndex most_movers = 65'536;
 
 void check_role(const ColliderDef& def) {
-  if (def.mover != no_mover && def.mover >= most_movers)
+  const bool is_body = def.mover == its_character;
+  if (is_body && (def.shape != ColliderDef::Shape::polygon || def.sensor || def.one_way))
+    throw Refused("the body of a character must be a solid polygon");
+  if (def.mover != no_mover && !is_body && def.mover >= most_movers)
     throw Refused("the mover of a collider must be below 65,536, not " + std::to_string(def.mover));
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");

@@ -37,9 +37,9 @@ void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex
 bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const noexcept {
   for (MoverIndex mover = 0; mover < moving.motions.size(); ++mover) {
     const MoverMotion& motion = moving.motions[mover];
-    const bool is_circle = mover >= moving.mover_count();
-    const Box2& its = is_circle ? scenery_->box(moving.circles[mover - moving.mover_count()]) : whole(mover);
-    const bool is_turned = !is_circle && motion.to_angle != 0;
+    const bool goes_apart = mover >= moving.mover_count();
+    const Box2& its = goes_apart ? scenery_->box(moving.apart[mover - moving.mover_count()]) : whole(mover);
+    const bool is_turned = !goes_apart && motion.to_angle != 0;
     if (seen_by(box, motion).overlaps(is_turned ? geometry::Turn(motion.to_angle)(its) : its)) return true;
   }
   return false;
@@ -57,9 +57,9 @@ void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<P
   const std::size_t first = found.size();
   finder_.find(mover, angle == 0 ? box : geometry::Turn(-angle)(box), found);
   const auto goes_by_itself = [&](PieceIndex piece) {
-    return std::find(moving_->circles.begin(), moving_->circles.end(), piece) != moving_->circles.end();
+    return std::find(moving_->apart.begin(), moving_->apart.end(), piece) != moving_->apart.end();
   };
-  if (mover != no_mover && moving_ != nullptr && !moving_->circles.empty()) [[unlikely]]
+  if (mover != no_mover && moving_ != nullptr && !moving_->apart.empty()) [[unlikely]]
     found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), goes_by_itself),
                 found.end());
   arrange(first, found);
@@ -124,9 +124,9 @@ void Nearby::add_moving(MoverIndex mover, const Box2& touched) noexcept {
   std::vector<PieceIndex>& found = known_.of_movers;
   const std::size_t first = found.size();
   if (mover >= moving_->mover_count()) {
-    const PieceIndex circle = moving_->circles[mover - moving_->mover_count()];
-    if (!finder_.has(circle) || !box.overlaps(finder_.scenery().box(circle))) return;
-    found.push_back(circle);
+    const PieceIndex piece = moving_->apart[mover - moving_->mover_count()];
+    if (!finder_.has(piece) || !box.overlaps(finder_.scenery().box(piece))) return;
+    found.push_back(piece);
     arrange(first, found);
   } else {
     find(mover, box, motion.to_angle, found);

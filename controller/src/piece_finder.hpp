@@ -15,12 +15,13 @@ namespace paperproof {
 
 /// What moves in a step, and how.
 struct Moving {
-  /// Of each mover of the scenery, then of each of `circles`. A mover has the angle that it has at the end.
+  /// Of each mover of the scenery, then of each of `apart`. A mover has the angle that it has at the end.
   std::span<const MoverMotion> motions{};
-  /// Circles of movers that have an angle: the centre of each goes straight. (It carries by the turn of its motion.)
-  std::span<const PieceIndex> circles{};
+  /// Pieces that go by themselves: the bodies of other characters; and circles of movers that have an angle, as the
+  /// centre of each goes straight. (It carries by the turn of its motion.)
+  std::span<const PieceIndex> apart{};
 
-  [[nodiscard]] std::size_t mover_count() const noexcept { return motions.size() - circles.size(); }
+  [[nodiscard]] std::size_t mover_count() const noexcept { return motions.size() - apart.size(); }
   /// @param mover index of a motion, or `no_mover`.
   [[nodiscard]] MoverMotion motion_of(MoverIndex mover) const noexcept {
     return mover == no_mover ? MoverMotion{} : motions[mover];

@@ -103,8 +103,10 @@ void Scenery::place(ColliderIndex id, const ColliderDef& accepted, PieceIndex fi
   ++kinds_[collider.kind].users;
   collider.points = points_of(id, accepted);
   if (collider.points == Points::own) shapes_[slot_of(id)] = {accepted.points, accepted.holes};
-  if (accepted.mover != no_mover && accepted.mover >= moving_.size()) moving_.resize(accepted.mover + std::size_t{1});
-  for (PieceIndex piece = range.first; piece < range.end; ++piece) grid_of(piece).add(piece, boxes_[piece]);
+  if (accepted.mover < its_character && accepted.mover >= moving_.size())
+    moving_.resize(accepted.mover + std::size_t{1});
+  for (PieceIndex piece = range.first; piece < range.end; ++piece)
+    if (PieceGrid* grid = grid_of(piece)) grid->add(piece, boxes_[piece]);
   tally(id, +1);
 }
 
@@ -137,9 +139,11 @@ void Scenery::displace(ColliderIndex id) {
   tally(id, -1);
   const PieceRange range = pieces_of(id);
   for (PieceIndex piece = range.first; piece < range.end; ++piece) {
-    grid_of(piece).remove(piece, boxes_[piece]);
+    PieceGrid* grid = grid_of(piece);
+    if (grid == nullptr) continue;
+    grid->remove(piece, boxes_[piece]);
     // The standing pieces of a level are many, and nobody asks for the box around them.
-    if (pieces_[piece].mover != no_mover) grid_of(piece).shrink(boxes_[piece], boxes_);
+    if (pieces_[piece].mover != no_mover) grid->shrink(boxes_[piece], boxes_);
   }
   const auto [first_vertex, vertices] = vertices_of(range);
   free_vertices_.give(first_vertex, vertices);
@@ -174,10 +178,12 @@ void Scenery::log(ColliderIndex id) {
   edits_.add({range, box, info.mover, info.one_way.has_value()});
 }
 
-PieceGrid& Scenery::grid_of(PieceIndex piece) {
+/// Null for the body of a character: no grid finds it.
+PieceGrid* Scenery::grid_of(PieceIndex piece) {
   const PieceInfo& info = pieces_[piece];
+  if (info.mover == its_character) return nullptr;
   Group& group = info.mover == no_mover ? standing_ : moving_[info.mover];
-  return info.sensor ? group.sensors : group.solids;
+  return info.sensor ? &group.sensors : &group.solids;
 }
 
 /// Of colliders that follow each other most are of one kind.

@@ -154,6 +154,7 @@ class Controller {
   /// where a piece of the scenery comes near for the first time.
   void reserve(const Box2& positions, Scratch& scratch) const;
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
+  [[nodiscard]] const Scenery& scenery() const noexcept { return *scenery_; }
 
  private:
   using Around = octagon_sweep::Around;

@@ -270,7 +270,7 @@ class Scenery {
   Scenery() : Scenery(SceneryDef{}) {}
 
   /// Adds a collider. Without edits the ids are 0, 1, 2 and so on; the id of one that was removed never names another.
-  /// @param def its `mover` may be any number below 65,536.
+  /// @param def its `mover` may be any number below 65,536, or `its_character`.
   /// @throws InvalidScenery; std::length_error for more than 2^24 - 1 colliders. Nothing changed then.
   ColliderIndex add(const ColliderDef& def);
   /// Gives a collider another definition. It keeps its id, so a character keeps riding on it.
@@ -306,9 +306,10 @@ class Scenery {
     PieceGrid solids;
     PieceGrid sensors;
   };
-  /// @param mover below `mover_count()`, or `no_mover`.
+  /// @param mover below `mover_count()`, or `no_mover`; `its_character` moves nothing here.
   [[nodiscard]] const Group& group_of(MoverIndex mover) const noexcept {
-    return mover == no_mover ? standing_ : moving_[mover];
+    static const Group nothing;
+    return mover == no_mover ? standing_ : mover == its_character ? nothing : moving_[mover];
   }
 
   /// The order in which a step looks at pieces. Shapes and places of the colliders decide it, so that levels that are
@@ -364,7 +365,7 @@ class Scenery {
   void tally(ColliderIndex id, int change) noexcept;
   void log(ColliderIndex id);
   [[nodiscard]] PieceIndex cut(ColliderIndex id, const ColliderDef& def, ColliderDef& accepted);
-  [[nodiscard]] PieceGrid& grid_of(PieceIndex piece);
+  [[nodiscard]] PieceGrid* grid_of(PieceIndex piece);
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> vertices_of(PieceRange pieces) const noexcept;
   void move_vertices(PieceRange pieces);
   [[nodiscard]] std::uint32_t kind_of(const ColliderInfo& info);

@@ -27,6 +27,8 @@ using PieceIndex = std::uint32_t;
 /// Index of a mover, counted from 0. Several colliders may share one mover.
 using MoverIndex = std::uint32_t;
 inline constexpr MoverIndex no_mover = ~MoverIndex{0};
+/// Of the body of a character: see `body_of`.
+inline constexpr MoverIndex its_character = no_mover - 1;
 inline constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 
 /// The motion of a mover during one step, from one pose to another: a point v of its colliders is at

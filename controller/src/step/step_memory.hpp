@@ -132,10 +132,10 @@ struct MoversInStep {
 
   /// The index of a collider's motion.
   [[nodiscard]] MoverIndex of(const Scenery& scenery, ColliderIndex collider) const noexcept {
-    const auto is_it = [&](PieceIndex circle) { return scenery.pieces()[circle].collider == collider; };
-    const auto circle = std::find_if(moving.circles.begin(), moving.circles.end(), is_it);
-    if (circle == moving.circles.end()) return scenery.collider(collider).mover;
-    return static_cast<MoverIndex>(moving.mover_count() + static_cast<std::size_t>(circle - moving.circles.begin()));
+    const auto is_it = [&](PieceIndex piece) { return scenery.pieces()[piece].collider == collider; };
+    const auto piece = std::find_if(moving.apart.begin(), moving.apart.end(), is_it);
+    if (piece == moving.apart.end()) return scenery.collider(collider).mover;
+    return static_cast<MoverIndex>(moving.mover_count() + static_cast<std::size_t>(piece - moving.apart.begin()));
   }
   /// Displacement of a mover in the step [m].
   [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept {

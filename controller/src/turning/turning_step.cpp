@@ -28,6 +28,7 @@ TurningStep::TurningStep(const Controller& controller, const StepContext& contex
       memory_(memory_of(scratch)),
       report_(report) {
   context_.movers = context.movers.first(scenery_.mover_count());
+  bodies_ = context.movers.subspan(scenery_.mover_count(), memory_.bodies.size());
   memory_.is_in_part = true;
 }
 
@@ -45,8 +46,11 @@ void TurningStep::read(const Box2& needed) {
   needed_ = needed;
   memory_.turns.assign(context_.movers.size(), false);
   memory_.moving.clear();
-  memory_.circle_motions.clear();
-  memory_.circles.clear();
+  memory_.motions_apart.assign(bodies_.begin(), bodies_.end());
+  memory_.apart = memory_.bodies;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (geometry::swept_box(scenery_.box(memory_.apart[i]), bodies_[i]).overlaps(needed))
+      memory_.moving.push_back({scenery_.pieces()[memory_.apart[i]].collider, its_character, bodies_[i], true});
   for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover) {
     const MoverMotion& motion = context_.movers[mover];
     const Scenery::Group& group = scenery_.group_of(mover);
@@ -62,8 +66,8 @@ void TurningStep::read(const Box2& needed) {
       MovingCollider collider{info.collider, mover, motion, info.is_circle() && motion.has_angle()};
       if (collider.by_itself) {
         const MoverMotion& centre =
-            memory_.circle_motions.emplace_back(motion_of_centre(scenery_.circle(piece).centre, motion));
-        memory_.circles.push_back(piece);
+            memory_.motions_apart.emplace_back(motion_of_centre(scenery_.circle(piece).centre, motion));
+        memory_.apart.push_back(piece);
         collider.motion = {centre.from, centre.to};
       }
       if (info.collider != last) memory_.moving.push_back(collider);
@@ -80,7 +84,7 @@ std::span<const MoverMotion> TurningStep::hold_angles(const Box2& around) {
   for (MoverMotion& motion : motions) motion.to_angle = motion.from_angle;
   context_.movers = motions;
   read(around.inflated(Controller::most_turned));
-  for (const MoverMotion& circle : memory_.circle_motions) motions.push_back({circle.from, circle.to});
+  for (const MoverMotion& motion : memory_.motions_apart) motions.push_back({motion.from, motion.to});
   return motions;
 }
 

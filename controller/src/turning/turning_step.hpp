@@ -43,8 +43,8 @@ struct Wish {
 struct MovingCollider {
   ColliderIndex id = no_collider;
   MoverIndex mover = no_mover;
-  MoverMotion motion{};    ///< In the step. Of a circle that goes by itself: its own, without an angle.
-  bool by_itself = false;  ///< It is such a circle.
+  MoverMotion motion{};    ///< In the step. Of what goes by itself: its own, without an angle.
+  bool by_itself = false;  ///< See `Moving::apart`.
 };
 
 /// A part of a step, as fractions of it.
@@ -59,13 +59,14 @@ struct Part {
 
 /// Of one scratch. Nothing in it but `turned` outlives a step.
 struct Memory final : OwnMemory {
-  std::vector<PieceIndex> circles;  ///< In a part, or a question: those that go by themselves. See `Moving::circles`.
-  bool is_in_part = false;          ///< The controller makes a shorter step.
-  /// Of the present part, once everything has turned: of movers, then of circles.
+  std::vector<PieceIndex> bodies;  ///< Of other characters, while one takes its turn. Else none.
+  std::vector<PieceIndex> apart;   ///< These, then circles that go by themselves in a part. See `Moving::apart`.
+  bool is_in_part = false;         ///< The controller makes a shorter step.
+  /// Of the present part, once everything has turned: of movers, then of what goes by itself.
   std::vector<MoverMotion> motions;
-  std::vector<MoverMotion> circle_motions;  ///< In the step, of `circles`; with the angles of their movers.
-  std::vector<bool> turns;                  ///< Whether a mover turns near the character.
-  std::vector<MovingCollider> moving;       ///< By id.
+  std::vector<MoverMotion> motions_apart;  ///< In the step, of `apart`; of circles with the angles of their movers.
+  std::vector<bool> turns;                 ///< Whether a mover turns near the character.
+  std::vector<MovingCollider> moving;      ///< By id.
   std::vector<PieceIndex> pieces;
   PieceWay way;  ///< Of the piece that is looked at.
   StepReport of_part;
@@ -82,7 +83,7 @@ class TurningStep {
  public:
   TurningStep(const Controller& controller, const StepContext& context, Scratch& scratch, StepReport& report);
   ~TurningStep() {
-    memory_.circles.clear();
+    memory_.apart = memory_.bodies;
     memory_.is_in_part = false;
   }
   TurningStep(const TurningStep&) = delete;
@@ -146,6 +147,7 @@ class TurningStep {
   const Controller& controller_;
   const Scenery& scenery_;
   StepContext context_;
+  std::span<const MoverMotion> bodies_;  ///< Their motions in the step.
   ColliderFilter filter_;
   Scratch& scratch_;
   Memory& memory_;

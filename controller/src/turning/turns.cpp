@@ -84,9 +84,9 @@ Part TurningStep::turn(double begin, double end, const Vec2d& position) {
     const Vec2d pivot = pivot_of(mover, begin, angle, position);
     motions.back().from = pivot - geometry::Turn(angle)(Vec2d(pivot - from.position));
   }
-  for (const MoverMotion& circle : memory_.circle_motions) {
-    const Pose from = pose_at(circle, begin);
-    const Pose to = pose_at(circle, end);
+  for (const MoverMotion& motion : memory_.motions_apart) {
+    const Pose from = pose_at(motion, begin);
+    const Pose to = pose_at(motion, end);
     motions.push_back({from.position, to.position, from.angle, to.angle});
   }
   return {begin, end};
@@ -157,7 +157,7 @@ bool TurningStep::find_way(Part& part, const MoveResult& move) {
 
 /// What the character touches once everything has turned.
 std::span<const Contact> TurningStep::contacts_at(const Vec2d& position, std::span<Contact> room) {
-  const octagon_sweep::Around around{{memory_.motions, memory_.circles}, controller_.filter_of(context_), context_.up};
+  const octagon_sweep::Around around{{memory_.motions, memory_.apart}, controller_.filter_of(context_), context_.up};
   return room.first(controller_.sweep_->contacts_at(position, Tolerances{}.touch, around, scratch_, room));
 }
 

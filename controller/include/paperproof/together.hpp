@@ -1,0 +1,64 @@
+/// Several characters that are in each other's way.
+#pragma once
+
+#include <paperproof/controller.hpp>
+
+#include <memory>
+#include <span>
+
+namespace paperproof {
+
+/// The body of a character, for the others: a collider of its shape. Add one to the level for each character. It is
+/// there only in `step_together`, which puts it where the character is.
+/// @param filter for whom it is there.
+[[nodiscard]] ColliderDef body_of(const CharacterDef& character, const Filter& filter = {});
+
+/// One of several characters.
+struct Companion {
+  const Controller* controller = nullptr;  ///< All are of one level. Any number may share one.
+  CharacterState* state = nullptr;
+  Input input{};
+  ColliderIndex body = no_collider;  ///< Its own in the level: see `body_of`.
+  Scratch* scratch = nullptr;        ///< Made by the controller. Those that share the controller may share one.
+  StepReport* report = nullptr;      ///< Contacts name the bodies of others as they name any collider.
+  std::size_t turn = 0;              ///< Written: its place in the order of this step, from 0.
+};
+
+/// Memory of `step_together`, one per thread. It carries nothing from step to step.
+class TogetherScratch {
+ public:
+  TogetherScratch();
+  ~TogetherScratch();
+  TogetherScratch(TogetherScratch&&) noexcept;
+  TogetherScratch& operator=(TogetherScratch&&) noexcept;
+
+  struct Turns;
+  std::unique_ptr<Turns> own;
+};
+
+/// One step of several characters that block, carry and push each other. Each makes the step that `Controller` makes;
+/// they take turns:
+///
+/// 1. While one goes the others stand: those that went before it where they ended, those that go after it where they
+///    began. So two that do not overlap at the beginning of a step do not overlap at its end, and do not pass through
+///    each other.
+/// 2. They go in the order of their bodies' ids, but whoever is in the way of one goes before it, and whoever carries
+///    one as well. Of several that wait for each other the last one goes first, and stops at the others.
+/// 3. To a character that it carries, another is a mover that goes straight from where it began to where it ended. So
+/// is
+///    one that went before and did not come nearer. Both carry and give way as movers do, at their speed.
+/// 4. A rider that is in the way of its carrier goes first, carried by the way that its carrier would go without it.
+/// One
+///    that a mover presses pushes whoever is in its way likewise: they go as far as it would. If they have no room, the
+///    mover crushes the one that it presses. No character crushes another, and none that walks or falls pushes one.
+///
+/// A character that meets no other makes the same step as alone, bit for bit. One whose step is refused stands where it
+/// is, and its report says why. The order of `companions` does not matter, only that of the ids.
+///
+/// Cost: each looks at those that are near it, which one sorting finds. A step is made anew where another is in the
+/// way.
+/// @param companions each with its own state, body and report.
+/// @param context the filter of each; its movers are those of the level.
+void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch);
+
+}  // namespace paperproof

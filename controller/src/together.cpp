@@ -1,0 +1,447 @@
+#include <paperproof/together.hpp>
+
+#include "geometry/vectors.hpp"
+#include "turning/turning_step.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace paperproof {
+namespace {
+
+using geometry::dot;
+
+constexpr std::size_t nobody = ~std::size_t{0};
+
+bool contains(const std::vector<std::size_t>& all, std::size_t one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+/// Two outlines, of which one goes straight relative to the other.
+struct Passing {
+  /// How far they are apart along the best axis at the beginning [m].
+  double gap = -std::numeric_limits<double>::infinity();
+  /// They are nearer than some distance along each axis between these fractions of the way; never, if the first is the
+  /// larger one.
+  double enters = 0;
+  double leaves = 1;
+};
+
+/// @param from,to of the first relative to the second [m]. @param within the distance [m].
+Passing pass(std::span<const Vec2d> first, std::span<const Vec2d> second, const Vec2d& from, const Vec2d& to,
+             double within) {
+  Passing passing;
+  for (const bool of_first : {true, false}) {
+    const std::span<const Vec2d> outline = of_first ? first : second;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2d edge = outline[(i + 1) % outline.size()] - outline[i];
+      // From the second towards the first.
+      const Vec2d normal = Vec2d(edge.y(), -edge.x()) / (of_first ? -edge.norm() : edge.norm());
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      for (const Vec2d& p : first) least = std::min(least, dot(p, normal));
+      for (const Vec2d& p : second) most = std::max(most, dot(p, normal));
+      const double begin = least - most + dot(from, normal);
+      const double end = least - most + dot(to, normal);
+      passing.gap = std::max(passing.gap, begin);
+      if (begin >= within)
+        passing.enters = end < within ? std::max(passing.enters, (begin - within) / (begin - end)) : 2;
+      else if (end >= within)
+        passing.leaves = std::min(passing.leaves, (begin - within) / (begin - end));
+    }
+  }
+  return passing;
+}
+
+/// One of them in this step.
+struct Member {
+  CharacterState before;
+  Vec2d to{};                ///< Where it is now [m].
+  Box2 reach;                ///< What its step may touch [m].
+  bool is_in_group = false;  ///< In this one, or in one that has gone.
+  bool has_gone = false;
+  bool waits = false;                 ///< Its turn has begun: it waits for those in its way.
+  bool follows = false;               ///< It waits for its carrier to go.
+  std::size_t began = 0;              ///< How many turns had begun before its own.
+  std::size_t carrier = nobody;       ///< Whom it rides on.
+  std::vector<std::size_t> near;      ///< The others that it may meet.
+  std::vector<std::size_t> in_way;    ///< Those that have not gone, and are in its way.
+  std::vector<std::size_t> yielding;  ///< Of these the ones that let it go as if they were not there.
+  // While it waits: how far it would go without those that yield [m],
+  std::optional<Vec2d> carries;  ///< for those that ride on it, and
+  std::optional<Vec2d> pushes;   ///< as movers alone take it, for others.
+
+  Vec2d velocity{};  ///< That then, or with which it ended its step [m/s].
+
+  [[nodiscard]] const Vec2d& from() const noexcept { return before.position; }
+};
+
+const Box2 nowhere{Vec2d::Constant(std::numeric_limits<double>::infinity()),
+                   Vec2d::Constant(-std::numeric_limits<double>::infinity())};
+
+}  // namespace
+
+ColliderDef body_of(const CharacterDef& character, const Filter& filter) {
+  const std::span<const Vec2d> hull = character.shape.hull();
+  return {.points = {hull.begin(), hull.end()}, .mover = its_character, .filter = filter};
+}
+
+/// The turns of one step.
+struct TogetherScratch::Turns {
+  void make_step(std::span<Companion> all, const StepContext& given);
+
+ private:
+  /// What one tries.
+  enum class Try : std::uint8_t {
+    its_step,
+    without_those,        ///< Its step, as if those that yield were not there.
+    taken_without_those,  ///< Likewise, but it goes only as movers take it.
+    past_what_stands      ///< Its step, among others that only stand.
+  };
+
+  [[nodiscard]] std::span<const Vec2d> hull(std::size_t i) const {
+    return companions[i].controller->character().shape.hull();
+  }
+  [[nodiscard]] const StepReport& report_of(std::size_t i) const { return *companions[i].report; }
+  [[nodiscard]] bool comes_before(std::size_t i, std::size_t j) const {
+    return companions[i].body < companions[j].body;
+  }
+  [[nodiscard]] bool is_still(std::size_t i) const { return !members[i].has_gone && !members[i].waits; }
+  [[nodiscard]] std::size_t owner_of(ColliderIndex body, std::size_t i) const;
+  [[nodiscard]] bool recedes(std::size_t other, std::size_t i) const;
+  [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what) const;
+  [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within) const;
+  [[nodiscard]] bool is_clear(std::size_t i) const;
+  [[nodiscard]] bool may_be_moved(std::size_t i) const;
+  [[nodiscard]] bool is_crushed_by(std::size_t i, bool others) const;
+  [[nodiscard]] bool was_late(std::size_t i) const;
+  void find_near();
+  void add_near(std::size_t i);
+  void add_to_group(std::size_t i);
+  Vec2d attempt(std::size_t i, Try what);
+  void find_in_way(std::size_t i);
+  void find_riders_in_way(std::size_t i);
+  void let_go_first(std::size_t i);
+  void take_turn(std::size_t i);
+  void take_velocity_of_carrier(std::size_t i);
+  void end_turn(std::size_t i);
+  void let_take_turns();
+
+  std::span<Companion> companions;
+  StepContext context;
+  std::vector<Member> members;
+  std::vector<std::size_t> order;
+  std::vector<std::size_t> group;  ///< Those that may meet.
+  std::vector<std::size_t> first;  ///< Those of the group that go before the others.
+  std::vector<MoverMotion> motions;
+  std::size_t turns = 0;
+  std::size_t begun = 0;
+};
+
+/// @return nobody where it is no body of one that is near.
+std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) const {
+  const std::vector<std::size_t>& near = members[i].near;
+  const auto owner = std::find_if(near.begin(), near.end(), [&](std::size_t j) { return companions[j].body == body; });
+  return owner == near.end() ? nobody : *owner;
+}
+
+/// Whether one that has gone came no nearer to where another begins.
+bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) const {
+  constexpr double noise = 1e-12;
+  const auto gap_to = [&](const Vec2d& place) {
+    const Vec2d at = members[i].from() - place;
+    return pass(hull(i), hull(other), at, at, 0).gap;
+  };
+  return gap_to(members[other].to) >= gap_to(members[other].from()) - noise;
+}
+
+/// How another goes while one takes its turn.
+MoverMotion TogetherScratch::Turns::motion_of(std::size_t other, std::size_t i, Try what) const {
+  const Member& it = members[other];
+  const bool carries = members[i].carrier == other;
+  MoverMotion motion{it.to, it.to};
+  if (what == Try::past_what_stands) return motion;
+  if (it.has_gone && (carries || recedes(other, i))) motion.from = it.from();
+  if (const std::optional<Vec2d>& way = carries ? it.carries : it.pushes) motion.to = it.from() + *way;
+  return motion;
+}
+
+/// Makes the step of one from where it began. Whatever it touches was near. @return how far it went.
+Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
+  Member& me = members[i];
+  const Companion& companion = companions[i];
+  CharacterState& state = *companion.state;
+  turning::Memory& memory = turning::memory_of(*companion.scratch);
+  const bool without = what == Try::without_those || what == Try::taken_without_those;
+  for (;;) {
+    state = me.before;
+    StepContext among = context;
+    Input input = companion.input;
+    if (what == Try::taken_without_those) {
+      among.gravity.setZero();
+      input = {};
+      state.velocity = state.ride.velocity;
+      state.jump_pending = false;
+    }
+    motions.assign(context.movers.begin(), context.movers.end());
+    memory.bodies.clear();
+    for (const std::size_t other : me.near) {
+      if (without && contains(me.yielding, other)) continue;
+      motions.push_back(motion_of(other, i, what));
+      memory.bodies.push_back(companion.controller->scenery().pieces_of(companions[other].body).first);
+    }
+    memory.apart = memory.bodies;
+    among.movers = motions;
+    (void)companion.controller->step(state, input, among, *companion.scratch, *companion.report);
+    if (is_refused(report_of(i).status)) break;
+    const Box2 way = companion.controller->reach(report_of(i).move);
+    if (me.reach.contains(way)) break;
+    me.reach = me.reach.merged(way);
+    add_near(i);
+  }
+  memory.bodies.clear();
+  memory.apart.clear();
+  return state.position - me.from();
+}
+
+/// Whether the way that one went leads past another as it stands. @param within of it [m].
+bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, double within) const {
+  const std::vector<PathPoint>& path = report_of(i).move.path;
+  const Vec2d& place = members[other].to;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Passing passing = pass(hull(i), hull(other), path[k - 1].position - place, path[k].position - place, within);
+    if (passing.enters <= passing.leaves) return false;
+  }
+  return true;
+}
+
+/// Whether the way that one went leads past all others as they stand.
+bool TogetherScratch::Turns::is_clear(std::size_t i) const {
+  return std::all_of(members[i].near.begin(), members[i].near.end(), [&](std::size_t other) {
+    const MoverMotion motion = motion_of(other, i, Try::its_step);
+    return motion.from == motion.to || is_clear_of(i, other, Tolerances{}.certain);
+  });
+}
+
+/// Whom the step of one met that has not gone.
+void TogetherScratch::Turns::find_in_way(std::size_t i) {
+  Member& me = members[i];
+  me.in_way.clear();
+  if (is_refused(report_of(i).status)) return;
+  for (const Contact& contact : report_of(i).move.contacts) {
+    const std::size_t other = owner_of(contact.collider, i);
+    if (other != nobody && is_still(other) && !contains(me.in_way, other)) me.in_way.push_back(other);
+  }
+}
+
+/// Of those that ride on one, the ones that are in the way that it would go without them.
+void TogetherScratch::Turns::find_riders_in_way(std::size_t i) {
+  Member& me = members[i];
+  me.in_way.clear();
+  for (const std::size_t other : me.near)
+    if (members[other].carrier == i && is_still(other)) me.in_way.push_back(other);
+  if (me.in_way.empty()) return;
+  me.yielding = me.in_way;
+  attempt(i, Try::without_those);
+  std::erase_if(me.in_way, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
+}
+
+/// Whether movers may take one along, or others that they push.
+bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
+  const std::vector<Contact>& contacts = report_of(i).move.contacts;
+  return members[i].before.ride.ground != Ride::none ||
+         std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+           const std::size_t other = owner_of(contact.collider, i);
+           if (other != nobody) return members[other].pushes.has_value();
+           return companions[i].controller->scenery().collider(contact.collider).mover != no_mover;
+         });
+}
+
+/// Lets those go first that are in the way of one.
+void TogetherScratch::Turns::let_go_first(std::size_t i) {
+  Member& me = members[i];
+  const std::vector<std::size_t> others = me.in_way;
+  me.yielding.clear();
+  if (may_be_moved(i)) {
+    me.yielding = others;
+    const Vec2d way = attempt(i, Try::taken_without_those);
+    std::erase_if(me.yielding, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
+    if (!me.yielding.empty()) me.pushes = way;
+  }
+  const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
+  if (std::any_of(others.begin(), others.end(), rides)) {
+    std::copy_if(others.begin(), others.end(), std::back_inserter(me.yielding), rides);
+    me.carries = attempt(i, Try::without_those);
+    me.velocity = companions[i].state->velocity;
+    // Over the edge of a stair it goes higher than it ends.
+    double peak = 0;
+    for (const PathPoint& corner : report_of(i).move.path)
+      peak = std::max(peak, dot(Vec2d(corner.position - me.from() - *me.carries), context.up));
+    *me.carries += context.up * peak;
+  }
+  for (const std::size_t other : others)
+    if (is_still(other)) take_turn(other);
+  me.carries.reset();
+  me.pushes.reset();
+}
+
+void TogetherScratch::Turns::take_turn(std::size_t i) {
+  Member& me = members[i];
+  if (me.carrier != nobody && is_still(me.carrier) && !members[me.carrier].follows) {
+    me.follows = true;
+    take_turn(me.carrier);
+    me.follows = false;
+    if (me.has_gone) return;  // it was in the way of its carrier
+  }
+  me.waits = true;
+  me.began = begun++;
+  find_riders_in_way(i);
+  if (!me.in_way.empty()) let_go_first(i);
+  for (attempt(i, Try::its_step), find_in_way(i); !me.in_way.empty(); attempt(i, Try::its_step), find_in_way(i))
+    let_go_first(i);
+  end_turn(i);
+}
+
+/// @param others whether one of the others crushes it, else whether anything else does.
+bool TogetherScratch::Turns::is_crushed_by(std::size_t i, bool others) const {
+  const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
+  return std::any_of(crushed.begin(), crushed.end(),
+                     [&](ColliderIndex collider) { return (owner_of(collider, i) != nobody) == others; });
+}
+
+/// A carrier that climbs a stair, or is stopped, has another velocity than its way has.
+void TogetherScratch::Turns::take_velocity_of_carrier(std::size_t i) {
+  CharacterState& state = *companions[i].state;
+  const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
+  if (carrier == nobody) return;
+  MoveResult& move = companions[i].report->move;
+  const Vec2d change = members[carrier].velocity - state.ride.velocity;
+  for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
+                          &move.ride.velocity, &move.ground.velocity})
+    *velocity += change;
+}
+
+void TogetherScratch::Turns::end_turn(std::size_t i) {
+  Member& me = members[i];
+  if (!is_refused(report_of(i).status) && (is_crushed_by(i, true) || !is_clear(i))) attempt(i, Try::past_what_stands);
+  take_velocity_of_carrier(i);
+  me.to = companions[i].state->position;
+  me.velocity = companions[i].state->velocity;
+  me.has_gone = true;
+  companions[i].turn = turns++;
+}
+
+/// Whether movers crushed one beside another that it could not let go first: that one might have given way.
+bool TogetherScratch::Turns::was_late(std::size_t i) const {
+  const std::vector<Contact>& contacts = report_of(i).move.contacts;
+  return is_crushed_by(i, false) && std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+           const std::size_t other = owner_of(contact.collider, i);
+           return other != nobody && members[other].began < members[i].began;
+         });
+}
+
+/// Two may meet where the boxes overlap that their steps may touch.
+void TogetherScratch::Turns::find_near() {
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return members[a].reach.lower.x() < members[b].reach.lower.x(); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Member& one = members[order[k]];
+    for (std::size_t l = k + 1; l < order.size(); ++l) {
+      Member& other = members[order[l]];
+      if (!(other.reach.lower.x() <= one.reach.upper.x())) break;
+      if (!one.reach.overlaps(other.reach)) continue;
+      one.near.push_back(order[l]);
+      other.near.push_back(order[k]);
+    }
+  }
+}
+
+/// For one whose step leads beyond what it was to touch.
+void TogetherScratch::Turns::add_near(std::size_t i) {
+  for (std::size_t j = 0; j < members.size(); ++j) {
+    std::vector<std::size_t>& near = members[i].near;
+    if (j == i || !members[j].reach.overlaps(members[i].reach) || contains(near, j)) continue;
+    near.push_back(j);
+    members[j].near.push_back(i);
+    add_to_group(j);
+  }
+}
+
+/// Adds one, and whoever may meet it, unless they are in a group.
+void TogetherScratch::Turns::add_to_group(std::size_t i) {
+  if (std::exchange(members[i].is_in_group, true)) return;
+  std::size_t next = group.size();
+  group.push_back(i);
+  for (; next < group.size(); ++next)
+    for (const std::size_t other : members[group[next]].near)
+      if (!std::exchange(members[other].is_in_group, true)) group.push_back(other);
+}
+
+/// The steps of the group. Those that came late go first, and the others again.
+void TogetherScratch::Turns::let_take_turns() {
+  constexpr int most_rounds = 4;
+  const std::size_t begin = turns;
+  first.clear();
+  for (int round = 0; round < most_rounds; ++round) {
+    turns = begin;
+    std::sort(group.begin(), group.end(), [&](std::size_t a, std::size_t b) { return comes_before(a, b); });
+    for (const std::size_t i : group) {
+      members[i].to = members[i].from();
+      members[i].has_gone = members[i].waits = false;
+    }
+    for (const std::size_t i : first)
+      if (is_still(i)) take_turn(i);
+    for (std::size_t k = 0; k < group.size(); ++k)  // it may grow
+      if (is_still(group[k])) take_turn(group[k]);
+    const std::size_t known = first.size();
+    for (const std::size_t i : group)
+      if (was_late(i) && !contains(first, i)) first.push_back(i);
+    if (first.size() == known) return;
+  }
+}
+
+void TogetherScratch::Turns::make_step(std::span<Companion> all, const StepContext& given) {
+  if (all.empty()) return;
+  companions = all;
+  context = given;
+  context.movers = given.movers.first(std::min(given.movers.size(), all.front().controller->scenery().mover_count()));
+  members.resize(all.size());
+  order.resize(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Member& member = members[i];
+    member.before = *all[i].state;
+    member.reach = all[i].controller->reach(member.before, context);
+    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = nowhere;  // it is refused
+    member.to = member.from();
+    member.is_in_group = member.has_gone = member.waits = false;
+    member.carrier = nobody;
+    member.near.clear();
+  }
+  find_near();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (members[i].before.ride.ground != Ride::none) members[i].carrier = owner_of(members[i].before.ride.ground, i);
+  const auto before = [&](std::size_t a, std::size_t b) { return comes_before(a, b); };
+  for (Member& member : members) std::sort(member.near.begin(), member.near.end(), before);
+  std::sort(order.begin(), order.end(), before);
+  turns = begun = 0;
+  for (const std::size_t i : order) {
+    group.clear();
+    add_to_group(i);
+    let_take_turns();
+  }
+}
+
+TogetherScratch::TogetherScratch() : own(std::make_unique<Turns>()) {}
+TogetherScratch::~TogetherScratch() = default;
+TogetherScratch::TogetherScratch(TogetherScratch&&) noexcept = default;
+TogetherScratch& TogetherScratch::operator=(TogetherScratch&&) noexcept = default;
+
+void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch) {
+  scratch.own->make_step(companions, context);
+}
+
+}  // namespace paperproof
