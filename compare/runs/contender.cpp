@@ -4,6 +4,7 @@
 #include "runs/crowd_contender.hpp"
 #include "runs/level_contender.hpp"
 #include "runs/technique_contender.hpp"
+#include "runs/together_contender.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,7 @@ std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scal
     if (turns) return make_level_contender(*technique, scene, scenery, planning);
     const bool crowd = !scene.others.empty();
     if (crowd && scalar != ScalarKind::binary64) throw NotApplicable("several characters move in double alone");
+    if (crowd && name == sweep_name) return make_together_contender(*technique, scene, scenery, planning);
     if (crowd && technique->moves_crowds) return make_crowd_contender(*technique, scene, scenery, planning);
     if (crowd)
       throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
