@@ -57,14 +57,14 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
   CharacterState free = state;
   free.crushed = false;
   free.crushers.clear();
-  sweep_->move_part(octagon_sweep::Part::whole, {free, there, there / context.dt, context.dt, here}, scratch, tried);
+  sweep_->move({free, there, there / context.dt, context.dt, here}, scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
 PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context,
                                                            const Scratch& scratch) const noexcept {
-  const std::vector<PieceIndex>& circles = turning::memory_of(scratch).circles;
-  const Moving moving{context.movers.first(scenery_->mover_count() + circles.size()), circles};
+  const std::vector<PieceIndex>& apart = turning::memory_of(scratch).apart;
+  const Moving moving{context.movers.first(scenery_->mover_count() + apart.size()), apart};
   return {moving, filter_of(context), context.up};
 }
 
@@ -115,8 +115,7 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
       asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   const Around here = around(context, scratch);
-  sweep_->move_part(octagon_sweep::Part::whole, begin_step(input, context, here, wall_ahead, state, report), scratch,
-                    report.move);
+  sweep_->move(begin_step(input, context, here, wall_ahead, state, report), scratch, report.move);
   report.status = report.move.status;
   if (is_refused(report.status))
     intended(state) = before;
@@ -138,8 +137,7 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   report.requested = displacement;
   report.steered = 0;
   const Around here = around(context, scratch);
-  sweep_->move_part(octagon_sweep::Part::whole, {state, displacement, velocity, context.dt, here}, scratch,
-                    report.move);
+  sweep_->move({state, displacement, velocity, context.dt, here}, scratch, report.move);
   report.status = report.move.status;
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -233,22 +231,6 @@ std::size_t Controller::sensors_at(const Vec2d& position, const StepContext& con
   return answer(position, {0, 0}, 0, context, scratch, [&](const Around& around) {
     return static_cast<Sensors&>(*scratch.sensors).around(position, around.moving, around.filter, found);
   });
-}
-
-bool Controller::begin_together(const CharacterState& before, const Input& input, const StepContext& context,
-                                const Around& here, CharacterState& state, std::optional<StepRequest>& request,
-                                StepReport& report) const noexcept {
-  if (!accepts(before, input, context) || any_angle(context.movers)) return false;
-  state = before;
-  if (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) state.ride = {};
-  request.emplace(begin_step(input, context, here, false, state, report));
-  return true;
-}
-
-void Controller::end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
-                              StepReport& report) const noexcept {
-  report.status = report.move.status;
-  end_step(input.drop, context, scratch, state, report);
 }
 
 }  // namespace paperproof

@@ -167,7 +167,7 @@ void Nearby::follow_edits() noexcept {
 void Nearby::forget_others() noexcept {
   const ColliderFilter filter = filter_ != nullptr ? *filter_ : ColliderFilter{};
   const bool by_predicate = filter.is_there != nullptr || known_.filter.is_there != nullptr;  // may say otherwise now
-  const bool same = Filter(filter) == Filter(known_.filter) && filter.end == known_.filter.end;
+  const bool same = Filter(filter) == Filter(known_.filter);
   if ((filter_ != nullptr) != known_.filtered || by_predicate || !same) forget();
   known_.filtered = filter_ != nullptr;
   known_.filter = filter;

@@ -97,7 +97,6 @@ void Scenery::place(ColliderIndex id, const ColliderDef& accepted, PieceIndex fi
                            .sensor = accepted.sensor,
                            .mover = accepted.mover,
                            .surface_speed = accepted.surface_speed,
-                           .carries = accepted.carries,
                            .filter = accepted.filter,
                            .one_way = accepted.one_way});
   ++kinds_[collider.kind].users;
@@ -292,7 +291,6 @@ ColliderDef Scenery::as_run(ColliderIndex collider) const {
                   .mover = info.mover,
                   .sensor = info.sensor,
                   .surface_speed = info.surface_speed,
-                  .carries = info.carries,
                   .filter = info.filter};
   if (kept.points == Points::own) {
     const Shape& shape = shapes_.at(slot_of(collider));

@@ -1,4 +1,4 @@
-/// The project's own technique, as the registry knows it: `Controller` and `Crowd` are it.
+/// The project's own technique, as the registry knows it: `Controller` is it.
 #include "techniques/registry.hpp"
 
 namespace paperproof {

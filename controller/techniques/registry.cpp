@@ -111,7 +111,6 @@ TechniqueController make_controller(const Scenery& scenery, const CharacterDef& 
 }
 
 TechniqueCrowd make_crowd(const Scenery& scenery, const CharacterDef& character, const TechniqueDef& def) {
-  if (def.name == sweep_name) return TechniqueCrowd(Crowd(scenery, character, sweep_of(def)));
   std::unique_ptr<const Technique> made = make_technique(def, scenery, character);
   const auto* joint = dynamic_cast<const JointTechnique*>(made.get());
   require(joint != nullptr, "a crowd does not move by " + std::string(def.name) + ", which knows one character");

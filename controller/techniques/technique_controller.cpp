@@ -147,15 +147,12 @@ StepStatus TechniqueController::step(CharacterState& state, const Input& input, 
   return report.status;
 }
 
-TechniqueCrowd::TechniqueCrowd(Crowd sweep) : sweep_(std::move(sweep)) {}
-
 TechniqueCrowd::TechniqueCrowd(const Scenery& scenery, const CharacterDef& character,
                                std::unique_ptr<const JointTechnique> technique, PieceSearch search)
     : technique_(technique.get()),
       driver_(std::make_shared<const Driver>(scenery, character, std::move(technique), search)) {}
 
 CrowdScratch TechniqueCrowd::make_scratch(std::size_t most_characters) const {
-  if (sweep_) return sweep_->make_scratch(most_characters);
   auto memory = std::make_unique<JointMemory>();
   memory->states.resize(most_characters);
   memory->requests.resize(most_characters);
@@ -166,7 +163,6 @@ CrowdScratch TechniqueCrowd::make_scratch(std::size_t most_characters) const {
 /// Writes no state before it is certain that no state is refused.
 StepStatus TechniqueCrowd::step(std::span<CharacterState> states, std::span<const Input> inputs,
                                 const StepContext& context, CrowdScratch& scratch, CrowdReport& report) const noexcept {
-  if (sweep_) return sweep_->step(states, inputs, context, scratch, report);
   const std::size_t count = states.size();
   if (scratch.most_characters < count || report.members.size() < count || inputs.size() != count ||
       !is_made_by(driver_, scratch.maker))

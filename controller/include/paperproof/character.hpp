@@ -66,11 +66,10 @@ struct CharacterDef {
   /// ground.
   double snap = 0;
   /// How high a walker climbs a kerb or a stair that stops it, if there is room above and walkable ground behind the
-  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none. In a `Crowd` nobody climbs.
+  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none.
   double step_height = 0;
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
-  /// character if a move by `wall_reach` would meet the wall, or if the last step met it. In a `Crowd` only the last
-  /// step counts.
+  /// character if a move by `wall_reach` would meet the wall, or if the last step met it.
   bool no_jump_toward_wall = false;
   double wall_reach = 1.0 / 32;     ///< For that rule: a pixel of the article [m].
   bool side_hit_ends_rise = false;  ///< The article's rule: hitting the side of something while rising ends the rise.
@@ -110,9 +109,9 @@ enum class GroundState : std::uint8_t {
 /// `octagon_sweep` tells it; other techniques always say `air`.
 struct Ground {
   GroundState state = GroundState::air;
-  ColliderIndex collider = no_collider;  ///< None also for another character of a `Crowd`.
-  Vec2d normal{Vec2d::Zero()};           ///< Of the surface; of several one that points up most.
-  Vec2d velocity{Vec2d::Zero()};         ///< Of the surface, conveyor included [m/s].
+  ColliderIndex collider = no_collider;
+  Vec2d normal{Vec2d::Zero()};    ///< Of the surface; of several one that points up most.
+  Vec2d velocity{Vec2d::Zero()};  ///< Of the surface, conveyor included [m/s].
 
   friend bool operator==(const Ground&, const Ground&) = default;
 };

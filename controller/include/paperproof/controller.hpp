@@ -40,7 +40,6 @@ namespace turning {
 class TurningStep;
 struct Wish;
 }  // namespace turning
-class Crowd;
 
 /// How a collider went in a step: between two instants each vertex goes evenly on a straight line.
 struct TurnedCollider {
@@ -191,14 +190,6 @@ class Controller {
     static constexpr ColliderFilter usual{};
     return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
   }
-  /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
-  /// @param state must outlive the request, as `here`. @return false if the input is not accepted.
-  friend class Crowd;
-  bool begin_together(const CharacterState& before, const Input& input, const StepContext& context, const Around& here,
-                      CharacterState& state, std::optional<StepRequest>& request, StepReport& report) const noexcept;
-  void end_together(const Input& input, const StepContext& context, Scratch& scratch, CharacterState& state,
-                    StepReport& report) const noexcept;
-
   template <class Ask>
   [[nodiscard]] auto answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                             Scratch& scratch, const Ask& ask) const noexcept;

@@ -50,8 +50,7 @@ enum class StepStatus : std::uint8_t {
 };
 
 /// The report of one move. Its vectors grow: a report that is used again allocates no more once it has had the longest.
-/// `octagon_sweep` reports everything. Other techniques leave out contacts and corners beyond these numbers, and a
-/// crowd drops a path with more corners.
+/// `octagon_sweep` reports everything. Other techniques leave out contacts and corners beyond these numbers.
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
   static constexpr std::size_t max_contacts = 32;

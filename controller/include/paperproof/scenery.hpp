@@ -56,8 +56,6 @@ struct ColliderDef {
   bool sensor = false;
   /// A conveyor: it carries a character that stands on it along the surface, to the right for a positive speed [m/s].
   double surface_speed = 0;
-  /// Whether a mover carries a character that stands on it. Otherwise the mover only pushes, as another character does.
-  bool carries = true;
   /// Which characters it is there for: see `StepContext::filter`. Seams vanish only between colliders of equal filters.
   Filter filter{};
   double radius = 0;  ///< Of a circle, and of nothing else [m].
@@ -91,7 +89,6 @@ struct ColliderInfo {
   bool sensor = false;
   MoverIndex mover = no_mover;
   double surface_speed = 0;  ///< [m/s]
-  bool carries = true;
   Filter filter{};
   std::optional<Vec2d> one_way{};
   friend bool operator==(const ColliderInfo&, const ColliderInfo&) = default;
@@ -255,7 +252,7 @@ class EditLog {
 };
 
 /// Not thread-safe while it is edited. Otherwise any number of threads may read it. A `Controller` follows edits from
-/// its next step on. A `Crowd`, and a technique of the article, keep to the scenery as it was when they were made.
+/// its next step on. A technique of the article keeps to the scenery as it was when it was made.
 class Scenery {
  public:
   /// Takes magnitudes below 1e-90 m for zero (their products would underflow), checks every collider and cuts polygons

@@ -21,15 +21,13 @@ struct ColliderFilter : Filter {
   /// step it must give the same answers, and between steps it may change them. It must not throw. It may be called from
   /// any thread that steps.
   bool (*is_there)(ColliderIndex collider, const void* user) = nullptr;
-  const void* user = nullptr;       ///< Handed to `is_there`.
-  ColliderIndex end = no_collider;  ///< A `Crowd` sets it: its own colliders begin here.
+  const void* user = nullptr;  ///< Handed to `is_there`.
 
   [[nodiscard]] bool operator()(const Scenery& scenery, ColliderIndex collider) const noexcept {
     return (*this)(collider, scenery.collider(collider).filter);
   }
   /// @param other that of the collider.
   [[nodiscard]] bool operator()(ColliderIndex collider, const Filter& other) const noexcept {
-    if (collider >= end) return true;
     return collide(*this, other) && (is_there == nullptr || is_there(collider, user));
   }
 };

@@ -55,22 +55,21 @@ class OctagonSweep final : public SweepInParts {
     Nearby(finder_, scratch.solids, nullptr, nullptr, &memory).reserve(positions);
   }
 
-  void move_part(Part part, const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
+  void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
     result.clear();
     const Moving& moving = request.around.moving;
     const CharacterState& state = request.state;
     if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0)))
       return step_parts::refuse(StepStatus::out_of_range, state, request.velocity + state.ride.velocity, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
-    const bool looks_at_movers =
-        !moving.motions.empty() && (part == Part::stay || comes_near_a_mover(request, memory.space));
+    const bool looks_at_movers = !moving.motions.empty() && comes_near_a_mover(request, memory.space);
     const bool rides = state.ride.ground != Ride::none;
     Step step(
         request, settings_,
         {finder_, scratch.solids, looks_at_movers ? &moving : nullptr, request.around.filter, &memory},
         {moving, static_cast<Real>(request.dt), finder_.scenery().counts().conveyors > 0 || rides || looks_at_movers},
         memory, result);
-    solve(step, part);
+    solve(step);
   }
 
   void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,

@@ -1,4 +1,4 @@
-/// The swept step: whole, in parts for crowds, and the questions that it answers.
+/// The swept step, and the questions that it answers.
 #pragma once
 
 #include <paperproof/report.hpp>
@@ -38,13 +38,6 @@ struct StepRequest {
   bool grounded = state.grounded;
 };
 
-/// Which part of a step a move makes.
-enum class Part : std::uint8_t {
-  whole,  ///< All of it, or its beginning.
-  rest,   ///< The step has begun. No way out of crushing movers is looked for: they may have come in this very step.
-  stay,   ///< The character keeps its position in the world. Every mover that runs into it crushes it.
-};
-
 /// Const and shareable between threads; each thread brings its scratch. No call throws, and each allocates as
 /// `Controller::reserve` says.
 class SweepInParts {
@@ -58,8 +51,7 @@ class SweepInParts {
   [[nodiscard]] virtual const PieceFinder& finder() const noexcept = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
-  virtual void move_part(Part part, const StepRequest& request, Scratch& scratch,
-                         MoveResult& result) const noexcept = 0;
+  virtual void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept = 0;
 
   /// See `OneWayChains`.
   virtual void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,

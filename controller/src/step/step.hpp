@@ -204,18 +204,13 @@ struct Step {
 [[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) noexcept {
   const Obstacle& obstacle = step.space.info(piece);
   Real speed = static_cast<Real>(obstacle.collider->surface_speed);
-  if (obstacle.source.is_circle() && obstacle.source.mover != no_mover && obstacle.collider->carries) [[unlikely]]
+  if (obstacle.source.is_circle() && obstacle.source.mover != no_mover) [[unlikely]]
     speed += speed_of_rim(step, piece);
   return speed;
 }
 
-/// The mover that takes along what stands on a piece, if one does.
-[[nodiscard]] inline MoverIndex carrier_of(const Step& step, PieceIndex piece) noexcept {
-  return step.space.info(piece).collider->carries ? mover_of(step, piece) : no_mover;
-}
-
 [[nodiscard]] inline bool carries(const Step& step, PieceIndex piece) noexcept {
-  return carrier_of(step, piece) != no_mover || surface_speed(step, piece) != 0;
+  return mover_of(step, piece) != no_mover || surface_speed(step, piece) != 0;
 }
 
 [[nodiscard]] inline bool walkable(const Step& step, const Vec2& normal) noexcept {

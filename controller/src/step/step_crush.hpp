@@ -117,17 +117,12 @@ PAPERPROOF_COLD inline bool note_crushers(Step& step) noexcept {
   return step.result.crushed.size() > before;
 }
 
-/// Hands the crushers to the next step. Movers that carry come first: the others may be other characters of a crowd,
-/// which change from step to step. Within each kind, those with a known side come first.
+/// Hands the crushers to the next step, those with a known side first.
 inline void hand_on_crushers(Step& step) noexcept {
-  const auto hand_on = [&](bool carries, bool has_side) {
+  for (const bool has_side : {true, false})
     for (const Crusher& known : step.memory.crushers)
-      if (step.memory.is(known.collider, overlaps_at_end) && known.has_side == has_side &&
-          step.space.scenery().collider(known.collider).carries == carries)
+      if (step.memory.is(known.collider, overlaps_at_end) && known.has_side == has_side)
         step.result.crushers.push_back(known);
-  };
-  for (const bool carries : {true, false})
-    for (const bool has_side : {true, false}) hand_on(carries, has_side);
 }
 
 /// Finds the movers that were ignored in this step and still overlap the character. If one of them overlapped at the
@@ -172,17 +167,6 @@ PAPERPROOF_COLD inline void wait(Step& step, bool may_move) noexcept {
     if (overlaps(step, piece, step.position)) crush(step, piece, since);
   });
   push_corner(step, step.time);
-}
-
-/// The whole step of `Part::stay`.
-PAPERPROOF_COLD inline void stay_in_place(Step& step) noexcept {
-  push_corner(step, 0);
-  ignore_overlapping_movers(step);
-  wait(step, false);
-  if (!step.memory.marked.empty()) find_movers_that_still_overlap(step);
-  if (step.result.status == StepStatus::moved && overlaps(step, step.position)) step.result.status = StepStatus::stuck;
-  step.result.position = step.position;
-  step.result.velocity = step.velocity;
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

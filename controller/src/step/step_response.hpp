@@ -47,7 +47,7 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
   const Surface at{surface.normal, walkable(step, surface.normal), after_walk};
   const TouchedSurface& ground = step.memory.surfaces[0];
   const auto carries = [&](const TouchedSurface& touched) {
-    return walkable(step, touched.normal) && carrier_of(step, touched.piece) != no_mover;
+    return walkable(step, touched.normal) && mover_of(step, touched.piece) != no_mover;
   };
   const bool is_carried_along =
       carries(surface) || surface.mover == step.moving.carrier || (surface.mover == ground.mover && carries(ground));

@@ -16,26 +16,16 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-[[nodiscard]] inline Vec2 velocity_with(const Step& step, MoverIndex mover, PieceIndex piece,
-                                        const Vec2& normal) noexcept {
-  Vec2 velocity = Vec2{normal.y(), -normal.x()} * surface_speed(step, piece);
-  if (mover != no_mover) velocity += step.movers.velocity(mover);
-  return velocity;
-}
-
-/// Of a surface of a piece, conveyor included [m/s].
+/// Of a surface of a piece, and of what stands on it, conveyor included [m/s].
 [[nodiscard]] inline Vec2 ground_velocity(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
-  return velocity_with(step, mover_of(step, piece), piece, normal);
-}
-
-/// Of what stands on a surface of a piece [m/s].
-[[nodiscard]] inline Vec2 carried_velocity(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
-  return velocity_with(step, carrier_of(step, piece), piece, normal);
+  Vec2 velocity = Vec2{normal.y(), -normal.x()} * surface_speed(step, piece);
+  if (mover_of(step, piece) != no_mover) velocity += step.movers.velocity(mover_of(step, piece));
+  return velocity;
 }
 
 /// How far the surface of a piece takes a rider in the rest of the step [m].
 [[nodiscard]] inline Vec2 ground_rest(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
-  const MoverIndex mover = carrier_of(step, piece);
+  const MoverIndex mover = mover_of(step, piece);
   const Real along = surface_speed(step, piece) * step.movers.dt * (1 - step.time);
   Vec2 rest = Vec2{normal.y(), -normal.x()} * along;
   if (mover != no_mover) rest += step.movers.remaining(mover, step.time);
@@ -70,9 +60,9 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// From now on this ground carries the character.
 PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& ground) noexcept {
   step.moving.ride.ground = collider_of(step, ground.piece);
-  step.moving.ride.velocity = carried_velocity(step, ground.piece, ground.normal);
+  step.moving.ride.velocity = ground_velocity(step, ground.piece, ground.normal);
   step.moving.ride.place = step.position - offset(step, ground.piece);
-  step.moving.carrier = carrier_of(step, ground.piece);
+  step.moving.carrier = mover_of(step, ground.piece);
   step.moving.ridden = ground.piece;
   step.moving.anchored = true;
 }
@@ -88,7 +78,7 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
   if (riding || at_rest) ground = carrier_here(step, ride.ground, !riding);
   if (riding && ground && collider_of(step, ground->piece) != ride.ground) ground.reset();
   Vec2 carried = Vec2::Zero();
-  if (ground) carried = carried_velocity(step, ground->piece, ground->normal);
+  if (ground) carried = ground_velocity(step, ground->piece, ground->normal);
   if (!ground || falls_away(step, carried)) {
     step.velocity += ride.velocity;
     return request.displacement + ride.velocity * request.dt;
@@ -106,7 +96,7 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
 /// Whether ground that the character lands on without horizontal speed carries it from now on.
 [[nodiscard]] PAPERPROOF_COLD inline bool carries_from_now(const Step& step, const TouchedSurface& ground) noexcept {
   return walkable(step, ground.normal) && carries(step, ground.piece) && step.moving.ride.ground == Ride::none &&
-         !falls_away(step, carried_velocity(step, ground.piece, ground.normal));
+         !falls_away(step, ground_velocity(step, ground.piece, ground.normal));
 }
 
 /// Without gravity nothing holds the character to ground that it only touches: that does not carry it.
@@ -116,7 +106,7 @@ PAPERPROOF_COLD inline void end_ride(Step& step) noexcept {
   if (!ground) return;
   const ColliderIndex collider = collider_of(step, ground->piece);
   step.result.ride.ground = collider;
-  step.result.ride.velocity = carried_velocity(step, ground->piece, ground->normal);
+  step.result.ride.velocity = ground_velocity(step, ground->piece, ground->normal);
   const bool stayed = step.moving.anchored && step.moving.ride.ground == collider;
   step.result.ride.place = stayed ? Vec2(step.moving.ride.place) : Vec2(step.position - offset(step, ground->piece));
 }

@@ -193,10 +193,9 @@ inline void look_at_movers(Step& step) noexcept {
   step.movers.active = step.movers.active || !step.movers.moving.motions.empty();
 }
 
-inline void solve(Step& step, Part part) noexcept {
+inline void solve(Step& step) noexcept {
   const StepRequest& request = step.request;
   begin_motion(step);
-  if (part == Part::stay) return stay_in_place(step);
   Vec2 wanted = request.displacement;
   if (step.movers.active) wanted = begin_ride(step);
   step.wanted = wanted;
@@ -206,7 +205,7 @@ inline void solve(Step& step, Part part) noexcept {
   sweep_along(step, wanted);
   const bool near = step.found.least_separation < tolerances.hit;
   if (near) look_at_movers(step);  // the way out of a solid may be longer than the step
-  if (near && !prepare_start(step, part)) {
+  if (near && !prepare_start(step)) {
     step.result.status = StepStatus::stuck;
     halt(step);
     if (step.movers.active) {

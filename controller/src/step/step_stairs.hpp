@@ -72,7 +72,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Stands on ground that `ground_below` found, at the end of the way down.
 /// @param speed sideways [m/s], which the walker keeps.
 inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) noexcept {
-  const Vec2 carried = carried_velocity(step, ground.piece, ground.normal);
+  const Vec2 carried = ground_velocity(step, ground.piece, ground.normal);
   if (!walkable(step, ground.normal) || falls_away(step, ground_velocity(step, ground.piece, ground.normal)) ||
       !advance(step, step.found.stop))
     return false;

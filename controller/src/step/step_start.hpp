@@ -232,10 +232,10 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
 }
 
 /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
-[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step, Part part) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step) noexcept {
   const CharacterState& state = step.request.state;
   if (state.has_last_free) step.moving.last_free = state.last_free;
-  if (state.crushed && ignore_overlapping_movers(step) && part == Part::whole && !step.moving.side_lost) {
+  if (state.crushed && ignore_overlapping_movers(step) && !step.moving.side_lost) {
     // They are left as any solid, to the side from which the character came.
     step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
     const bool is_out = leave(step);

@@ -1,4 +1,4 @@
-/// What steps characters by any technique: `octagon_sweep`, which is `Controller` and `Crowd`, or one of the others.
+/// What steps characters by any technique: `octagon_sweep`, which is `Controller`, or one of the others.
 #pragma once
 
 #include <paperproof/controller.hpp>
@@ -43,24 +43,25 @@ class TechniqueController {
   std::shared_ptr<const Driver> driver_;  ///< Of another technique; else null. Scratch memory refers to it.
 };
 
-/// Steps characters of one kind that block each other, as `Crowd` does in all but the way to move. Const and shareable
-/// between threads.
+/// Steps characters of one kind that block each other, all at once, by a joint technique. Const and shareable between
+/// threads. (`octagon_sweep` has `step_together` for that.)
 class TechniqueCrowd {
  public:
-  explicit TechniqueCrowd(Crowd sweep);
   /// @throws as `TechniqueController`.
   TechniqueCrowd(const Scenery& scenery, const CharacterDef& character, std::unique_ptr<const JointTechnique> technique,
                  PieceSearch search = PieceSearch::grid);
 
   [[nodiscard]] CrowdScratch make_scratch(std::size_t most_characters) const;
-  /// See `Crowd::step`.
+  /// One step for all characters. Never throws.
+  /// @param states read and written; nothing else carries over. @param inputs one per state.
+  /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or if one state,
+  ///   input or step is refused (see `StepStatus`), no state changes.
   StepStatus step(std::span<CharacterState> states, std::span<const Input> inputs, const StepContext& context,
                   CrowdScratch& scratch, CrowdReport& report) const noexcept;
 
  private:
   using Driver = TechniqueController::Driver;
 
-  std::optional<Crowd> sweep_;
   const JointTechnique* technique_ = nullptr;  ///< The driver has it.
   std::shared_ptr<const Driver> driver_;
 };
