@@ -110,10 +110,26 @@ class Steps {
     }
     if (!records.empty() && records.size() < header().characters)
       throw InputError(fmt::format("{}: expected {} records in step {}", path_, header().characters, records[0].step));
+    check_turns(records);
     return records;
   }
 
  private:
+  /// All have a turn, each another one, or none has.
+  void check_turns(std::span<const TraceStep> records) const {
+    std::vector<bool> taken(records.size());
+    for (const TraceStep& record : records) {
+      const auto refuse = [&](const char* what) {
+        throw InputError(
+            fmt::format("{}: step {}: character {}: expected {}", path_, record.step, record.character, what));
+      };
+      if (record.turn.has_value() != records.front().turn.has_value()) refuse("a turn of all characters or of none");
+      if (!record.turn) continue;
+      if (taken[*record.turn]) refuse("a turn that no other one has");
+      taken[*record.turn] = true;
+    }
+  }
+
   std::string path_;
   TraceReader reader_;
   std::optional<TraceStep> next_;

@@ -3,6 +3,7 @@
 #include "contains.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
+#include "oracle/hanging.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/up.hpp"
 
@@ -78,6 +79,13 @@ Vec2d rate_before(const std::vector<PathPoint>& path, double fraction) {
 const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
+/// The way of another in the turn of the one, in which it stands; where they take no turns its own.
+std::vector<PathPoint> way_in_turn(const TraceStep& other, const TraceStep& one) {
+  if (!one.turn) return other.path;
+  const Vec2d& at = other.turn < one.turn ? end_of(other) : start_of(other);
+  return {{at, 0}, {at, 1}};
+}
+
 }  // namespace
 
 CompanyJudge::CompanyJudge(const TraceHeader& header)
@@ -94,39 +102,81 @@ std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> posi
   return found;
 }
 
-Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceStep> steps) const {
+std::vector<TraceStep> CompanyJudge::acting_on(CharacterIndex character, std::span<const TraceStep> steps) const {
   const TraceStep& one = steps[character];
-  const auto any_other = [steps, character](const auto& is) {
-    return std::any_of(steps.begin(), steps.end(),
+  if (!one.turn) return {};
+  const auto goes_evenly = [&](const TraceStep& other) {
+    const Vec2d& from = start_of(other);
+    const Vec2d& to = end_of(other);
+    const std::vector<NearFace> faces = pair_.near_faces(start_of(one), from, detail::contact_reach);
+    const bool stands_on_it = std::any_of(faces.begin(), faces.end(), [&](const NearFace& face) {
+      return face.separation >= 0 && detail::is_walkable(face.normal, header_, up_in(one, header_));
+    });
+    if (stands_on_it) return true;
+    if (other.turn > one.turn) return pair_.meet_between(start_of(one), from, start_of(one), to);
+    const double rounding = ulp_at(header_, from) + ulp_at(header_, to);
+    return pair_.separation(start_of(one), to) >= pair_.separation(start_of(one), from) - rounding;
+  };
+  std::vector<TraceStep> acting(steps.begin(), steps.end());
+  for (TraceStep& acts : acting) {
+    const TraceStep& other = steps[acts.character];
+    if (acts.character == character) continue;
+    acts.path =
+        goes_evenly(other) ? std::vector<PathPoint>{{start_of(other), 0}, {end_of(other), 1}} : way_in_turn(other, one);
+    acts.requested = end_of(acts) - start_of(acts);
+    acts.steered = 0;
+    acts.contacts.clear();
+    acts.met.clear();
+  }
+  return acting;
+}
+
+/// What of the others is near one of them at a corner of its way.
+std::vector<NearPart> CompanyJudge::near_of(CharacterIndex character, std::span<const TraceStep> steps,
+                                            const PathPoint& corner, double within) const {
+  std::vector<NearPart> parts;
+  for (const TraceStep& other : steps) {
+    if (other.character == character) continue;
+    NearPart part{.collider = no_collider,
+                  .moved = end_of(other) - start_of(other),
+                  .faces = pair_.near_faces(corner.position, place_at(other.path, corner.fraction), within)};
+    if (part.faces.empty()) continue;
+    part.comes = corner.fraction > 0 ? rate_before(other.path, corner.fraction) : other.requested;
+    part.goes = rate_after(other.path, corner.fraction);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceStep> all,
+                               std::span<const TraceStep> acting) const {
+  const std::span<const TraceStep> steps = acting.empty() ? all : acting;
+  const TraceStep& one = steps[character];
+  const auto any_other = [character](std::span<const TraceStep> of, const auto& is) {
+    return std::any_of(of.begin(), of.end(),
                        [&](const TraceStep& other) { return other.character != character && is(other); });
   };
   Others others;
-  for (const TraceStep& other : steps)
+  for (const TraceStep& other : all)
     if (other.character != character)
       others.longest_way =
           std::max({others.longest_way, other.requested.norm(), (end_of(other) - start_of(other)).norm()});
-  others.touched = any_other([&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
-  others.left_free = [this, any_other](Way way) {
-    return !any_other([&](const TraceStep& other) {
-      return !(pair_.separation(way.back().position, end_of(other)) >= detail::least_clearance) ||
-             pair_.meet(way, other.path);
+  others.touched = any_other(steps, [&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
+  others.left_free = [this, all, character, any_other](Way way) {
+    return !any_other(all, [&](const TraceStep& other) {
+      const std::vector<PathPoint> theirs = way_in_turn(other, all[character]);
+      return !(pair_.separation(way.back().position, theirs.back().position) >= detail::least_clearance) ||
+             pair_.meet(way, theirs);
     });
   };
   others.near = [this, steps, character](const PathPoint& corner, double within) {
-    std::vector<NearPart> parts;
-    for (const TraceStep& other : steps) {
-      if (other.character == character) continue;
-      NearPart part{.collider = no_collider,
-                    .moved = end_of(other) - start_of(other),
-                    .faces = pair_.near_faces(corner.position, place_at(other.path, corner.fraction), within)};
-      if (part.faces.empty()) continue;
-      part.comes = corner.fraction > 0 ? rate_before(other.path, corner.fraction) : other.requested;
-      part.goes = rate_after(other.path, corner.fraction);
-      parts.push_back(std::move(part));
-    }
-    return parts;
+    return near_of(character, steps, corner, within);
   };
-  others.handed_on = [this, steps, character] { return handed_on(character, steps); };
+  if (one.turn)
+    others.near_at_end = [this, all, character](double within) {
+      return near_of(character, all, all[character].path.back(), within);
+    };
+  others.handed_on = [this, all, character] { return handed_on(character, all); };
   others.add_moments = [steps, character](std::vector<PathPoint>& path) {
     for (const TraceStep& other : steps) {
       if (other.character == character) continue;
@@ -138,10 +188,10 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
       }
     }
   };
-  others.impacts_at_end = [this, steps, character](const Vec2d& displacement) {
-    const Vec2d from = end_of(steps[character]);
+  others.impacts_at_end = [this, all, character](const Vec2d& displacement) {
+    const Vec2d from = end_of(all[character]);
     std::vector<ExactImpact> impacts;
-    for (const TraceStep& other : steps) {
+    for (const TraceStep& other : all) {
       if (other.character == character) continue;
       if (const auto impact = pair_.first_impact(from, displacement, end_of(other), Vec2d::Zero()))
         impacts.push_back({.collider = no_collider, .fraction = impact->fraction, .normal = impact->normal});
@@ -152,11 +202,14 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
 }
 
 double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceStep> steps) const {
+  // One after the other they need not touch at one moment.
+  const auto are_linked = [this](const TraceStep& one, const TraceStep& other) {
+    return may_meet(one, other) && (one.turn || touch(one, other));
+  };
   std::vector<CharacterIndex> linked{character};
   for (std::size_t i = 0; i < linked.size(); ++i)
     for (const TraceStep& other : steps)
-      if (!contains(linked, other.character) && may_meet(steps[linked[i]], other) && touch(steps[linked[i]], other))
-        linked.push_back(other.character);
+      if (!contains(linked, other.character) && are_linked(steps[linked[i]], other)) linked.push_back(other.character);
   // On the steepest ground that is walked on.
   const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
   std::map<MoverIndex, double> movers;
@@ -237,6 +290,7 @@ bool CompanyJudge::must_meet(const TraceStep& one, const TraceStep& other) const
     return std::all_of(ways.begin(), ways.end(), [&](const Vec2d& way) {
       const auto impact = pair_.first_impact(mine, way, theirs, goes);
       if (!impact) return false;
+      if (one.turn && -way.dot(impact->normal) <= detail::least_approach * way.norm()) return false;
       const double approach = -(way - goes).dot(impact->normal);
       const double until = static_cast<double>(impact->fraction) * approach;
       return approach >= detail::least_approach * (way - goes).norm() && until <= detail::contact_reach &&
@@ -320,10 +374,13 @@ void CompanyJudge::judge(std::span<const TraceStep> steps, std::span<StepJudgeme
     if (step.path.empty()) return;
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (std::size_t j = i + 1; j < steps.size(); ++j) judge_pair(steps[i], steps[j], judgements[i]);
-  judge_first_impacts(steps, judgements);
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    for (std::size_t j = 0; j < steps.size(); ++j)
-      if (i != j && may_meet(steps[i], steps[j])) excuse(steps[i], steps[j], judgements[i]);
+  if (!steps.front().turn) judge_first_impacts(steps, judgements);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::vector<TraceStep> acting = acting_on(steps[i].character, steps);
+    for (const TraceStep& other : acting) judge_first_impact(steps[i], other, judgements[i]);
+    for (const TraceStep& other : acting.empty() ? steps : std::span(acting))
+      if (other.character != steps[i].character && may_meet(steps[i], other)) excuse(steps[i], other, judgements[i]);
+  }
   last_ends_.clear();
   for (const TraceStep& step : steps) last_ends_.push_back(end_of(step));
 }
@@ -352,7 +409,12 @@ void CompanyJudge::judge_pair(const TraceStep& one, const TraceStep& other, Step
 void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) {
   const auto stay = inside_.find({one.character, other.character});
   const bool was_apart = stay == inside_.end();
-  if (was_apart && header_.path_exact) return judge_ways(one.path, other.path, other.character, judgement);
+  if (was_apart && header_.path_exact) {
+    judge_ways(one.path, way_in_turn(other, one), other.character, judgement);
+    if (one.turn && !contains(judgement.company.passed, other.character))
+      judge_ways(way_in_turn(one, other), other.path, other.character, judgement);
+    return;
+  }
   const FreeFrom from = was_apart ? FreeFrom(std::pair(start_of(one), start_of(other))) : stay->second;
   if (!was_apart) inside_.erase(stay);
   if (!from) return;
@@ -408,6 +470,16 @@ void CompanyJudge::judge_first_impacts(std::span<const TraceStep> steps, std::sp
       judgements[who].first_impact_comparable = impact.comparable && both_first && !turned_by_a_third();
     }
   }
+}
+
+/// In the turn of the one: another goes as it acts then, whatever meets it.
+void CompanyJudge::judge_first_impact(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const {
+  if (other.character == one.character || !may_meet(one, other)) return;
+  const std::optional<Impact> impact = first_impact(one, other);
+  if (!impact || impact->fraction > judgement.first_impact.value_or(1)) return;
+  judgement.first_impact = impact->fraction;
+  judgement.first_met = other.character;
+  judgement.first_impact_comparable = impact->comparable;
 }
 
 void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const {

@@ -13,6 +13,11 @@ namespace paperproof::compare {
 ///
 /// Two characters go along their ways at the same time, so it is the way of their difference that counts, exactly.
 ///
+/// **In turns.** Where steps have a `turn`, each goes along its way while the others stand: those before it where they
+/// ended, those after it where they began. Passed is who is met so. Where one says that it is crushed or stuck, it has
+/// room among the others as they stand then; whether it is on ground is asked where all have ended. All else that a
+/// character says of its step is asked with the others as they act on it: see `acting_on`.
+///
 /// **Inside.** Their open interiors overlap at the end of the step. It is new where they did not at its beginning.
 ///
 /// **Passed.** They are apart at both ends, and overlap at some moment between; or they overlapped since an earlier
@@ -53,7 +58,8 @@ class CompanyJudge {
   /// Whether the one must say that it met the other: at a corner of either's way they are no farther than 1e-6 m from
   /// each other, and where the other goes from there is entered, in what is left of the step, by what was requested of
   /// the one and by all that its contacts with scenery may have left of that. Not asked where a character says that it
-  /// is stuck, crushed or gives up its way, begins inside something, or met a third one.
+  /// is stuck, crushed or gives up its way, begins inside something, or met a third one. In its turn it says only whom
+  /// its own motion meets: what comes over it is not asked for.
   [[nodiscard]] bool must_meet(const TraceStep& one, const TraceStep& other) const;
 
   /// How far the time at which they say that they met is off [m]: from a moment at which they are no farther than
@@ -67,9 +73,19 @@ class CompanyJudge {
   [[nodiscard]] std::vector<Vec2d> ways_at(const TraceStep& one, std::span<const TraceStep> steps,
                                            double fraction) const;
 
-  /// What the others mean for one of them that is crushed: see `Judge`.
-  /// @param steps of all of them, in order; not copied.
-  [[nodiscard]] Others others_of(CharacterIndex character, std::span<const TraceStep> steps) const;
+  /// The steps as they act on one of them in its turn; empty where they take no turns. Another goes straight and evenly
+  /// from where it began to where it ended, over the whole step, if
+  /// - the one stands on it when the step begins: it touches a walkable face of the other within 1e-6 m;
+  /// - the other went before, and that way led no nearer to where the one began;
+  /// - or the other goes after, and that way leads into where the one began: it pushes the one, or follows it.
+  ///
+  /// Any other stands where it is in that turn. Its contacts are left out.
+  [[nodiscard]] std::vector<TraceStep> acting_on(CharacterIndex character, std::span<const TraceStep> steps) const;
+
+  /// What the others mean for one of them: see `Judge`.
+  /// @param steps of all of them, in order; not copied, nor is @param acting what `acting_on` has of them.
+  [[nodiscard]] Others others_of(CharacterIndex character, std::span<const TraceStep> steps,
+                                 std::span<const TraceStep> acting = {}) const;
 
   /// @param steps,judgements one of each character, in order; what is found is written into the judgements.
   void judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements);
@@ -96,6 +112,9 @@ class CompanyJudge {
   [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
   void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
+  void judge_first_impact(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const;
+  [[nodiscard]] std::vector<NearPart> near_of(CharacterIndex character, std::span<const TraceStep> steps,
+                                              const PathPoint& corner, double within) const;
   [[nodiscard]] double handed_on(CharacterIndex character, std::span<const TraceStep> steps) const;
   [[nodiscard]] bool touch(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] bool turns_aside(const TraceStep& one, const TraceStep& other, const ExactContact& exact) const;

@@ -13,7 +13,8 @@ namespace paperproof::compare {
 struct Others {
   /// Those within so many metres when the step has come to a corner of the way. Empty where there are none.
   std::function<std::vector<NearPart>(const PathPoint& corner, double within)> near{};
-  /// The same where the step ends, `moved` as what turns goes then. Empty where nothing turns near by.
+  /// The same where the step ends, `moved` as what turns goes then; of characters that take turns where all have ended.
+  /// Empty where nothing turns near by, and nobody takes turns.
   std::function<std::vector<NearPart>(double within)> near_at_end{};
   /// Adds to a way the moments at which others turn. Empty where there are no other characters.
   std::function<void(std::vector<PathPoint>& path)> add_moments{};

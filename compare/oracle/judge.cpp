@@ -88,8 +88,11 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
   all.near = [this, &step, with](const PathPoint& corner, double within) {
     return with(turning_->near(step, corner, within), corner, within);
   };
-  all.near_at_end = [this, &step, with](double within) {
-    return with(turning_->near_at_end(step, within), step.path.back(), within);
+  all.near_at_end = [this, &step, &characters, with](double within) {
+    std::vector<NearPart> parts = turning_->near_at_end(step, within);
+    if (!characters.near_at_end) return with(std::move(parts), step.path.back(), within);
+    for (NearPart& part : characters.near_at_end(within)) parts.push_back(std::move(part));
+    return parts;
   };
   all.impacts_at_end = [this, &step, &characters](const Vec2d& displacement) {
     std::vector<ExactImpact> impacts = turning_->impacts_at_end(step, displacement);
@@ -508,7 +511,12 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
       wanted != nullptr ? detail::later_parts(header_, step, *wanted) : detail::LaterParts{};
   std::optional<TraceStep> whole;
   if (later.any()) whole.emplace(step).requested += later.way;
-  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, others, up_in(step, header_));
+  // Whoever moves while the others stand is on ground where all have ended.
+  Others ended;
+  if (step.turn && others.near_at_end)
+    ended.near = [&others](const PathPoint&, double within) { return others.near_at_end(within); };
+  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, ended.near ? ended : others,
+                                     up_in(step, header_));
   if (promises_ && wanted != nullptr) {
     const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
     end.judge_ground(hanging, starts_free, judgement);
@@ -602,7 +610,9 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
   const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
   const auto is_inside_another = [&] {
-    const std::vector<NearPart> parts = others.near ? others.near(step.path.back(), 0) : std::vector<NearPart>{};
+    if (!others.near) return false;
+    const bool at_end = step.turn && others.near_at_end;
+    const std::vector<NearPart> parts = at_end ? others.near_at_end(0) : others.near(step.path.back(), 0);
     return std::any_of(parts.begin(), parts.end(), overlaps);
   };
   const bool stays =

@@ -119,6 +119,8 @@ struct TraceStep {
   int step = 0;
   std::optional<double> dt{};  ///< Its own length [s], where the scene gives each step one.
   CharacterIndex character = 0;
+  /// Its place in the order of this step, from 0 on: while one moves the others stand. None: all move at once.
+  std::optional<CharacterIndex> turn{};
   Input input{};
   std::optional<Vec2d> up{};       ///< In this step, where it is not the header's.
   std::optional<Vec2d> gravity{};  ///< The same [m/s²].

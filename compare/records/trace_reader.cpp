@@ -432,35 +432,21 @@ Input read_input(const Value& at) {
 }
 
 TraceStep read_step(const Value& at, const TraceHeader& header) {
-  at.only({"step",
-           "dt",
-           "character",
-           "path",
-           "path_exact",
-           "input",
-           "up",
-           "gravity",
-           "requested",
-           "steered",
-           "velocity",
-           "grounded",
-           "jumping",
-           "ride",
-           "ground_velocity",
-           "start_overlap",
-           "start_overlap_characters",
-           "movers",
-           "contacts",
-           "met",
-           "crush",
-           "drop",
-           "sensors",
-           "remainder",
-           "respawn",
-           "from",
-           "stuck",
-           "dropped",
-           "capped",
+  at.only({"step",          "dt",
+           "character",     "turn",
+           "path",          "path_exact",
+           "input",         "up",
+           "gravity",       "requested",
+           "steered",       "velocity",
+           "grounded",      "jumping",
+           "ride",          "ground_velocity",
+           "start_overlap", "start_overlap_characters",
+           "movers",        "contacts",
+           "met",           "crush",
+           "drop",          "sensors",
+           "remainder",     "respawn",
+           "from",          "stuck",
+           "dropped",       "capped",
            "refused"});
   TraceStep step;
   step.step = at.require("step").count_from(0);
@@ -474,6 +460,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
     at.only({"step", "dt", "character", "input", "refused"});
     return step;
   }
+  if (const auto turn = at.find("turn")) step.turn = static_cast<CharacterIndex>(turn->index(header.characters));
   for (const Value& corner : at.require("path").list(1)) {
     const std::vector<Value> numbers = corner.list(3, 3);
     step.path.push_back({{numbers[0].number(), numbers[1].number()}, numbers[2].share()});

@@ -277,6 +277,7 @@ void TraceWriter::write(const TraceStep& step) {
   }
   if (several_) fmt::format_to(std::back_inserter(out), "\"character\":{},", step.character);
   if (!step.refused.empty()) return write_refused(step, out);
+  if (step.turn) fmt::format_to(std::back_inserter(out), "\"turn\":{},", *step.turn);
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
   put_input(out, step.input);

@@ -176,8 +176,11 @@ void RunJudge::add(std::span<TraceStep> records) {
                           (places_of(record) > impacts_of_step || !record.met.empty() || is_beside_what_turns(record));
     asked[k].dropped = record.dropped && gives_up;
   }
+  // How the others act on each of them in its turn; empty where they take no turns.
+  std::vector<std::vector<TraceStep>> acting(records.size());
   for (std::size_t k = 0; k < records.size(); ++k) {
-    const Others others = company_ ? company_->others_of(asked[k].character, asked) : Others{};
+    if (company_) acting[k] = company_->acting_on(asked[k].character, asked);
+    const Others others = company_ ? company_->others_of(asked[k].character, asked, acting[k]) : Others{};
     const bool is_alone = is_apart(asked[k], others, beside + others.longest_way);
     followers_[k].steps_alone = is_alone ? followers_[k].steps_alone + 1 : 0;
     followers_[k].touches_nobody = is_alone || is_apart(asked[k], others, guaranteed_gap);
@@ -193,14 +196,15 @@ void RunJudge::add(std::span<TraceStep> records) {
   for (std::size_t k = 0; k < records.size(); ++k) metrics_.add(asked[k], judgements_[k], breaches_, is_far(asked[k]));
   for (std::size_t k = 0; k < records.size(); ++k) {
     Follower& follower = followers_[k];
+    const std::span<const TraceStep> all = acting[k].empty() ? asked : acting[k];
     if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       const SolidsInStep there(header_, solids(), asked[k]);
       judge_velocity(there, judgements_[k], follower);  // says more than that a bound is broken
-      judge_clauses(asked[k], judgements_[k], asked);
+      judge_clauses(asked[k], judgements_[k], all);
       judge_drops(records[k]);
-      judge_met(asked[k], asked);
+      judge_met(asked[k], all);
       judge_rest(asked[k], follower);
       judge_standing(asked[k], follower);
       judge_creeping(asked[k], judgements_[k], follower);
@@ -623,8 +627,8 @@ void RunJudge::judge_drops(const TraceStep& record) {
   }
 }
 
-/// Two that met each say so, with one normal, of a face that is there, and at one time, and were there. Who must have
-/// met another says so.
+/// Two that met were there at that time, with a face of that normal, and each says the same of it; in turns the other
+/// need not. Who must have met another says so.
 void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
   for (const CrowdContact& met : record.met) {
     if (met.other >= records.size() || met.other == record.character) {
@@ -632,10 +636,10 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
       continue;
     }
     const TraceStep& other = records[met.other];
-    const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact& its) {
-      return its.other == record.character && its.fraction == met.fraction &&
-             (its.normal + met.normal).norm() <= same_normal;
-    });
+    const bool agreed = record.turn || std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact& its) {
+                          return its.other == record.character && its.fraction == met.fraction &&
+                                 (its.normal + met.normal).norm() <= same_normal;
+                        });
     if (!agreed)
       note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
     if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
@@ -791,7 +795,9 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const std::optional<TraceRide> carrier = record.from             ? record.from->ride
                                            : follower.last.empty() ? std::nullopt
                                                                    : follower.last.back().ride;
-  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(), turns) ||
+  const bool is_handed_on = record.turn && !follower.touches_nobody;
+  const bool is_bounded_only = is_handed_on || !record.met.empty() ||
+                               std::any_of(surfaces.begin(), surfaces.end(), turns) ||
                                (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
   if (is_bounded_only) return;
   if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
