@@ -3,7 +3,7 @@
 
 #include "scenes/scene.hpp"
 
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 
 #include <vector>
 

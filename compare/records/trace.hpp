@@ -6,7 +6,7 @@
 #include "records/vertex_way.hpp"
 
 #include <paperproof/character.hpp>
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/step_context.hpp>

@@ -3,7 +3,7 @@
 #include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
 
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 
 namespace paperproof::compare {
 namespace {

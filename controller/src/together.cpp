@@ -89,9 +89,64 @@ ColliderDef body_of(const CharacterDef& character, const Filter& filter) {
   return {.points = {hull.begin(), hull.end()}, .mover = its_character, .filter = filter};
 }
 
+namespace {
+
+/// Steps a companion by its controller.
+class OfController final : public TurnTaker {
+ public:
+  /// @param order all of them.
+  OfController(Companion& companion, const std::vector<Companion*>& order, const StepContext& context)
+      : companion_(companion), order_(order), context_(context) {}
+
+  [[nodiscard]] const Controller& controller() const override { return *companion_.controller; }
+  [[nodiscard]] CharacterState& state() override { return *companion_.state; }
+  [[nodiscard]] StepReport& report() override { return *companion_.report; }
+  [[nodiscard]] Box2 reach() const override { return controller().reach(*companion_.state, context_); }
+  [[nodiscard]] bool is_body_of(ColliderIndex collider, std::size_t other) const override {
+    return order_[other]->body == collider;
+  }
+
+  void step(std::span<const Other> others, bool is_taken) override {
+    turning::Memory& memory = turning::memory_of(*companion_.scratch);
+    const Scenery& scenery = controller().scenery();
+    const std::size_t movers = std::min(context_.movers.size(), scenery.mover_count());
+    memory.motions_of_all.assign(context_.movers.begin(),
+                                 context_.movers.begin() + static_cast<std::ptrdiff_t>(movers));
+    memory.bodies.clear();
+    for (const Other& other : others) {
+      memory.motions_of_all.push_back(other.motion);
+      memory.bodies.push_back(scenery.pieces_of(order_[other.who]->body).first);
+    }
+    memory.apart = memory.bodies;
+    StepContext among = context_;
+    among.movers = memory.motions_of_all;
+    Input input = companion_.input;
+    if (is_taken) {
+      among.gravity.setZero();
+      input = {};
+      state().velocity = state().ride.velocity;
+      state().jump_pending = false;
+    }
+    (void)controller().step(state(), input, among, *companion_.scratch, report());
+    memory.bodies.clear();
+    memory.apart.clear();
+  }
+
+ private:
+  Companion& companion_;
+  const std::vector<Companion*>& order_;
+  const StepContext& context_;
+};
+
+}  // namespace
+
 /// The turns of one step.
 struct TogetherScratch::Turns {
-  void make_step(std::span<Companion> all, const StepContext& given);
+  void make_step(std::span<TurnTaker* const> all, const Vec2d& with_up);
+
+  std::vector<std::size_t> turn_of;  ///< Of each, its place in the order.
+  std::vector<OfController> takers;
+  std::vector<TurnTaker*> pointers;
 
  private:
   /// What one tries.
@@ -103,12 +158,9 @@ struct TogetherScratch::Turns {
   };
 
   [[nodiscard]] std::span<const Vec2d> hull(std::size_t i) const {
-    return companions[i].controller->character().shape.hull();
+    return all[i]->controller().character().shape.hull();
   }
-  [[nodiscard]] const StepReport& report_of(std::size_t i) const { return *companions[i].report; }
-  [[nodiscard]] bool comes_before(std::size_t i, std::size_t j) const {
-    return companions[i].body < companions[j].body;
-  }
+  [[nodiscard]] StepReport& report_of(std::size_t i) const { return all[i]->report(); }
   [[nodiscard]] bool is_still(std::size_t i) const { return !members[i].has_gone && !members[i].waits; }
   [[nodiscard]] std::size_t owner_of(ColliderIndex body, std::size_t i) const;
   [[nodiscard]] bool recedes(std::size_t other, std::size_t i) const;
@@ -116,7 +168,7 @@ struct TogetherScratch::Turns {
   [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within) const;
   [[nodiscard]] bool is_clear(std::size_t i) const;
   [[nodiscard]] bool may_be_moved(std::size_t i) const;
-  [[nodiscard]] bool is_crushed_by(std::size_t i, bool others) const;
+  [[nodiscard]] bool is_crushed_by(std::size_t i, bool by_others) const;
   [[nodiscard]] bool was_late(std::size_t i) const;
   void find_near();
   void add_near(std::size_t i);
@@ -130,13 +182,13 @@ struct TogetherScratch::Turns {
   void end_turn(std::size_t i);
   void let_take_turns();
 
-  std::span<Companion> companions;
-  StepContext context;
+  std::span<TurnTaker* const> all;
+  Vec2d up{0, 1};
   std::vector<Member> members;
   std::vector<std::size_t> order;
   std::vector<std::size_t> group;  ///< Those that may meet.
   std::vector<std::size_t> first;  ///< Those of the group that go before the others.
-  std::vector<MoverMotion> motions;
+  std::vector<TurnTaker::Other> others;
   std::size_t turns = 0;
   std::size_t begun = 0;
 };
@@ -144,7 +196,7 @@ struct TogetherScratch::Turns {
 /// @return nobody where it is no body of one that is near.
 std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) const {
   const std::vector<std::size_t>& near = members[i].near;
-  const auto owner = std::find_if(near.begin(), near.end(), [&](std::size_t j) { return companions[j].body == body; });
+  const auto owner = std::find_if(near.begin(), near.end(), [&](std::size_t j) { return all[i]->is_body_of(body, j); });
   return owner == near.end() ? nobody : *owner;
 }
 
@@ -172,39 +224,20 @@ MoverMotion TogetherScratch::Turns::motion_of(std::size_t other, std::size_t i, 
 /// Makes the step of one from where it began. Whatever it touches was near. @return how far it went.
 Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
   Member& me = members[i];
-  const Companion& companion = companions[i];
-  CharacterState& state = *companion.state;
-  turning::Memory& memory = turning::memory_of(*companion.scratch);
   const bool without = what == Try::without_those || what == Try::taken_without_those;
   for (;;) {
-    state = me.before;
-    StepContext among = context;
-    Input input = companion.input;
-    if (what == Try::taken_without_those) {
-      among.gravity.setZero();
-      input = {};
-      state.velocity = state.ride.velocity;
-      state.jump_pending = false;
-    }
-    motions.assign(context.movers.begin(), context.movers.end());
-    memory.bodies.clear();
-    for (const std::size_t other : me.near) {
-      if (without && contains(me.yielding, other)) continue;
-      motions.push_back(motion_of(other, i, what));
-      memory.bodies.push_back(companion.controller->scenery().pieces_of(companions[other].body).first);
-    }
-    memory.apart = memory.bodies;
-    among.movers = motions;
-    (void)companion.controller->step(state, input, among, *companion.scratch, *companion.report);
+    others.clear();
+    for (const std::size_t other : me.near)
+      if (!without || !contains(me.yielding, other)) others.push_back({other, motion_of(other, i, what)});
+    all[i]->state() = me.before;
+    all[i]->step(others, what == Try::taken_without_those);
     if (is_refused(report_of(i).status)) break;
-    const Box2 way = companion.controller->reach(report_of(i).move);
+    const Box2 way = all[i]->controller().reach(report_of(i).move);
     if (me.reach.contains(way)) break;
     me.reach = me.reach.merged(way);
     add_near(i);
   }
-  memory.bodies.clear();
-  memory.apart.clear();
-  return state.position - me.from();
+  return all[i]->state().position - me.from();
 }
 
 /// Whether the way that one went leads past another as it stands. @param within of it [m].
@@ -249,40 +282,40 @@ void TogetherScratch::Turns::find_riders_in_way(std::size_t i) {
   std::erase_if(me.in_way, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
 }
 
-/// Whether movers may take one along, or others that they push.
+/// Whether movers may take one along, or in_way that they push.
 bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
   const std::vector<Contact>& contacts = report_of(i).move.contacts;
   return members[i].before.ride.ground != Ride::none ||
          std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
            const std::size_t other = owner_of(contact.collider, i);
            if (other != nobody) return members[other].pushes.has_value();
-           return companions[i].controller->scenery().collider(contact.collider).mover != no_mover;
+           return all[i]->controller().scenery().collider(contact.collider).mover != no_mover;
          });
 }
 
 /// Lets those go first that are in the way of one.
 void TogetherScratch::Turns::let_go_first(std::size_t i) {
   Member& me = members[i];
-  const std::vector<std::size_t> others = me.in_way;
+  const std::vector<std::size_t> in_way = me.in_way;
   me.yielding.clear();
   if (may_be_moved(i)) {
-    me.yielding = others;
+    me.yielding = in_way;
     const Vec2d way = attempt(i, Try::taken_without_those);
     std::erase_if(me.yielding, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
     if (!me.yielding.empty()) me.pushes = way;
   }
   const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
-  if (std::any_of(others.begin(), others.end(), rides)) {
-    std::copy_if(others.begin(), others.end(), std::back_inserter(me.yielding), rides);
+  if (std::any_of(in_way.begin(), in_way.end(), rides)) {
+    std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
     me.carries = attempt(i, Try::without_those);
-    me.velocity = companions[i].state->velocity;
+    me.velocity = all[i]->state().velocity;
     // Over the edge of a stair it goes higher than it ends.
     double peak = 0;
     for (const PathPoint& corner : report_of(i).move.path)
-      peak = std::max(peak, dot(Vec2d(corner.position - me.from() - *me.carries), context.up));
-    *me.carries += context.up * peak;
+      peak = std::max(peak, dot(Vec2d(corner.position - me.from() - *me.carries), up));
+    *me.carries += up * peak;
   }
-  for (const std::size_t other : others)
+  for (const std::size_t other : in_way)
     if (is_still(other)) take_turn(other);
   me.carries.reset();
   me.pushes.reset();
@@ -305,19 +338,19 @@ void TogetherScratch::Turns::take_turn(std::size_t i) {
   end_turn(i);
 }
 
-/// @param others whether one of the others crushes it, else whether anything else does.
-bool TogetherScratch::Turns::is_crushed_by(std::size_t i, bool others) const {
+/// @param by_others whether one of the others crushes it, else whether anything else does.
+bool TogetherScratch::Turns::is_crushed_by(std::size_t i, bool by_others) const {
   const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
   return std::any_of(crushed.begin(), crushed.end(),
-                     [&](ColliderIndex collider) { return (owner_of(collider, i) != nobody) == others; });
+                     [&](ColliderIndex collider) { return (owner_of(collider, i) != nobody) == by_others; });
 }
 
 /// A carrier that climbs a stair, or is stopped, has another velocity than its way has.
 void TogetherScratch::Turns::take_velocity_of_carrier(std::size_t i) {
-  CharacterState& state = *companions[i].state;
+  CharacterState& state = all[i]->state();
   const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
   if (carrier == nobody) return;
-  MoveResult& move = companions[i].report->move;
+  MoveResult& move = report_of(i).move;
   const Vec2d change = members[carrier].velocity - state.ride.velocity;
   for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
                           &move.ride.velocity, &move.ground.velocity})
@@ -328,10 +361,10 @@ void TogetherScratch::Turns::end_turn(std::size_t i) {
   Member& me = members[i];
   if (!is_refused(report_of(i).status) && (is_crushed_by(i, true) || !is_clear(i))) attempt(i, Try::past_what_stands);
   take_velocity_of_carrier(i);
-  me.to = companions[i].state->position;
-  me.velocity = companions[i].state->velocity;
+  me.to = all[i]->state().position;
+  me.velocity = all[i]->state().velocity;
   me.has_gone = true;
-  companions[i].turn = turns++;
+  turn_of[i] = turns++;
 }
 
 /// Whether movers crushed one beside another that it could not let go first: that one might have given way.
@@ -387,7 +420,7 @@ void TogetherScratch::Turns::let_take_turns() {
   first.clear();
   for (int round = 0; round < most_rounds; ++round) {
     turns = begin;
-    std::sort(group.begin(), group.end(), [&](std::size_t a, std::size_t b) { return comes_before(a, b); });
+    std::sort(group.begin(), group.end());
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
       members[i].has_gone = members[i].waits = false;
@@ -403,18 +436,17 @@ void TogetherScratch::Turns::let_take_turns() {
   }
 }
 
-void TogetherScratch::Turns::make_step(std::span<Companion> all, const StepContext& given) {
-  if (all.empty()) return;
-  companions = all;
-  context = given;
-  context.movers = given.movers.first(std::min(given.movers.size(), all.front().controller->scenery().mover_count()));
+void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, const Vec2d& with_up) {
+  all = takers_now;
+  up = with_up;
   members.resize(all.size());
+  turn_of.resize(all.size());
   order.resize(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = 0; i < all.size(); ++i) {
     Member& member = members[i];
-    member.before = *all[i].state;
-    member.reach = all[i].controller->reach(member.before, context);
+    member.before = all[i]->state();
+    member.reach = all[i]->reach();
     if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = nowhere;  // it is refused
     member.to = member.from();
     member.is_in_group = member.has_gone = member.waits = false;
@@ -422,13 +454,12 @@ void TogetherScratch::Turns::make_step(std::span<Companion> all, const StepConte
     member.near.clear();
   }
   find_near();
-  for (std::size_t i = 0; i < all.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::sort(members[i].near.begin(), members[i].near.end());
     if (members[i].before.ride.ground != Ride::none) members[i].carrier = owner_of(members[i].before.ride.ground, i);
-  const auto before = [&](std::size_t a, std::size_t b) { return comes_before(a, b); };
-  for (Member& member : members) std::sort(member.near.begin(), member.near.end(), before);
-  std::sort(order.begin(), order.end(), before);
+  }
   turns = begun = 0;
-  for (const std::size_t i : order) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     group.clear();
     add_to_group(i);
     let_take_turns();
@@ -440,8 +471,23 @@ TogetherScratch::~TogetherScratch() = default;
 TogetherScratch::TogetherScratch(TogetherScratch&&) noexcept = default;
 TogetherScratch& TogetherScratch::operator=(TogetherScratch&&) noexcept = default;
 
+std::span<const std::size_t> take_turns(std::span<TurnTaker* const> all, const Vec2d& up, TogetherScratch& scratch) {
+  scratch.own->make_step(all, up);
+  return scratch.own->turn_of;
+}
+
 void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch) {
-  scratch.own->make_step(companions, context);
+  std::vector<OfController>& takers = scratch.own->takers;
+  std::vector<TurnTaker*>& pointers = scratch.own->pointers;
+  std::vector<Companion*> order;
+  takers.clear();
+  pointers.clear();
+  for (Companion& companion : companions) order.push_back(&companion);
+  std::sort(order.begin(), order.end(), [](const Companion* a, const Companion* b) { return a->body < b->body; });
+  for (Companion* companion : order) takers.emplace_back(*companion, order, context);
+  for (OfController& taker : takers) pointers.push_back(&taker);
+  const std::span<const std::size_t> turns = take_turns(pointers, context.up, scratch);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i]->turn = turns[i];
 }
 
 }  // namespace paperproof

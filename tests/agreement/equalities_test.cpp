@@ -6,7 +6,7 @@
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 #include <paperproof/saved_state.hpp>
 #include <paperproof/techniques.hpp>
 

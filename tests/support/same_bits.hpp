@@ -1,7 +1,7 @@
 /// Whether numbers, and what reports hold, are the same to the last bit: NaN and the sign of zero count.
 #pragma once
 
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 #include <paperproof/report.hpp>
 
 #include <algorithm>

@@ -3,10 +3,22 @@
 
 #include <paperproof/controller.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
 namespace paperproof {
+
+/// Position of a character in a list of several.
+using CharacterIndex = std::uint32_t;
+
+/// Another character was in the way: what a `Contact` with its body says.
+struct CrowdContact {
+  CharacterIndex other = 0;
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the other towards this one.
+  double fraction = 0;          ///< Time of impact as a fraction of the step, in [0, 1].
+  Side side = Side::bottom;     ///< Of this character.
+};
 
 /// The body of a character, for the others: a collider of its shape. Add one to the level for each character. It is
 /// there only in `step_together`, which puts it where the character is.
@@ -22,6 +34,28 @@ struct Companion {
   Scratch* scratch = nullptr;        ///< Made by the controller. Those that share the controller may share one.
   StepReport* report = nullptr;      ///< Contacts name the bodies of others as they name any collider.
   std::size_t turn = 0;              ///< Written: its place in the order of this step, from 0.
+};
+
+/// One of several characters that take turns: what `take_turns` asks of it. `step_together` needs none of a game.
+class TurnTaker {
+ public:
+  /// Another one in its turn: where it stands, or how it goes.
+  struct Other {
+    std::size_t who;
+    MoverMotion motion;
+  };
+
+  virtual ~TurnTaker() = default;
+  [[nodiscard]] virtual const Controller& controller() const = 0;
+  [[nodiscard]] virtual CharacterState& state() = 0;
+  [[nodiscard]] virtual StepReport& report() = 0;
+  /// Of all positions that its step may lead to, what the character covers there [m].
+  [[nodiscard]] virtual Box2 reach() const = 0;
+  /// Whether a collider that it met is the body of another.
+  [[nodiscard]] virtual bool is_body_of(ColliderIndex collider, std::size_t other) const = 0;
+  /// Makes its step from its state.
+  /// @param others those that are there. @param is_taken it goes only as movers take it: no input, no gravity.
+  virtual void step(std::span<const Other> others, bool is_taken) = 0;
 };
 
 /// Memory of `step_together`, one per thread. It carries nothing from step to step.
@@ -60,5 +94,10 @@ class TogetherScratch {
 /// @param companions each with its own state, body and report.
 /// @param context the filter of each; its movers are those of the level.
 void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch);
+
+/// The turns of `step_together`, for steps that are made in another way.
+/// @param all in the order in which they go where none is in the way of another. @param up of all.
+/// @return for each its place in the order of this step, from 0; valid until the next call.
+std::span<const std::size_t> take_turns(std::span<TurnTaker* const> all, const Vec2d& up, TogetherScratch& scratch);
 
 }  // namespace paperproof

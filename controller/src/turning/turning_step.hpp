@@ -62,6 +62,7 @@ struct Memory final : OwnMemory {
   std::vector<PieceIndex> bodies;  ///< Of other characters, while one takes its turn. Else none.
   std::vector<PieceIndex> apart;   ///< These, then circles that go by themselves in a part. See `Moving::apart`.
   bool is_in_part = false;         ///< The controller makes a shorter step.
+  std::vector<MoverMotion> motions_of_all;  ///< While one takes its turn: of movers, then of `bodies`.
   /// Of the present part, once everything has turned: of movers, then of what goes by itself.
   std::vector<MoverMotion> motions;
   std::vector<MoverMotion> motions_apart;  ///< In the step, of `apart`; of circles with the angles of their movers.

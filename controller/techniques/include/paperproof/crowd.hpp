@@ -1,7 +1,7 @@
 /// What a step of several characters reports that a joint technique moves.
 #pragma once
 
-#include <paperproof/controller.hpp>
+#include <paperproof/together.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -10,17 +10,6 @@
 #include <vector>
 
 namespace paperproof {
-
-/// Position of a character in the states handed to `TechniqueCrowd::step`.
-using CharacterIndex = std::uint32_t;
-
-/// Another character was in the way. Both report it, with opposite normals.
-struct CrowdContact {
-  CharacterIndex other = 0;
-  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the other towards this one.
-  double fraction = 0;          ///< Time of impact as a fraction of the step, in [0, 1].
-  Side side = Side::bottom;     ///< Of this character.
-};
 
 /// The report of one step for one character. Contacts with scenery are in `step.move`, those with characters here.
 struct CrowdMember {

@@ -3,7 +3,7 @@
 
 #include <paperproof/box2d/invalid_definition.hpp>
 #include <paperproof/controller.hpp>
-#include <paperproof/crowd.hpp>
+#include <paperproof/together.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <memory>
