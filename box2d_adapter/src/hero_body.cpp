@@ -117,16 +117,15 @@ void Hero::Impl::take_impacts() {
 
 /// A jump, a dash or a knock-back may be stopped at once by a dynamic body at hand: Box2D did not see the hero come.
 /// The hero's body strikes that body in the next step of the world, and `take_impacts` gives the hero what is left.
-/// @param own_velocity when the hero's step began. @param body_velocity of its body then.
 /// @return the velocity with which it strikes.
-Vec2d Hero::Impl::strike(const Vec2d& own_velocity, const Vec2d& body_velocity, double dt) const {
+Vec2d Hero::Impl::strike(double dt) const {
   const Vec2d up = up_of(gravity());
-  const Vec2d wanted = own_velocity + up * std::max(0.0, (report.requested / dt - own_velocity).dot(up));
+  const Vec2d wanted = begun.own_velocity + up * std::max(0.0, (report.requested / dt - begun.own_velocity).dot(up));
   Vec2d result = Vec2d::Zero();
   for (const Contact& contact : report.move.contacts) {
     const b2Fixture& other = *fixtures.fixture_of(contact.collider);
     if (other.GetBody()->GetType() != b2_dynamicBody || is_of_hero(other)) continue;
-    const double unseen = (wanted - body_velocity).dot(-contact.normal);
+    const double unseen = (wanted - begun.body_velocity).dot(-contact.normal);
     const double lost = (wanted - state.velocity).dot(-contact.normal);
     result -= contact.normal * std::max(0.0, std::min(unseen, lost) + result.dot(contact.normal));
   }

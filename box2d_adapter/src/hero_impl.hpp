@@ -54,16 +54,21 @@ struct Hero::Impl {
   // hero_step.cpp
   using Go = std::function<StepStatus(const StepContext& context)>;
   StepStatus advance(double dt, const Go& go);
+  [[nodiscard]] bool begin(double dt);
+  StepStatus attempt(const StepContext& context, const Go& go);
+  void end(double dt);
+  [[nodiscard]] StepContext context_of(double dt) const {
+    return {.gravity = gravity(), .dt = dt, .up = up_of(gravity())};
+  }
   void read_near(const Box2& needed);
   StepStatus step_as_far_as_read(StepContext& context, const Go& go);
-  std::optional<double> limit_squeeze(const CharacterState& before, const Vec2d& body_velocity,
-                                      const StepContext& context);
+  std::optional<double> limit_squeeze(const StepContext& context);
   /// For questions: movers are where the step begins, or where it ends.
   [[nodiscard]] StepContext here(bool at_end) const {
     return {.dt = 1, .movers = at_end ? fixtures.ends() : fixtures.motions()};
   }
-  std::pair<double, bool> limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt);
-  [[nodiscard]] bool is_freed(const CharacterState& before);
+  std::pair<double, bool> limit_speed(double dt);
+  [[nodiscard]] bool is_freed();
   std::optional<double> end_sooner(double least, double most);
   void note_step();
   void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
@@ -75,7 +80,7 @@ struct Hero::Impl {
   void make_fixture(const b2Filter& filter);
   void remake_fixture();
   void take_impacts();
-  [[nodiscard]] Vec2d strike(const Vec2d& own_velocity, const Vec2d& body_velocity, double dt) const;
+  [[nodiscard]] Vec2d strike(double dt) const;
   [[nodiscard]] Vec2d place_for_body() const;
   void lead_body(double dt);
 
@@ -86,6 +91,13 @@ struct Hero::Impl {
   Controller controller;
   Scratch scratch;
   CharacterState state;
+  /// When the present step begins.
+  struct Begun {
+    CharacterState state;
+    Vec2d own_velocity{Vec2d::Zero()};   ///< With the impacts on its body [m/s].
+    Vec2d body_velocity{Vec2d::Zero()};  ///< [m/s]
+  } begun;
+  std::optional<double> cut;    ///< When the step was stopped: see `limit_squeeze`.
   Vec2d struck{Vec2d::Zero()};  ///< See `strike`.
   StepReport report;
   std::vector<HeroContact> contacts;

@@ -37,29 +37,45 @@ bool exists(b2World& world, const b2Fixture* fixture) {
 }  // namespace
 
 StepStatus Hero::Impl::advance(double dt, const Go& go) {
-  if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
-    return StepStatus::invalid_input;
-  const CharacterState before = state;
-  const Vec2d body_velocity = widened(body->GetLinearVelocity());
-  const Vec2d up = up_of(gravity());
-  fixtures.begin_step(def, up, dt, state, contacts);
-  take_impacts();
-  const Vec2d own_velocity = state.velocity;
-  StepContext context{.gravity = gravity(), .dt = dt, .up = up};
-  const StepStatus status = step_as_far_as_read(context, go);
+  if (!begin(dt)) return StepStatus::invalid_input;
+  const StepStatus status = attempt(context_of(dt), go);
   if (is_refused(status)) {
-    state = before;
+    state = begun.state;
     return status;
   }
-  const std::optional<double> cut = limit_squeeze(before, body_velocity, context);
+  end(dt);
+  return report.status;
+}
+
+/// Begins a step. @return false if it cannot be made: nothing changed then.
+bool Hero::Impl::begin(double dt) {
+  if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
+    return false;
+  begun.state = state;
+  begun.body_velocity = widened(body->GetLinearVelocity());
+  fixtures.begin_step(def, up_of(gravity()), dt, state, contacts);
+  take_impacts();
+  begun.own_velocity = state.velocity;
+  return true;
+}
+
+/// Makes the step from `state`, as it was after `begin`.
+StepStatus Hero::Impl::attempt(const StepContext& context, const Go& go) {
+  StepContext read = context;
+  const StepStatus status = step_as_far_as_read(read, go);
+  cut = is_refused(status) ? std::nullopt : limit_squeeze(read);
+  return status;
+}
+
+/// Ends a step that was made.
+void Hero::Impl::end(double dt) {
   sensors.clear();
-  note_sensors_at(before.position, false, 0);
+  note_sensors_at(begun.state.position, false, 0);
   note_step();
   if (cut) note_sensors_at(state.position, true, *cut);
   fixtures.note_poses();
-  struck = strike(own_velocity, body_velocity, dt);
+  struck = strike(dt);
   lead_body(dt);
-  return report.status;
 }
 
 /// Reads what is near. The box follows from the state alone, so a roll-back gives the same steps again.
@@ -72,14 +88,14 @@ void Hero::Impl::read_near(const Box2& needed) {
 
 /// Makes the step. If it leads beyond what was read, reads more and makes it again.
 StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
-  const CharacterState before = state;
+  const CharacterState from = state;
   Box2 needed = controller.reach(state, context);
   for (;;) {
     if (!(needed.lower.minCoeff() > -farthest && needed.upper.maxCoeff() < farthest))
       return report.status = StepStatus::invalid_input;
     read_near(needed);
     context.movers = fixtures.motions();
-    state = before;
+    state = from;
     const StepStatus status = go(context);
     if (is_refused(status)) return status;
     const Box2 way = controller.reach(report.move);
@@ -91,11 +107,11 @@ StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
 /// Moving bodies take the hero along, but give it no more than their own speed, or that to which Box2D brought the
 /// hero's body.
 /// @return the largest speed that the hero may have [m/s], and whether such a body pushed it.
-std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState& before, const Vec2d& body_velocity, double dt) {
-  double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
-  const Vec2d middle = before.position + def.character.shape.box().middle();
-  bool is_pushed = before.crushed;
-  for (const Crusher& crusher : before.crushers)
+std::pair<double, bool> Hero::Impl::limit_speed(double dt) {
+  double most = std::max((report.requested / dt + begun.state.ride.velocity).norm(), state.ride.velocity.norm());
+  const Vec2d middle = begun.state.position + def.character.shape.box().middle();
+  bool is_pushed = begun.state.crushed;
+  for (const Crusher& crusher : begun.state.crushers)
     if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
       most = std::max(most, way_of(middle, fixtures.motion_of(*fixture)) / dt);
   for (const Contact& contact : report.move.contacts) {
@@ -104,7 +120,8 @@ std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState& before, co
     if (other.GetType() == b2_staticBody) continue;
     is_pushed = true;
     const bool has_mass = other.GetType() == b2_dynamicBody;
-    most = std::max(most, has_mass ? body_velocity.norm() : way_of(contact.point, fixtures.motion_of(fixture)) / dt);
+    most =
+        std::max(most, has_mass ? begun.body_velocity.norm() : way_of(contact.point, fixtures.motion_of(fixture)) / dt);
     if (!has_mass || contact.collider == state.ride.ground) continue;
     // What Box2D moved a body to part it from others is no velocity of the body, and becomes none of the hero.
     const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(rounded(contact.point)));
@@ -120,24 +137,23 @@ std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState& before, co
 /// under a press that is hardly in it, it would leave at any speed. It then ends where it is free first on its way. If
 /// that is far away, it waits, and they crush it.
 /// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
-std::optional<double> Hero::Impl::limit_squeeze(const CharacterState& before, const Vec2d& body_velocity,
-                                                const StepContext& context) {
-  const auto [speed, is_pushed] = limit_speed(before, body_velocity, context.dt);
+std::optional<double> Hero::Impl::limit_squeeze(const StepContext& context) {
+  const auto [speed, is_pushed] = limit_speed(context.dt);
   double most = speed * context.dt + most_squeezed;
   if (!is_pushed) most += def.character.step_height + def.character.snap;
-  if ((state.position - before.position).norm() <= most || !(is_pushed || is_freed(before))) return std::nullopt;
+  if ((state.position - begun.state.position).norm() <= most || !(is_pushed || is_freed())) return std::nullopt;
   if (const std::optional<double> when = end_sooner(speed * context.dt, most)) return when;
-  state = before;
+  state = begun.state;
   controller.wait(state, context, scratch, report);
   return std::nullopt;
 }
 
 /// Whether the step may have freed the hero from bodies that move: where it began, or where they turned. Out of what
 /// stands it goes, however far that is; so it does out of bodies in which it was placed.
-bool Hero::Impl::is_freed(const CharacterState& before) {
-  if (!before.has_last_free) return false;
+bool Hero::Impl::is_freed() {
+  if (!begun.state.has_last_free) return false;
   std::array<ColliderIndex, 16> found{};
-  const std::size_t count = controller.overlaps(before.position, here(false), scratch, found).value_or(0);
+  const std::size_t count = controller.overlaps(begun.state.position, here(false), scratch, found).value_or(0);
   const std::span<const ColliderIndex> holding(found.data(), std::min(count, found.size()));
   const auto stands = [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() == b2_staticBody; };
   if (holding.empty()) return fixtures.any_turns();

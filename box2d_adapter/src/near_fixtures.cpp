@@ -225,6 +225,8 @@ void NearFixtures::search(const Box2& box) {
   near_.clear();
   Collector collector(hits_);
   world_->QueryAABB(&collector, rounded_outwards(box));
+  for (b2Body* body : party_)
+    if (shown_.contains(body)) hits_.push_back(body->GetFixtureList());
   std::sort(hits_.begin(), hits_.end());  // a chain is found once for each of its segments
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
   b2ContactFilter* filter = world_->GetContactManager().m_contactFilter;
@@ -333,6 +335,11 @@ void NearFixtures::read(const Box2& box) {
   for (const MoverMotion& motion : motions_) ends_.push_back({motion.to, motion.to, motion.to_angle, motion.to_angle});
 }
 
+bool NearFixtures::is_there(ColliderIndex id) const {
+  const b2Body* body = body_of(id);
+  return shown_.contains(body) || std::find(party_.begin(), party_.end(), body) == party_.end();
+}
+
 bool NearFixtures::any_turns() const noexcept {
   return std::any_of(motions_.begin(), motions_.end(), [](const MoverMotion& motion) { return motion.turn() != 0; });
 }
@@ -401,6 +408,7 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
 
 MoverMotion NearFixtures::motion_of(b2Fixture& fixture) const {
   const b2Body& body = *fixture.GetBody();
+  if (const auto shown = shown_.find(&body); shown != shown_.end()) return shown->second;
   const BodyPose begin = begin_of(body);
   const double angle = static_cast<double>(body.GetAngle());
   MoverMotion motion{begin.position, place_of(body), begin.angle, angle};

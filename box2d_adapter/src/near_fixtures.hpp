@@ -48,8 +48,16 @@ class NearFixtures {
                   std::span<const HeroContact> contacts);
   /// Reads all fixtures in a box, and how their bodies moved since `note_poses`.
   void read(const Box2& box);
+  /// From now on these bodies go so, wherever they are in the world, and other heroes of their party are not there.
+  /// @param party the bodies of heroes that take turns. Empty: all go as they went in the world.
+  void show(std::span<b2Body* const> party, const std::map<const b2Body*, MoverMotion>& shown) {
+    party_.assign(party.begin(), party.end());
+    shown_ = shown;
+  }
   /// Those that were read last.
   [[nodiscard]] const Level& level() const noexcept { return level_; }
+  /// Whether a collider is there in the step: it is not the body of a hero that is not shown.
+  [[nodiscard]] bool is_there(ColliderIndex id) const;
   /// Of its movers.
   [[nodiscard]] std::span<const MoverMotion> motions() const noexcept { return motions_; }
   /// The movers stand where their motions end.
@@ -127,6 +135,8 @@ class NearFixtures {
   double dt_ = 0;
   CharacterState begin_;                   ///< Of the hero, when the step begins.
   std::vector<const b2Fixture*> touched_;  ///< What it stands on and touched.
+  std::vector<b2Body*> party_;
+  std::map<const b2Body*, MoverMotion> shown_;  ///< Those of the party that are there.
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
   std::vector<Near> near_;  ///< Found in the last search.

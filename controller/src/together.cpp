@@ -65,6 +65,7 @@ struct Member {
   bool has_gone = false;
   bool waits = false;                 ///< Its turn has begun: it waits for those in its way.
   bool follows = false;               ///< It waits for its carrier to go.
+  bool is_late = false;               ///< It was crushed beside one that went sooner, and might have given way.
   std::size_t began = 0;              ///< How many turns had begun before its own.
   std::size_t carrier = nobody;       ///< Whom it rides on.
   std::vector<std::size_t> near;      ///< The others that it may meet.
@@ -124,8 +125,6 @@ class OfController final : public TurnTaker {
     if (is_taken) {
       among.gravity.setZero();
       input = {};
-      state().velocity = state().ride.velocity;
-      state().jump_pending = false;
     }
     (void)controller().step(state(), input, among, *companion_.scratch, report());
     memory.bodies.clear();
@@ -168,8 +167,8 @@ struct TogetherScratch::Turns {
   [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within) const;
   [[nodiscard]] bool is_clear(std::size_t i) const;
   [[nodiscard]] bool may_be_moved(std::size_t i) const;
-  [[nodiscard]] bool is_crushed_by(std::size_t i, bool by_others) const;
-  [[nodiscard]] bool was_late(std::size_t i) const;
+  [[nodiscard]] bool is_crushed(std::size_t i, bool by_others) const;
+  [[nodiscard]] bool comes_late(std::size_t i) const;
   void find_near();
   void add_near(std::size_t i);
   void add_to_group(std::size_t i);
@@ -229,7 +228,12 @@ Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
     others.clear();
     for (const std::size_t other : me.near)
       if (!without || !contains(me.yielding, other)) others.push_back({other, motion_of(other, i, what)});
-    all[i]->state() = me.before;
+    CharacterState& state = all[i]->state();
+    state = me.before;
+    if (what == Try::taken_without_those) {
+      state.velocity = state.ride.velocity;
+      state.jump_pending = false;
+    }
     all[i]->step(others, what == Try::taken_without_those);
     if (is_refused(report_of(i).status)) break;
     const Box2 way = all[i]->controller().reach(report_of(i).move);
@@ -338,11 +342,21 @@ void TogetherScratch::Turns::take_turn(std::size_t i) {
   end_turn(i);
 }
 
-/// @param by_others whether one of the others crushes it, else whether anything else does.
-bool TogetherScratch::Turns::is_crushed_by(std::size_t i, bool by_others) const {
+/// @param by_others whether one of the others crushes it, else whether anything does.
+bool TogetherScratch::Turns::is_crushed(std::size_t i, bool by_others) const {
   const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
   return std::any_of(crushed.begin(), crushed.end(),
-                     [&](ColliderIndex collider) { return (owner_of(collider, i) != nobody) == by_others; });
+                     [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
+}
+
+/// Whether one is crushed beside another whose turn began sooner: that one might have given way.
+bool TogetherScratch::Turns::comes_late(std::size_t i) const {
+  const MoveResult& move = report_of(i).move;
+  return std::any_of(move.contacts.begin(), move.contacts.end(), [&](const Contact& contact) {
+    const std::size_t other = owner_of(contact.collider, i);
+    const bool crushes = std::find(move.crushed.begin(), move.crushed.end(), contact.collider) != move.crushed.end();
+    return other != nobody && !crushes && members[other].began < members[i].began;
+  });
 }
 
 /// A carrier that climbs a stair, or is stopped, has another velocity than its way has.
@@ -359,21 +373,15 @@ void TogetherScratch::Turns::take_velocity_of_carrier(std::size_t i) {
 
 void TogetherScratch::Turns::end_turn(std::size_t i) {
   Member& me = members[i];
-  if (!is_refused(report_of(i).status) && (is_crushed_by(i, true) || !is_clear(i))) attempt(i, Try::past_what_stands);
+  if (!is_refused(report_of(i).status)) {
+    me.is_late = is_crushed(i, false) && comes_late(i);
+    if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
+  }
   take_velocity_of_carrier(i);
   me.to = all[i]->state().position;
   me.velocity = all[i]->state().velocity;
   me.has_gone = true;
   turn_of[i] = turns++;
-}
-
-/// Whether movers crushed one beside another that it could not let go first: that one might have given way.
-bool TogetherScratch::Turns::was_late(std::size_t i) const {
-  const std::vector<Contact>& contacts = report_of(i).move.contacts;
-  return is_crushed_by(i, false) && std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
-           const std::size_t other = owner_of(contact.collider, i);
-           return other != nobody && members[other].began < members[i].began;
-         });
 }
 
 /// Two may meet where the boxes overlap that their steps may touch.
@@ -423,7 +431,7 @@ void TogetherScratch::Turns::let_take_turns() {
     std::sort(group.begin(), group.end());
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
-      members[i].has_gone = members[i].waits = false;
+      members[i].has_gone = members[i].waits = members[i].is_late = false;
     }
     for (const std::size_t i : first)
       if (is_still(i)) take_turn(i);
@@ -431,7 +439,7 @@ void TogetherScratch::Turns::let_take_turns() {
       if (is_still(group[k])) take_turn(group[k]);
     const std::size_t known = first.size();
     for (const std::size_t i : group)
-      if (was_late(i) && !contains(first, i)) first.push_back(i);
+      if (members[i].is_late && !contains(first, i)) first.push_back(i);
     if (first.size() == known) return;
   }
 }

@@ -54,7 +54,7 @@ class TurnTaker {
   /// Whether a collider that it met is the body of another.
   [[nodiscard]] virtual bool is_body_of(ColliderIndex collider, std::size_t other) const = 0;
   /// Makes its step from its state.
-  /// @param others those that are there. @param is_taken it goes only as movers take it: no input, no gravity.
+  /// @param others those that are there. @param is_taken without input and gravity: it goes only as movers take it.
   virtual void step(std::span<const Other> others, bool is_taken) = 0;
 };
 

@@ -192,8 +192,16 @@ class Hero {
   void restore(const HeroSave& save);
 
  private:
+  friend void step_together(std::span<Hero* const> heroes, std::span<const Input> inputs, double dt);
   struct Impl;
+  class Turn;
   std::unique_ptr<Impl> impl_;
 };
+
+/// One step of several heroes of one world that may be in each other's way, instead of `step` for each: they take
+/// turns, as in `paperproof::step_together`. Who stands on another is carried, also up; who is pushed pushes on.
+/// @param heroes each once. Their order is that of the turns where none is in the way of another.
+/// @param inputs one for each. `Hero::report` says of each how its step went.
+void step_together(std::span<Hero* const> heroes, std::span<const Input> inputs, double dt);
 
 }  // namespace paperproof::box2d
