@@ -83,6 +83,8 @@ class Step:
         self.told = f"character {self.who} " if header.get("characters", 1) > 1 else ""
         self.sampled = record.get("path_exact") is False
         self.path = exact(record["path"])
+        self.turn = record.get("turn")  # its place in the order of the step; None where all move at once
+        self.pushed = False  # by another in its turn
         self.contacts = record["contacts"]
         self.dt = record.get("dt", header["dt"])
         self.up = vector(record.get("up", header["up"]))
@@ -128,7 +130,7 @@ class Checker:
         self.legs = Legs(self.world, header["character"])
         self.ground = Ground(self.world, header["character"]["max_climb_degrees"])
         self.scripts = Scripts(header, self.world)
-        self.company = Company(self.body)
+        self.company = Company(self.body, self.ground.walkable)
         self.intents = [Intent(header, start) for start in header["starts"]]
         self.last = {}  # by character: the step before,
         self.repeated = collections.Counter()  # how often it has been the same,
@@ -172,6 +174,9 @@ class Checker:
                 yield self.fatal(record, f"{together[-1].told}cannot be judged: {words}")
                 return
             if len(together) == self.count:
+                turns = [step.turn for step in together]
+                if turns != [None] * self.count and set(turns) != set(range(self.count)):
+                    raise ValueError(f"step {record['step']}: the turns are {turns}: expected another one of each, or none")
                 yield from self.check_together(together)
                 together = []
         if record is None:
@@ -189,9 +194,11 @@ class Checker:
         for step in together:
             step.last = self.last.get(step.who)
             others = [other for other in together if other is not step]
+            step.pushed = any(self.company.pushes(other, step) for other in others)
             yield from ((step.record, clause, step.told + words) for clause, words in self.check_alone(step, others))
-        for one, other in itertools.combinations(together, 2):
-            faults = list(self.company.check(one, other))
+        pairs = itertools.combinations if together[0].turn is None else itertools.permutations
+        for one, other in pairs(together, 2):
+            faults = list(self.company.check(one, other)) if one.who < other.who else []
             if self.asks("time_of_impact", "contact_invented", "normal") and not one.sampled:
                 faults += self.company.check_met(one, other, self.is_turned)
             yield from ((one.record, clause, one.told + words) for clause, words in faults)
@@ -312,7 +319,7 @@ class Checker:
 
     def room(self, step, others):
         return Room(self.world, step.motion, self.sides[step.who],
-                    lambda way: all(self.company.leaves_free(way, other.path) for other in others))
+                    lambda way: all(self.company.leaves_free(way, self.company.stands(other, step)) for other in others))
 
     def check_crush(self, step, others):
         named = step.get("crush", [])
@@ -465,8 +472,8 @@ class Checker:
     def check_impacts(self, step):
         """What the wanted motion meets first, and when."""
         path, record, motion = step.path, step.record, step.motion
-        if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.in_parts:
-            self.skip("contact_missed", "begins inside, crushed or stuck, or goes in parts")
+        if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.in_parts or self.is_pushed_unsaid(step):
+            self.skip("contact_missed", "begins inside, crushed, stuck or pushed, or goes in parts")
             return
         events = [(Fraction(contact["fraction"]), contact) for contact in step.contacts]
         first, contact = min(events, key=lambda event: event[0], default=(Fraction(1), None))
@@ -481,6 +488,10 @@ class Checker:
             if motion.turns(name) or name in step.get("drop", []):
                 continue
             yield from self.check_impact(name, contact, first, follows, step)
+
+    def is_pushed_unsaid(self, step):
+        """By another, which its own motion did not meet."""
+        return step.pushed and not step.get("met")
 
     def is_pushed(self, step):
         """Whether something that moves comes near to the way that was travelled, or wanted."""
@@ -582,8 +593,10 @@ class Checker:
         if record["start_overlap"] or step.get("crush") or self.world.overlapped(motion, path[-1]):
             self.skip("hanging", "inside of something")
             return
-        edges = [edge for other in others if size(less(other.path[-1][:2], path[-1][:2])) <= 2 * sum(self.company.size)
-                 for edge in sides(shifted(self.body, other.path[-1][:2]))]
+        def is_near(place):
+            return size(less(place[:2], path[-1][:2])) <= 2 * sum(self.company.size)
+
+        edges = [edge for other in others if is_near(other.path[-1]) for edge in sides(shifted(self.body, other.path[-1][:2]))]
         before = path[-2]
         if record["grounded"] and self.asks("ground_invented"):
             if not self.ground.is_grounded(motion, path[-1], step.up, before, edges):
@@ -593,7 +606,8 @@ class Checker:
         if self.asks("hanging"):
             across = (step.up[1], -step.up[0])
             unsteered = less(step.wanted, scaled(across, step.steered))
-            hangs = self.ground.hangs(motion, path, step.up, unsteered, step.get("drop", []), edges)
+            beside = edges or any(is_near(self.company.stands(other, step)[-1]) for other in others)
+            hangs = self.ground.hangs(motion, path, step.up, unsteered, step.get("drop", []), beside)
             if hangs is None:
                 self.skip("hanging", "beside what moves, or another character")
             elif hangs:
@@ -626,8 +640,9 @@ class Checker:
         if not self.asks("speed_lost", "velocity"):
             return
         record, frame = step.record, step.frame
-        if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.get("dropped") or step.in_parts:
-            self.skip("speed_lost", "begins inside, crushed, stuck or dropped, or goes in parts")
+        if (record["start_overlap"] or step.get("crush") or step.get("stuck") or step.get("dropped") or step.in_parts
+                or self.is_pushed_unsaid(step)):
+            self.skip("speed_lost", "begins inside, crushed, stuck, dropped or pushed, or goes in parts")
             return
         want = [float(x) / step.dt for x in step.wanted]
         have, made = record["velocity"], [float(x) / step.dt for x in step.way()]

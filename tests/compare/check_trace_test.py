@@ -35,6 +35,16 @@ SEE_SAW = {
     "movers": [{"id": "plank", "polygon": [[-4, -0.5], [4, -0.5], [4, 0], [-4, 0]], "path": [{"t": 0, "at": [0, 0]}],
                 "angle": [{"t": 0, "at": -0.02}, {"t": 2, "at": 0.02}, {"t": 4, "at": -0.02}], "loop": "loop"}],
     "input": [{"step": 0, "move": 0}, {"step": 30, "move": 1}, {"step": 50, "move": 0}]}
+# A lift takes up a character, another one on its head, and a third that walks against it.
+TURNS = {
+    "paperproof_scene": 1, "name": "turns", "pixels_per_metre": 32, "gravity": [0, -32], "dt": 1 / 64, "steps": 40,
+    "character": {"position": [0, 0.6250005], "velocity": [0, 0], "walk_speed": 4, "acceleration": 64},
+    "characters": [{"position": [0, 1.875002], "velocity": [0, 0], "input": [{"step": 0, "move": 0}]},
+                   {"position": [2, 0.6250005], "velocity": [0, 0], "input": [{"step": 0, "move": -1}]}],
+    "scenery": [{"id": "far", "polygon": [[-9, -9], [9, -9], [9, -8], [-9, -8]]}],
+    "movers": [{"id": "lift", "polygon": [[-3, -1], [3, -1], [3, 0], [-3, 0]],
+                "path": [{"t": 0, "at": [0, 0]}, {"t": 0.25, "at": [0, 0]}, {"t": 0.75, "at": [0, 1]}]}],
+    "input": [{"step": 0, "move": 0}]}
 BUILT_IN = ("closing_ceiling", "one_way_drop", "turning_arm", "land_on_circle", "two_on_a_lift", "characters_head_on",
             "start_overlapping_deep")
 STUCK = {
@@ -60,7 +70,18 @@ FIRST = {
     "meets": lambda step, _: "met" in step,
     "drops": lambda step, _: "drop" in step,
     "is crushed": lambda step, _: "crush" in step,
-    "touches": lambda step, _: step["contacts"]}
+    "touches": lambda step, _: step["contacts"],
+    # In turns.
+    "walks to another": lambda step, _: step["character"] == 2 and step["velocity"][0] == -4,
+    "comes to another": lambda step, _: step["character"] == 2 and "met" in step and step["path"][0][0] - step["path"][-1][0] > 0.01,
+    "goes up on a head": lambda step, _: step["character"] == 1 and step["velocity"][1] > 1}
+
+
+def in_turns(step):
+    """Who stands on a head goes before the head goes up, and who walks goes last. Whom no own motion meets is not told."""
+    step["turn"] = {0: 1, 1: 0, 2: 2}[step["character"]]
+    if step["character"] == 0:
+        step.pop("met", None)
 
 
 def at(what, change):
@@ -112,6 +133,17 @@ def all_moved(by_x, by_y, first_corner=1):
         for contact in step["contacts"]:
             contact["separation"] += by_y
     return change
+
+
+def met_by(ago, character, normal, side):
+    """That one of the records before has met another at the same time."""
+    def change(step, steps, k):
+        steps[k - ago]["met"] = [{"character": character, "normal": normal, "fraction": step["met"][0]["fraction"], "side": side}]
+    return change
+
+
+def head_goes_first(step, steps, k):
+    step["turn"], steps[k - 1]["turn"] = 1, 0
 
 
 def one_ulp_on(step, steps, k):
@@ -211,6 +243,13 @@ SPOILT = [
     ("two that do not say the same", "characters_head_on", at("meets", put("met", 0, "normal", to=lambda n: [-x for x in n])), "contact_invented"),
     ("two that met earlier", "characters_head_on", at("meets", lambda step, steps, k: [
         met.update(fraction=met["fraction"] / 2) for one in (step, steps[k + 1]) for met in one["met"]]), "time_of_impact"),
+    ("a way through one that stands", "turns", at("comes to another", detour(-2, 1.2)), "passage"),
+    ("an end in one that went before", "turns", at("comes to another", end_moved(-0.1, 0)), "overlap"),
+    ("a head that goes up before who stands on it", "turns", at("goes up on a head", head_goes_first), "passage"),
+    ("a meeting that was none", "turns", at("walks to another", put("met", to=[
+        {"character": 0, "normal": [1, 0], "fraction": 0.5, "side": "left"}])), "contact_invented"),
+    ("a meeting with who came later", "turns", at("comes to another", met_by(2, 2, [-1, 0], "right")), "contact_invented"),
+    ("a meeting that was later", "turns", at("comes to another", put("met", 0, "fraction", to=lambda t: t / 2)), "time_of_impact"),
     ("hanging for 10 steps above what turns", "see_saw", at("is just above", hanging(10)), "hanging"),
     ("grounded in the air above what turns", "see_saw", at("is just above", put("grounded", to=True)), "ground_invented"),
     ("not grounded on what turns", "see_saw", at("rides", put("grounded", to=False)), "ground_missed"),
@@ -234,10 +273,15 @@ class Checking(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        files = [Path(cls.folder.name) / (scene["name"] + ".json") for scene in (YARD, STUCK, SEE_SAW)]
-        for file, scene in zip(files, (YARD, STUCK, SEE_SAW)):
+        scenes = (YARD, STUCK, SEE_SAW, TURNS)
+        files = [Path(cls.folder.name) / (scene["name"] + ".json") for scene in scenes]
+        for file, scene in zip(files, scenes):
             write(file, [scene])
         cls.good = traces_of(COMMAND, cls.folder.name, *files, *BUILT_IN)
+        header, *steps = read(cls.good["turns"])
+        for step in steps:
+            in_turns(step)
+        write(cls.good["turns"], [header, *steps])
 
     def expect_found(self, path, clause):
         """By the command."""
@@ -252,7 +296,9 @@ class Checking(unittest.TestCase):
         spoil(header, steps)
         self.assertNotEqual(before, (header, steps), "nothing was changed")
         if header == before[0] and len(steps) == len(before[1]):  # what comes long after the first change is checked elsewhere
-            del steps[next(k for k, (new, old) in enumerate(zip(steps, before[1])) if new != old) + 16:]
+            count = header.get("characters", 1)
+            first = next(k for k, (new, old) in enumerate(zip(steps, before[1])) if new != old)
+            del steps[(first // count + 16) * count:]
         path = Path(self.folder.name) / "spoilt.jsonl"
         write(path, [header, *steps])
         return path
@@ -265,6 +311,16 @@ class Checking(unittest.TestCase):
                 self.assertIn("contacts, 0 violations", said)
                 self.assertEqual(call(COMMAND, "judge", path)[0], 0)
                 self.assertIn(" 0 broken of 21 clauses asked", call(COMMAND, "judge", "--all", path)[1])
+
+    def test_turns_are_of_all_characters_or_none_and_each_of_one(self):
+        for what, spoil in (("one without", lambda _, steps: steps[4].pop("turn")), ("one twice", lambda _, steps: steps[4].update(turn=1)),
+                            ("one too many", lambda _, steps: steps[5].update(turn=3))):
+            with self.subTest(what):
+                path = self.spoilt("turns", spoil)
+                for judge in (CHECKER, (COMMAND, "judge")):
+                    status, said, error = call(*judge, path)
+                    self.assertEqual((status, len(error.splitlines())), (2, 1), said + error)
+                    self.assertIn("step 1: ", error)
 
     def test_what_is_spoilt_is_found_and_named(self):
         for what, scene, spoil, clause in SPOILT:

@@ -1,7 +1,7 @@
 """Several characters in a trace, for check_trace.py: where they come to overlap, and whether they say so."""
 
 from trace_geometry import (
-    GAP, GRAZING, NEAR_PASS, ZERO, Fraction, add, between, dot, enters, hull, less, scaled, size, vector)
+    GAP, GRAZING, NEAR_PASS, ZERO, Fraction, add, between, dot, enters, hull, less, scaled, sides, size, turn, vector)
 
 
 def places_at(way, t):
@@ -29,9 +29,11 @@ def parts(one, other):
 
 
 class Company:
-    """Several characters of one shape: they overlap where the difference of their places is inside `reach`."""
+    """Several characters of one shape: they overlap where the difference of their places is inside `reach`. Where they
+    take turns, one moves while the others stand: those before it where they ended, those after it where they began."""
 
-    def __init__(self, body):
+    def __init__(self, body, walkable):
+        self.walkable = walkable  # cosine of the steepest ground
         self.reach = hull([less(a, b) for a in body for b in body])
         self.size = [float(max(corner[k] for corner in self.reach)) for k in (0, 1)]
 
@@ -51,8 +53,40 @@ class Company:
         """Whether another's way keeps clear of a way of (x, y, fraction) from 0 to 1."""
         return not any(self.meet(*part) for part in parts(way, other))
 
+    def stands(self, other, one):
+        """The way of another in the turn of one; its own where they take no turns."""
+        if one.turn is None:
+            return other.path
+        at = other.path[-1 if other.turn < one.turn else 0][:2]
+        return [(*at, ZERO), (*at, Fraction(1))]
+
+    def sides_between(self, place, of):
+        """(gap along it, unit normal towards the place, rounded) of each side of two that may keep them apart."""
+        for a, b in sides(self.reach):
+            along = less(b, a)
+            yield float(turn(b, a, less(place, of))) / size(along), [float(along[1]) / size(along), -float(along[0]) / size(along)]
+
+    def pushes(self, other, one):
+        """Whether another moves one in its turn: one stands on it, or it comes after, into where one began."""
+        if one.turn is None:
+            return False
+        mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
+        between_them = list(self.sides_between(mine, start))
+        touches = 0 <= max(gap for gap, _ in between_them) <= GAP
+        if touches and any(gap >= 0 and float(dot(n, one.up)) >= self.walkable for gap, n in between_them):
+            return True
+        return other.turn > one.turn and self.meet((mine, mine), (start, end))
+
+    def acts(self, other, one):
+        """The way of another as one meets it in its turn: straight and even where it moves one, or went before and came no
+        nearer to where one began; else it stands."""
+        mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
+        gaps = [max(gap for gap, _ in self.sides_between(mine, at)) for at in (start, end)]
+        even = self.pushes(other, one) or (other.turn < one.turn and gaps[1] >= gaps[0] - 1e-12)
+        return [(*start, ZERO), (*end, Fraction(1))] if even else self.stands(other, one)
+
     def check(self, one, other):
-        """Two steps at the same time: (clause, words)."""
+        """Two steps at the same time, or in turns: (clause, words)."""
         mine, theirs = one.path, other.path
         overlapped = self.meet(mine[:1] * 2, theirs[:1] * 2)
         for a, b in ((one, other), (other, one)):
@@ -64,14 +98,21 @@ class Company:
             mine, theirs = [mine[0], mine[-1]], [theirs[0], theirs[-1]]
         if self.meet(mine[-1:] * 2, theirs[-1:] * 2):
             yield "overlap", f"and character {other.who} come to overlap or pass through each other"
-        elif not self.leaves_free(mine, theirs):
+        elif one.turn is not None and not self.leaves_free(self.stands(one, other), theirs):
+            yield "passage", f"is where character {other.who} goes in its turn"
+        elif not self.leaves_free(mine, theirs if one.turn is None else self.stands(other, one)):
             yield "passage", f"and character {other.who} come to overlap or pass through each other"
 
     def check_met(self, one, other, is_turned):
-        """What two say of how they met. `is_turned(step, fraction)`: something may have turned it aside before."""
+        """What two say of how they met; in turns what one says. `is_turned(step, fraction)`: something may have turned it
+        aside before."""
         of_one, of_other = ([met for met in a.get("met", []) if met["character"] == b.who]
                             for a, b in ((one, other), (other, one)))
-        if [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
+        theirs, goes = other.path, other.wanted
+        if one.turn is not None:
+            theirs = self.acts(other, one)
+            goes = less(theirs[-1], theirs[0])
+        elif [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
                 (met["normal"], met["fraction"]) for met in of_other]:
             yield "contact_invented", f"and character {other.who} do not say the same of how they met"
             return
@@ -79,23 +120,29 @@ class Company:
             n = vector(met["normal"])
             if abs(met["normal"][0] ** 2 + met["normal"][1] ** 2 - 1) > 1e-12:
                 yield "normal", f"has a normal that is no unit vector at character {other.who}"
-            moments = [(m[k], t[k]) for m, t in parts(one.path, other.path) for k in (0, 1)]
+            moments = [(m[k], t[k]) for m, t in parts(one.path, theirs) for k in (0, 1)]
             gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
+            then = [places_at(way, Fraction(met["fraction"])) for way in (one.path, theirs)]
+            apart = min(dot(n, less(m, t)) for m in then[0] for t in then[1]) - self.width(n)
             if not any(0 < gap <= GAP for gap in gaps):
                 yield "contact_invented", (f"and character {other.who} have met, and at no corner are within 1e-6 m: "
                                            f"{[float(gap) for gap in gaps]}")
-            elif not is_turned(one, met["fraction"]) and not is_turned(other, met["fraction"]):
-                yield from self.check_impact(one, other, n, Fraction(met["fraction"]))
+            elif one.turn is not None and apart > 2 * GAP:
+                yield "time_of_impact", f"says it met character {other.who} at {met['fraction']}, {float(apart)} m away"
+            elif not is_turned(one, met["fraction"]) and (one.turn is not None or not is_turned(other, met["fraction"])):
+                yield from self.check_impact(one, other, theirs[0][:2], goes, n, Fraction(met["fraction"]))
 
-    def check_impact(self, one, other, n, t):
-        along = -dot(n, less(one.wanted, other.wanted))
-        if along <= GRAZING * size(less(one.wanted, other.wanted)):
+    def check_impact(self, one, other, theirs, goes, n, t):
+        """`theirs`, `goes`: where the other begins, and its way."""
+        along = -dot(n, less(one.wanted, goes))
+        if along <= GRAZING * size(less(one.wanted, goes)):
             return  # what holds one of them, a micrometre away, turns it into the other
         slack = GAP / along
 
         def meet_until(time, wide=ZERO):
-            mine, theirs = ((step.path[0][:2], add(step.path[0][:2], scaled(step.wanted, time))) for step in (one, other))
-            return self.meet((mine[0], add(mine[1], scaled(n, -wide))), theirs)
+            mine = one.path[0][:2]
+            end = add(add(mine, scaled(one.wanted, time)), scaled(n, -wide))
+            return self.meet((mine, end), (theirs, add(theirs, scaled(goes, time))))
 
         if t > slack and meet_until(t - slack):
             yield "time_of_impact", f"meets character {other.who} earlier than at {float(t)} of the step"
