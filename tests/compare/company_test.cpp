@@ -248,5 +248,122 @@ TEST(CompanyJudge, two_that_hold_hold_for_as_long_as_they_touch) {
   }
 }
 
+/// The one goes before the other, or after it.
+std::array<TraceStep, 2> in_turns(TraceStep one, CharacterIndex turn, TraceStep other) {
+  one.turn = turn;
+  other.turn = 1 - turn;
+  other.character = 1;
+  return {std::move(one), std::move(other)};
+}
+
+TEST(CompanyJudge, in_turns_each_goes_while_the_other_stands) {
+  const TraceStep comes = step({{-2, 0}, {0, 0}});
+  const TraceStep through = step({{-2, 0}, {2, 0}});
+  const TraceStep leaves = step({{0, 0}, {2, 0}});
+  const TraceStep goes_up = step({{0, 0}, {0, 3}});
+  const TraceStep falls = step({{0, 3}, {0, 0}});
+  using Row = std::tuple<const char*, TraceStep, CharacterIndex, TraceStep, const char*>;
+  for (const auto& [what, one, turn, other, told] :
+       {Row{"to where the other was", comes, 1, leaves, ""}, Row{"where it still is", comes, 0, leaves, "passed "},
+        Row{"through where it was", through, 1, goes_up, ""}, Row{"where it still is", through, 0, goes_up, "passed "},
+        Row{"through where it is by then", through, 1, falls, "passed "},
+        Row{"where it will be", through, 0, falls, ""}, Row{"to where it ended", comes, 1, falls, "inside entered "},
+        Row{"the other goes through where it ended", falls, 0, through, "passed "},
+        Row{"the other goes to where it was", leaves, 0, comes, ""},
+        Row{"a rim cut by less than the slop", through, 1, resting({0, 1.246}), "corner cut "}}) {
+    const auto steps = in_turns(one, turn, other);
+    EXPECT_EQ(told_of_other(Two()(steps[0], steps[1])), told) << what;
+  }
+  EXPECT_EQ(told_of_other(Two()(comes, leaves)), "") << "at the same time";
+}
+
+TEST(CompanyJudge, in_turns_another_goes_evenly_where_it_carries_leaves_or_pushes_and_else_stands) {
+  const CompanyJudge judge(company_of(2));
+  const Vec2d beside(width + gap, 0);
+  const Vec2d below(0, -2 * half_height - gap);
+  const Vec2d right(0.125, 0);
+  const Vec2d up(0, 0.125);
+  for (const auto& [what, turn, from, to, begin, end] :
+       {std::tuple{"its ground, which rises later", 0U, below, Vec2d(below + up), 0, 1},
+        {"its ground, which goes aside later", 0U, below, Vec2d(below + right), 0, 1},
+        {"its ground, which has sunk", 1U, below, Vec2d(below - up), 0, 1},
+        {"has left", 1U, beside, Vec2d(beside + right), 0, 1},
+        {"will leave", 0U, beside, Vec2d(beside + right), 0, 0},
+        {"has come near", 1U, Vec2d(beside + right), beside, 1, 1},
+        {"will come near", 0U, Vec2d(beside + right), beside, 0, 0},
+        {"will come in", 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 1},
+        {"above it, and will rise", 0U, Vec2d(-below), Vec2d(up - below), 0, 0}}) {
+    TraceStep other = step({from, from + Vec2d(0, -3), to}, Vec2d(9, 9), {contact(0, {0, 1})});
+    other.met = {{.other = 0}};
+    const auto steps = in_turns(resting({0, 0}), turn, other);
+    const std::vector<TraceStep> acting = judge.acting_on(0, steps);
+    const TraceStep& acts = acting.at(1);
+    EXPECT_EQ(acts.path.front().position, begin == 0 ? from : to) << what;
+    EXPECT_EQ(acts.path.back().position, end == 0 ? from : to) << what;
+    EXPECT_EQ(acts.path.size(), 2U) << what;
+    EXPECT_EQ(acts.requested, acts.path.back().position - acts.path.front().position) << what;
+    EXPECT_TRUE(acts.contacts.empty() && acts.met.empty()) << what;
+    EXPECT_EQ(acting[0].requested, steps[0].requested) << what;
+  }
+  EXPECT_TRUE(judge.acting_on(0, std::array{resting({0, 0}), resting(beside)}).empty()) << "at the same time";
+}
+
+/// What is said of the first of two that take turns, whose fall is wanted.
+StepJudgement judged_in_turns(const std::array<TraceStep, 2>& steps) {
+  const TraceHeader two = company_of(2);
+  const CompanyJudge company(two);
+  const std::vector<TraceStep> acting = company.acting_on(0, steps);
+  const Wanted wanted = wanting(steps[0].requested);
+  return Judge(two).judge(steps[0], company.others_of(0, steps, acting), &wanted);
+}
+
+TEST(CompanyJudge, in_turns_a_fall_ends_at_where_the_other_stands_then) {
+  // Both fall, and 0.03 m are between them.
+  const Vec2d fall(0, -0.1);
+  TraceStep stops = step({{0, 2 * half_height + 0.03}, {0, 2 * half_height + gap}, {0, 2 * half_height + gap}}, fall);
+  stops.velocity.setZero();
+  const TraceStep below = step({{0, 0}, fall});
+  EXPECT_FALSE(judged_in_turns(in_turns(stops, 0, below)).hangs) << "the other falls later";
+  EXPECT_TRUE(judged_in_turns(in_turns(stops, 1, below)).hangs) << "it has fallen";
+}
+
+TEST(CompanyJudge, in_turns_only_a_head_that_is_stood_on_lifts_before_it_goes) {
+  const Vec2d up(0, 0.1);
+  const TraceStep head = step({{0, 0}, up});
+  for (const auto& [above, lifts] : {std::pair{gap, true}, {0.05, false}}) {
+    const Vec2d begin(0, 2 * half_height + above);
+    TraceStep rides = step({begin, begin + up}, Vec2d(0, -0.01));
+    rides.grounded = lifts;
+    const StepJudgement judged = judged_in_turns(in_turns(rides, 0, head));
+    EXPECT_EQ(judged.way_gained == 0 && judged.speed_gained == 0, lifts) << above;
+    EXPECT_EQ(judged.hangs, !lifts) << above;
+    EXPECT_FALSE(judged.ground_refuted) << above;
+  }
+}
+
+TEST(CompanyJudge, in_turns_there_is_room_where_the_other_is_not_then_and_ground_where_all_have_ended) {
+  const CompanyJudge judge(company_of(2));
+  const Way there{{{-2, 0}, 0}, {{0, 0}, 1}};
+  TraceStep stands = resting({0, 3 + 2 * half_height + gap}, Vec2d(0, -0.01));
+  stands.grounded = true;
+  for (const CharacterIndex turn : {0U, 1U}) {
+    const auto leaves = in_turns(resting({-2, 0}), turn, step({{0, 0}, {0, 3}}));
+    EXPECT_EQ(judge.others_of(0, leaves, judge.acting_on(0, leaves)).left_free(there), turn == 1);
+    EXPECT_FALSE(judged_in_turns(in_turns(stands, turn, step({{0, 0}, {0, 3}}))).ground_refuted);
+    EXPECT_TRUE(judged_in_turns(in_turns(stands, turn, step({{0, 3}, {0, 0}}))).ground_refuted);
+  }
+}
+
+TEST(CompanyJudge, in_turns_who_is_pushed_need_not_say_so) {
+  const CompanyJudge judge(company_of(2));
+  const Vec2d left(-0.125, 0);
+  for (const auto& [wanted, must] : {std::pair{Vec2d(0, -0.01), false}, {Vec2d(0.01, 0), true}}) {
+    const Vec2d beside(width + gap, 0);
+    const auto steps = in_turns(step({{0, 0}, left}, wanted), 0, step({beside, beside + left}));
+    const std::vector<TraceStep> acting = judge.acting_on(0, steps);
+    EXPECT_EQ(judge.must_meet(acting[0], acting[1]), must);
+  }
+}
+
 }  // namespace
 }  // namespace paperproof::compare::test
