@@ -2,6 +2,7 @@
 #include <paperproof/scenery.hpp>
 
 #include <algorithm>
+#include <new>
 
 #include "inlining.hpp"
 #include "intent.hpp"
@@ -14,6 +15,21 @@ namespace paperproof {
 
 using namespace intent;
 using namespace step_parts;
+
+namespace {
+
+/// Refuses a step for which there is no memory. What the scratch holds is no longer known, so that no controller takes
+/// it any more.
+/// @param before how the state was.
+PAPERPROOF_COLD StepStatus refuse_without_memory(const Intended& before, CharacterState& state, Scratch& scratch,
+                                                 StepReport& report) {
+  intended(state) = before;
+  scratch.maker.reset();
+  report.move.refusal = "out of memory: make another scratch";
+  return report.status = report.move.status = StepStatus::refused;
+}
+
+}  // namespace
 
 DesiredVelocity desired_velocity(const CharacterDef& character, const Vec2d& gravity, const Input& input, double dt,
                                  CharacterState& state, bool wall_ahead) noexcept {
@@ -42,7 +58,7 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
 }
 
 PAPERPROOF_INLINE bool Controller::accepts(const CharacterState& state, const Input& input,
-                                           const StepContext& context) const noexcept {
+                                           const StepContext& context) const {
   return context.dt > 0 && context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
          finite(state, input, context.gravity, context.dt, context.movers);
 }
@@ -50,7 +66,7 @@ PAPERPROOF_INLINE bool Controller::accepts(const CharacterState& state, const In
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
 PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& state, double move,
                                                       const StepContext& context, Scratch& scratch,
-                                                      MoveResult& tried) const noexcept {
+                                                      MoveResult& tried) const {
   const double reach = character_.wall_reach;
   const Around here = around(context, scratch);
   const Vec2d there = here.up.in_world({move < 0 ? -reach : reach, 0});
@@ -61,8 +77,7 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
-PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context,
-                                                           const Scratch& scratch) const noexcept {
+PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context, const Scratch& scratch) const {
   const std::vector<PieceIndex>& apart = turning::memory_of(scratch).apart;
   const Moving moving{context.movers.first(scenery_->mover_count() + apart.size()), apart};
   return {moving, filter_of(context), context.up};
@@ -70,8 +85,7 @@ PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& co
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,
                                                                     const Around& here, bool wall_ahead,
-                                                                    CharacterState& state,
-                                                                    StepReport& report) const noexcept {
+                                                                    CharacterState& state, StepReport& report) const {
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride::none) state.velocity -= state.ride.velocity;
   const UpFrame& up = here.up;
@@ -88,7 +102,7 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
 
 /// What the character passed without being stopped. Kept out of `step`, into which all that it calls is inlined.
 PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext& context, Scratch& scratch,
-                                                   StepReport& report) const noexcept {
+                                                   StepReport& report) const {
   const std::span<const PathPoint> path = report.move.path;
   const Around here = around(context, scratch);
   static_cast<Sensors&>(*scratch.sensors).observe(path, here.moving, report.sensors, here.filter);
@@ -96,7 +110,7 @@ PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext&
 }
 
 PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
-                                            CharacterState& state, StepReport& report) const noexcept {
+                                            CharacterState& state, StepReport& report) const {
   if (asks_all_ || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0))
     note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
@@ -104,50 +118,59 @@ PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& contex
 
 PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Input& input, const StepContext& context,
                                                Scratch& scratch, StepReport& report) const noexcept {
-  report.sensors.clear();
-  report.dropped_through.clear();
-  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
-    return report.status = StepStatus::invalid_input;
-  if (needs_turning_step(state, context, scratch)) [[unlikely]]
-    return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
   const Intended before = intended(state);
-  const bool wall_ahead =
-      asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
-  // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  const Around here = around(context, scratch);
-  sweep_->move(begin_step(input, context, here, wall_ahead, state, report), scratch, report.move);
-  report.status = report.move.status;
-  if (is_refused(report.status))
-    intended(state) = before;
-  else
-    end_step(input.drop, context, scratch, state, report);
-  return report.status;
+  try {
+    report.sensors.clear();
+    report.dropped_through.clear();
+    if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
+      return report.status = StepStatus::invalid_input;
+    if (needs_turning_step(state, context, scratch)) [[unlikely]]
+      return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
+    const bool wall_ahead =
+        asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
+    // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
+    const Around here = around(context, scratch);
+    sweep_->move(begin_step(input, context, here, wall_ahead, state, report), scratch, report.move);
+    report.status = report.move.status;
+    if (is_refused(report.status))
+      intended(state) = before;
+    else
+      end_step(input.drop, context, scratch, state, report);
+    return report.status;
+  } catch (const std::bad_alloc&) {
+    return refuse_without_memory(before, state, scratch, report);
+  }
 }
 
 StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, const StepContext& context,
                             Scratch& scratch, StepReport& report) const noexcept {
-  report.sensors.clear();
-  report.dropped_through.clear();
-  const Vec2d velocity = displacement / context.dt;
-  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
-      !FiniteCheck().add(displacement).add(velocity).passed())
-    return report.status = StepStatus::invalid_input;
-  if (needs_turning_step(state, context, scratch))
-    return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
-  report.requested = displacement;
-  report.steered = 0;
-  const Around here = around(context, scratch);
-  sweep_->move({state, displacement, velocity, context.dt, here}, scratch, report.move);
-  report.status = report.move.status;
-  if (is_refused(report.status)) return report.status;
-  note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
-  count_down_coyote(character_, context.dt, state);
-  end_step(false, context, scratch, state, report);
-  return report.status;
+  const Intended before = intended(state);
+  try {
+    report.sensors.clear();
+    report.dropped_through.clear();
+    const Vec2d velocity = displacement / context.dt;
+    if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
+        !FiniteCheck().add(displacement).add(velocity).passed())
+      return report.status = StepStatus::invalid_input;
+    if (needs_turning_step(state, context, scratch))
+      return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
+    report.requested = displacement;
+    report.steered = 0;
+    const Around here = around(context, scratch);
+    sweep_->move({state, displacement, velocity, context.dt, here}, scratch, report.move);
+    report.status = report.move.status;
+    if (is_refused(report.status)) return report.status;
+    note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
+    count_down_coyote(character_, context.dt, state);
+    end_step(false, context, scratch, state, report);
+    return report.status;
+  } catch (const std::bad_alloc&) {
+    return refuse_without_memory(before, state, scratch, report);
+  }
 }
 
 bool Controller::needs_turning_step(const CharacterState& state, const StepContext& context,
-                                    const Scratch& scratch) const noexcept {
+                                    const Scratch& scratch) const {
   if (turning::memory_of(scratch).is_in_part) return false;
   const bool all_there =
       state.crushers.empty() || std::all_of(state.crushers.begin(), state.crushers.end(),
@@ -158,15 +181,27 @@ bool Controller::needs_turning_step(const CharacterState& state, const StepConte
 
 PAPERPROOF_COLD StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,
                                                      const StepContext& context, Scratch& scratch,
-                                                     StepReport& report) const noexcept {
-  return turning::TurningStep(*this, context, scratch, report).step(state, wish);
+                                                     StepReport& report) const {
+  const CharacterState before = state;
+  try {
+    return turning::TurningStep(*this, context, scratch, report).step(state, wish);
+  } catch (const std::bad_alloc&) {
+    state = before;
+    throw;
+  }
 }
 
 StepStatus Controller::wait(CharacterState& state, const StepContext& context, Scratch& scratch,
-                            StepReport& report) const {
+                            StepReport& report) const noexcept {
   if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context))
     return report.status = StepStatus::invalid_input;
-  return turning::TurningStep(*this, context, scratch, report).wait(state);
+  const CharacterState before = state;
+  try {
+    return turning::TurningStep(*this, context, scratch, report).wait(state);
+  } catch (const std::bad_alloc&) {
+    state = before;
+    return refuse_without_memory(intended(state), state, scratch, report);
+  }
 }
 
 std::span<const TurnedCollider> Controller::turned(const Scratch& scratch) noexcept {
@@ -192,19 +227,25 @@ Box2 Controller::reach(const MoveResult& move) const noexcept {
 /// then the answer is an empty one.
 template <class Ask>
 auto Controller::answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
-                        Scratch& scratch, const Ask& ask) const noexcept {
+                        Scratch& scratch, const Ask& ask) const {
   const bool is_answered = is_made_by(sweep_, scratch.maker) && in_range(position) &&
                            in_range(Vec2d(position + displacement)) && within <= Tolerances{}.range &&
                            context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
                            (context.movers.empty() || finite(context.movers, 1.0));
-  if (!is_answered) return decltype(ask(Around{})){};
+  using Answer = decltype(ask(Around{}));
+  if (!is_answered) return Answer{};
   const Box2 box = Box2::between(position, position + displacement) + character_.shape.box();
   StepContext posed = context;
   std::optional<turning::TurningStep> question;
-  if (any_angle(context.movers))
-    posed.movers = question.emplace(*this, context, scratch, turning::memory_of(scratch).of_part)
-                       .hold_angles(box.inflated(within));
-  return ask(around(posed, scratch));
+  try {
+    if (any_angle(context.movers))
+      posed.movers = question.emplace(*this, context, scratch, turning::memory_of(scratch).of_part)
+                         .hold_angles(box.inflated(within));
+    return ask(around(posed, scratch));
+  } catch (const std::bad_alloc&) {
+    scratch.maker.reset();
+    return Answer{};
+  }
 }
 
 std::optional<Contact> Controller::cast(const Vec2d& position, const Vec2d& displacement, const StepContext& context,

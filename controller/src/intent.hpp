@@ -11,8 +11,7 @@
 
 namespace paperproof::intent {
 
-PAPERPROOF_INLINE double steered(const CharacterDef& character, const CharacterState& state, double move,
-                                 double dt) noexcept {
+PAPERPROOF_INLINE double steered(const CharacterDef& character, const CharacterState& state, double move, double dt) {
   const double acceleration =
       state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
   const double target = std::clamp(move, -1.0, 1.0) * character.walk_speed;
@@ -20,8 +19,7 @@ PAPERPROOF_INLINE double steered(const CharacterDef& character, const CharacterS
   return state.velocity.x() + std::clamp(target - state.velocity.x(), -change, change);
 }
 
-inline bool may_jump(const CharacterDef& character, const CharacterState& state, const Input& input,
-                     bool wall_ahead) noexcept {
+inline bool may_jump(const CharacterDef& character, const CharacterState& state, const Input& input, bool wall_ahead) {
   if (state.crushed || state.jumping || !(state.grounded || state.coyote_left > 0)) return false;
   if (!character.no_jump_toward_wall) return true;
   const double move = input.move.value_or(0);
@@ -29,7 +27,7 @@ inline bool may_jump(const CharacterDef& character, const CharacterState& state,
 }
 
 /// Notes a press of the jump button, and ends one that has been pending for too long.
-inline void note_press(const CharacterDef& character, bool pressed, double dt, CharacterState& state) noexcept {
+inline void note_press(const CharacterDef& character, bool pressed, double dt, CharacterState& state) {
   if (pressed && !state.jump_held) {
     state.jump_pending = true;
     if (character.jump_buffer) state.pending_left = *character.jump_buffer;
@@ -43,7 +41,7 @@ inline void note_press(const CharacterDef& character, bool pressed, double dt, C
 
 /// The upward speed after the button was pressed or released, or a press is pending. Kept out of most steps.
 PAPERPROOF_COLD inline double use_button(const CharacterDef& character, const Input& input, bool wall_ahead, double dt,
-                                         CharacterState& state, double upwards) noexcept {
+                                         CharacterState& state, double upwards) {
   note_press(character, input.jump, dt, state);
   const bool released = state.jump_held && !input.jump;
   if (released && state.jumping && upwards > 0) upwards *= character.jump_cut;
@@ -62,8 +60,7 @@ PAPERPROOF_COLD inline double use_button(const CharacterDef& character, const In
 /// leave the ground with the speed of its climb otherwise. A rise that is steeper than walkable ground is no climb, nor
 /// is the speed of ground that moved and is gone.
 /// @param walk speed of the walk from now on.
-PAPERPROOF_COLD inline double slowed_climb(const CharacterDef& character, const CharacterState& state,
-                                           double walk) noexcept {
+PAPERPROOF_COLD inline double slowed_climb(const CharacterDef& character, const CharacterState& state, double walk) {
   const Vec2d& before = state.velocity;
   const double cosine = character.walkable_cosine();
   const double steepest = std::sqrt(1 - cosine * cosine) / cosine;
@@ -73,7 +70,7 @@ PAPERPROOF_COLD inline double slowed_climb(const CharacterDef& character, const 
 }
 
 /// Counted from the first step that begins in the air.
-inline void count_down_coyote(const CharacterDef& character, double dt, CharacterState& state) noexcept {
+inline void count_down_coyote(const CharacterDef& character, double dt, CharacterState& state) {
   if (character.coyote_time > 0)
     state.coyote_left = state.grounded ? character.coyote_time : std::max(state.coyote_left - dt, 0.0);
 }
@@ -81,7 +78,7 @@ inline void count_down_coyote(const CharacterDef& character, double dt, Characte
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
 PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character, const Vec2d& gravity,
                                                   const Input& input, double dt, bool wall_ahead,
-                                                  CharacterState& state) noexcept {
+                                                  CharacterState& state) {
   // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
   double x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const double change = x - state.velocity.x();
@@ -99,7 +96,7 @@ PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character,
 
 /// The members of a state that the intent changes. They are restored if the step is refused later. (A copy of the whole
 /// state costs a tenth of a step.)
-PAPERPROOF_INLINE auto intended(CharacterState& state) noexcept {
+PAPERPROOF_INLINE auto intended(CharacterState& state) {
   return std::tie(state.velocity, state.grounded, state.jumping, state.jump_held, state.jump_pending, state.coyote_left,
                   state.pending_left);
 }

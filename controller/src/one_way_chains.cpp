@@ -37,7 +37,7 @@ void OneWayChains::look_at(const OneWaySegment& segment, std::span<const PathPoi
   }
 }
 
-bool OneWayChains::passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const noexcept {
+bool OneWayChains::passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const {
   const auto& [begin, end] = segment.ends;
   const Vec2d along = end - begin;
   const bool against = Vec2d(-along.y(), along.x()).dot(to - from) < 0;

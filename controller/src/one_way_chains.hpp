@@ -46,7 +46,7 @@ class OneWayChains {
  private:
   void look_at(const OneWaySegment& segment, std::span<const PathPoint> path, const MoverMotion& motion,
                Passed& passed) const;
-  [[nodiscard]] bool passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const noexcept;
+  [[nodiscard]] bool passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const;
 
   FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
   FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.

@@ -28,7 +28,7 @@ struct OpenEnd {
   bool begins;
   PieceIndex piece;
 
-  [[nodiscard]] auto place() const noexcept {
+  [[nodiscard]] auto place() const {
     return std::tuple(mover, filter.category, filter.mask, filter.group, one_way.x(), one_way.y(), at.x(), at.y());
   }
 };
@@ -175,8 +175,7 @@ std::uint32_t OneWaySurfaces::find_frame(const Vec2d& one_way) {
 
 /// Tests every edge that the octagon covers across `one_way`; the other edges are beside the octagon.
 template <class Visit>
-bool OneWaySurfaces::all_edges_below(const Surface& surface, const Vec2d& position,
-                                     const Visit& is_below) const noexcept {
+bool OneWaySurfaces::all_edges_below(const Surface& surface, const Vec2d& position, const Visit& is_below) const {
   constexpr double margin = Tolerances{}.certain;
   const Frame& frame = frames_[surface.frame];
   const double at = frame.across.x() * position.x() + frame.across.y() * position.y();
@@ -197,7 +196,7 @@ bool OneWaySurfaces::all_edges_below(const Surface& surface, const Vec2d& positi
 /// The largest separation of an edge from the octagon and all that lies above it [m], or the first separation that is
 /// certainly above zero; negative where the edge overlaps them. For an end that is extended to infinity, only an axis
 /// along which the extension does not come nearer can separate.
-double OneWaySurfaces::separation(const Surface& surface, std::uint32_t index, const Vec2d& position) const noexcept {
+double OneWaySurfaces::separation(const Surface& surface, std::uint32_t index, const Vec2d& position) const {
   const Edge& edge = edges_[surface.first_edge + index];
   constexpr double enough = Tolerances{}.certain;
   double best = edge.normal.x() * position.x() + edge.normal.y() * position.y() - edge.offset;
@@ -217,7 +216,7 @@ double OneWaySurfaces::separation(const Surface& surface, std::uint32_t index, c
 
 /// The separating axis theorem with signs of exact determinants, for the octagon and all that lies above it.
 bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t index, const Vec2d& position,
-                                      const Vec2d& rest) const noexcept {
+                                      const Vec2d& rest) const {
   const Frame& frame = frames_[surface.frame];
   const Vec2d a = edges_[surface.first_edge + index].from;
   const Vec2d b = edges_[surface.first_edge + index + 1].from;
@@ -245,7 +244,7 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   });
 }
 
-bool OneWaySurfaces::is_above(Index index, const Vec2d& position, const Vec2d& rest) const noexcept {
+bool OneWaySurfaces::is_above(Index index, const Vec2d& position, const Vec2d& rest) const {
   constexpr double certain = Tolerances{}.certain;
   const Surface& surface = surfaces_[index];
   return all_edges_below(surface, position, [&](std::uint32_t edge) {
@@ -255,7 +254,7 @@ bool OneWaySurfaces::is_above(Index index, const Vec2d& position, const Vec2d& r
   });
 }
 
-bool OneWaySurfaces::may_be_above(Index index, const Vec2d& position, double slack) const noexcept {
+bool OneWaySurfaces::may_be_above(Index index, const Vec2d& position, double slack) const {
   const Surface& surface = surfaces_[index];
   return all_edges_below(surface, position,
                          [&](std::uint32_t edge) { return separation(surface, edge, position) >= -slack; });

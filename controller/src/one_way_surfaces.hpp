@@ -33,20 +33,20 @@ class OneWaySurfaces {
   OneWaySurfaces(const Scenery& scenery, const CharacterShape& shape, MoverIndex mover, double angle);
 
   /// The surface that a piece is part of; `none` for a piece that blocks from both sides.
-  [[nodiscard]] Index of(PieceIndex piece) const noexcept {
+  [[nodiscard]] Index of(PieceIndex piece) const {
     const auto known = of_piece_.find(piece);
     return known == of_piece_.end() ? none : known->second;
   }
   /// A surface that is one straight line.
-  [[nodiscard]] bool is_straight(Index surface) const noexcept { return surfaces_[surface].edge_count == 1; }
+  [[nodiscard]] bool is_straight(Index surface) const { return surfaces_[surface].edge_count == 1; }
 
   /// Whether the octagon at `position` (relative to the offset of the surface's mover) is above the surface; exact for
   /// position + rest. A binary search finds the edges that the octagon covers across `one_way`; only these are tested.
   /// @param rest the rounding error of the subtraction of the mover's offset: see `lost_by`.
   [[nodiscard]] PAPERPROOF_NOT_INLINE bool is_above(Index surface, const Vec2d& position,
-                                                    const Vec2d& rest = Vec2d::Zero()) const noexcept;
+                                                    const Vec2d& rest = Vec2d::Zero()) const;
   /// The same for a position that may be wrong by `slack` [m]: true wherever it could be above.
-  [[nodiscard]] bool may_be_above(Index surface, const Vec2d& position, double slack) const noexcept;
+  [[nodiscard]] bool may_be_above(Index surface, const Vec2d& position, double slack) const;
 
  private:
   /// A direction in which the octagon can be separated from an edge, above or beside it.
@@ -78,16 +78,15 @@ class OneWaySurfaces {
     double offset;  ///< Of `normal · position` where the octagon touches the line of the edge [m].
   };
 
-  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return shape_.hull(); }
+  [[nodiscard]] std::span<const Vec2d> hull() const { return shape_.hull(); }
   void build(const Scenery& scenery, std::span<const PieceIndex> pieces, double angle);
   [[nodiscard]] std::uint32_t find_frame(const Vec2d& one_way);
   void add_surface(std::span<const Vec2d> line, const Vec2d& one_way);
   template <class Visit>
-  [[nodiscard]] bool all_edges_below(const Surface& surface, const Vec2d& position,
-                                     const Visit& is_below) const noexcept;
-  [[nodiscard]] double separation(const Surface& surface, std::uint32_t edge, const Vec2d& position) const noexcept;
+  [[nodiscard]] bool all_edges_below(const Surface& surface, const Vec2d& position, const Visit& is_below) const;
+  [[nodiscard]] double separation(const Surface& surface, std::uint32_t edge, const Vec2d& position) const;
   [[nodiscard]] bool is_below_exactly(const Surface& surface, std::uint32_t edge, const Vec2d& position,
-                                      const Vec2d& rest) const noexcept;
+                                      const Vec2d& rest) const;
 
   CharacterShape shape_;
   std::vector<Frame> frames_;
@@ -98,7 +97,7 @@ class OneWaySurfaces {
 
 /// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference. Without
 /// the error, a character that touches a mover to the last bit would be above it in one step and not in the next.
-[[nodiscard]] inline Vec2d lost_by(const Vec2d& position, const Vec2d& offset) noexcept {
+[[nodiscard]] inline Vec2d lost_by(const Vec2d& position, const Vec2d& offset) {
   const auto lost = [](double a, double b) { return geometry::two_sum(a, -b).low; };
   return {lost(position.x(), offset.x()), lost(position.y(), offset.y())};
 }

@@ -34,7 +34,7 @@ void PieceFinder::find(MoverIndex mover, const Box2& box, std::vector<PieceIndex
   }
 }
 
-bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const noexcept {
+bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const {
   for (MoverIndex mover = 0; mover < moving.motions.size(); ++mover) {
     const MoverMotion& motion = moving.motions[mover];
     const bool goes_apart = mover >= moving.mover_count();
@@ -45,7 +45,7 @@ bool PieceFinder::any_comes_into(const Box2& box, const Moving& moving) const no
   return false;
 }
 
-Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noexcept {
+Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) {
   Box2 positions = Box2::nowhere();
   for (const PathPoint& corner : path) positions = positions.with(corner.position - motion.at(corner.fraction));
   return positions;
@@ -53,7 +53,7 @@ Box2 box_around(std::span<const PathPoint> path, const MoverMotion& motion) noex
 
 /// Appends those that are there.
 /// @param box as the mover sees it, apart from its angle.
-void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const noexcept {
+void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<PieceIndex>& found) const {
   const std::size_t first = found.size();
   finder_.find(mover, angle == 0 ? box : geometry::Turn(-angle)(box), found);
   const auto goes_by_itself = [&](PieceIndex piece) {
@@ -66,7 +66,7 @@ void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<P
 }
 
 /// Removes the pieces that are not there, and sorts the others.
-void Nearby::arrange(std::size_t first, std::vector<PieceIndex>& found) const noexcept {
+void Nearby::arrange(std::size_t first, std::vector<PieceIndex>& found) const {
   const auto before = static_cast<std::ptrdiff_t>(first);
   if (filter_ != nullptr) {
     const Scenery& scenery = finder_.scenery();
@@ -78,12 +78,12 @@ void Nearby::arrange(std::size_t first, std::vector<PieceIndex>& found) const no
 }
 
 /// Writes the names that the user has for pieces in their places.
-void Nearby::name(std::span<PieceIndex> pieces, MoverIndex motion) const noexcept {
+void Nearby::name(std::span<PieceIndex> pieces, MoverIndex motion) const {
   const bool has_motion = motion != no_mover && moving_ != nullptr && motion < moving_->mover_count();
   if (user_ != nullptr) user_->prepare(pieces, motion, has_motion ? moving_->motions[motion].to_angle : 0);
 }
 
-void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
+void Nearby::find_standing(const Box2& positions, const Vec2d& way) {
   // A step that begins elsewhere is one of another character, and the next step will be, too: pieces ahead of this
   // one are not needed.
   const bool goes_on = !known_.valid || known_.box.overlaps(positions);
@@ -96,7 +96,7 @@ void Nearby::find_standing(const Box2& positions, const Vec2d& way) noexcept {
   known_.valid = true;
 }
 
-void Nearby::find_moving(const Box2& positions) noexcept {
+void Nearby::find_moving(const Box2& positions) {
   const Box2 wanted = positions.inflated(finder_.look_ahead() * sides);
   known_.moving_box = known_.moving_valid ? known_.moving_box.merged(wanted) : wanted;
   const Box2 touched = finder_.touched_from(known_.moving_box);
@@ -118,7 +118,7 @@ void Nearby::find_moving(const Box2& positions) noexcept {
 }
 
 /// Appends what has a motion.
-void Nearby::add_moving(MoverIndex mover, const Box2& touched) noexcept {
+void Nearby::add_moving(MoverIndex mover, const Box2& touched) {
   const MoverMotion& motion = moving_->motions[mover];
   const Box2 box = PieceFinder::seen_by(touched, motion);
   std::vector<PieceIndex>& found = known_.of_movers;
@@ -134,7 +134,7 @@ void Nearby::add_moving(MoverIndex mover, const Box2& touched) noexcept {
   if (found.size() > first) known_.moving.push_back({mover, first, found.size()});
 }
 
-std::span<PieceIndex> Nearby::take(const Box2& positions) noexcept {
+std::span<PieceIndex> Nearby::take(const Box2& positions) {
   forget();
   find_standing(positions, Vec2d::Zero());
   for_each_moving(positions, [&](std::span<const PieceIndex> pieces, MoverIndex) {
@@ -157,14 +157,14 @@ void Nearby::reserve(const Box2& positions) {
   forget();
 }
 
-void Nearby::follow_edits() noexcept {
+void Nearby::follow_edits() {
   forget();
   if (user_ != nullptr) user_->follow_edits();
   known_.edit = finder_.scenery().edits().count();
 }
 
 /// Forgets the pieces that were collected with another filter.
-void Nearby::forget_others() noexcept {
+void Nearby::forget_others() {
   const ColliderFilter filter = filter_ != nullptr ? *filter_ : ColliderFilter{};
   const bool by_predicate = filter.is_there != nullptr || known_.filter.is_there != nullptr;  // may say otherwise now
   const bool same = Filter(filter) == Filter(known_.filter);

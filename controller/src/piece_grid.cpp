@@ -13,14 +13,14 @@ constexpr int finest = -8;
 constexpr double furthest = 2e9;
 
 /// The cell of a place, in one dimension. Its lower end belongs to a cell; its upper end belongs to the next one.
-std::int32_t cell_at(double coordinate, double cells_per_metre) noexcept {
+std::int32_t cell_at(double coordinate, double cells_per_metre) {
   const double place = std::clamp(coordinate * cells_per_metre, -furthest, furthest);
   const auto cell = static_cast<std::int32_t>(place);
   return cell - (place < cell ? 1 : 0);
 }
 
 /// The same, but a place between two cells belongs to the lower one.
-std::int32_t cell_below(double coordinate, double cells_per_metre) noexcept {
+std::int32_t cell_below(double coordinate, double cells_per_metre) {
   const std::int32_t cell = cell_at(coordinate, cells_per_metre);
   return cell - (coordinate * cells_per_metre == cell ? 1 : 0);
 }

@@ -73,14 +73,14 @@ Sensors::Overlap Sensors::overlap_with(PieceIndex piece, double angle) const {
   return {info.collider, angle, {}, any, well_inside, geometry::separating_axes(outline_, vertices)};
 }
 
-Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end) noexcept {
+Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end) {
   const Vec2d from = begin.position - motion.at(begin.fraction);
   const Vec2d to = end.position - motion.at(end.fraction);
   return {from, to, Box2::between(from, to), begin.fraction, end.fraction};
 }
 
 void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
-                      const ColliderFilter* filter) noexcept {
+                      const ColliderFilter* filter) {
   Nearby near(finder_, near_, &moving, filter, this);
   if (!near_.valid) quiet_ = Box2::nowhere();
   const Box2 positions = box_around(path, {});
@@ -96,7 +96,7 @@ void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Eve
 
 /// The pieces of one sensor are consecutive.
 Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-                      Box2 quiet, Events& events) noexcept {
+                      Box2 quiet, Events& events) {
   const Box2 way = box_around(path, motion);
   bool all_quiet = true;
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -116,7 +116,7 @@ Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoin
   return all_quiet ? quiet : Box2::nowhere();
 }
 
-OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const noexcept {
+OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const {
   const Overlap& overlap = overlaps_[piece];
   if (!overlap.any.overlaps(segment.positions)) return {.begin = OverlapTime::after, .end = OverlapTime::before};
   if (overlap.axes.empty()) return geometry::overlap_time(outline_, overlap.circle, segment.from, segment.to);
@@ -124,7 +124,7 @@ OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const noe
 }
 
 std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const ColliderFilter* filter,
-                            std::span<ColliderIndex> found) noexcept {
+                            std::span<ColliderIndex> found) {
   std::size_t count = 0;
   ColliderIndex last = no_collider;
   Nearby near(finder_, near_, &moving, filter, this);
@@ -143,7 +143,7 @@ std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const C
   return count;
 }
 
-bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept {
+bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const {
   const Box2& any = overlaps_[piece].any;
   const Box2& well_inside = overlaps_[piece].well_inside;
   if (way.upper.x() < any.lower.x()) {
@@ -162,7 +162,7 @@ bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const n
 }
 
 void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
-                      Events& events) noexcept {
+                      Events& events) {
   using Change = SensorEvent::Change;
   // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)

@@ -38,14 +38,14 @@ class Sensors final : public OwnMemory, private PieceUser {
   /// @param path straight between its corners, fractions ascending.
   /// @param filter null: all sensors are there.
   void observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
-               const ColliderFilter* filter = nullptr) noexcept;
+               const ColliderFilter* filter = nullptr);
   /// The sensors that the character is in at a position, when the motions begin: as events say it.
   /// @param found as many of them as it has room for. @return how many they are.
   [[nodiscard]] std::size_t around(const Vec2d& position, const Moving& moving, const ColliderFilter* filter,
-                                   std::span<ColliderIndex> found) noexcept;
+                                   std::span<ColliderIndex> found);
   /// Whether it is known from the steps before that nothing happens between the character and any sensor that stands
   /// still, while it goes among positions in a box.
-  [[nodiscard]] bool is_quiet(const Box2& positions) const noexcept { return quiet_.contains(positions); }
+  [[nodiscard]] bool is_quiet(const Box2& positions) const { return quiet_.contains(positions); }
 
  private:
   /// A straight motion as seen from a sensor that stands still.
@@ -56,25 +56,21 @@ class Sensors final : public OwnMemory, private PieceUser {
     double begin;    ///< Fractions of the step.
     double end;
 
-    [[nodiscard]] double fraction(double of_segment) const noexcept {
-      return std::min(end, begin + (end - begin) * of_segment);
-    }
+    [[nodiscard]] double fraction(double of_segment) const { return std::min(end, begin + (end - begin) * of_segment); }
   };
 
-  [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin,
-                                       const PathPoint& end) noexcept;
+  [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end);
   /// @param near pieces that stand still, or go along with `motion`. Those of one sensor follow each other.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
   Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
-               Events& events) noexcept;
-  void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
-               Events& events) noexcept;
+               Events& events);
+  void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment, Events& events);
   /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.
   /// Returns false if this may change on the way.
-  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const noexcept;
+  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const;
 
   void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) override;
-  [[nodiscard]] geometry::OverlapTime stay_in(PieceIndex piece, const Segment& segment) const noexcept;
+  [[nodiscard]] geometry::OverlapTime stay_in(PieceIndex piece, const Segment& segment) const;
   void follow_edits() override;
 
   /// How a sensor's piece and the character overlap.

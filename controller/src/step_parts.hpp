@@ -16,24 +16,24 @@ namespace paperproof::step_parts {
 /// branch for each number (a twentieth of a step).
 class FiniteCheck {
  public:
-  FiniteCheck& add(const Vec2d& v) noexcept {
+  FiniteCheck& add(const Vec2d& v) {
     zero_ += v - v;
     return *this;
   }
-  [[nodiscard]] bool passed() const noexcept { return zero_.x() == 0 && zero_.y() == 0; }
+  [[nodiscard]] bool passed() const { return zero_.x() == 0 && zero_.y() == 0; }
 
  private:
   Vec2d zero_{Vec2d::Zero()};
 };
 
 /// Positions and offsets [m]. Written so that NaN is out of range.
-[[nodiscard]] inline bool in_range(const Vec2d& at) noexcept {
+[[nodiscard]] inline bool in_range(const Vec2d& at) {
   return std::abs(at.x()) <= Tolerances{}.range && std::abs(at.y()) <= Tolerances{}.range;
 }
 
 /// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that
 /// they carry. One that has an angle stays within 1e6: what is proved of its vertices allows for rounding there.
-[[nodiscard]] inline bool finite(std::span<const MoverMotion> movers, double dt) noexcept {
+[[nodiscard]] inline bool finite(std::span<const MoverMotion> movers, double dt) {
   const auto may_have_angle = [](const MoverMotion& mover) {
     const double furthest = std::max({std::abs(mover.from_angle), std::abs(mover.to_angle),
                                       mover.from.cwiseAbs().maxCoeff(), mover.to.cwiseAbs().maxCoeff()});
@@ -45,7 +45,7 @@ class FiniteCheck {
   });
 }
 
-[[nodiscard]] inline bool any_angle(std::span<const MoverMotion> movers) noexcept {
+[[nodiscard]] inline bool any_angle(std::span<const MoverMotion> movers) {
   // Most levels have no movers: then nothing counts them.
   return !movers.empty() &&
          std::any_of(movers.begin(), movers.end(), [](const MoverMotion& mover) { return mover.has_angle(); });
@@ -54,7 +54,7 @@ class FiniteCheck {
 /// Whether a step can begin with these numbers.
 /// @param dt greater than zero.
 [[nodiscard]] inline bool finite(const CharacterState& state, const Input& input, const Vec2d& gravity, double dt,
-                                 std::span<const MoverMotion> movers) noexcept {
+                                 std::span<const MoverMotion> movers) {
   FiniteCheck check;
   check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity).add({state.coyote_left, state.pending_left});
@@ -66,12 +66,12 @@ class FiniteCheck {
 
 /// Whether `maker` made the memory that is marked so.
 template <class Maker>
-[[nodiscard]] bool is_made_by(const std::shared_ptr<Maker>& maker, const std::weak_ptr<const void>& mark) noexcept {
+[[nodiscard]] bool is_made_by(const std::shared_ptr<Maker>& maker, const std::weak_ptr<const void>& mark) {
   return !mark.owner_before(maker) && !maker.owner_before(mark);
 }
 
 /// Reports a move that is refused: the character stays where it is.
-inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& velocity, MoveResult& move) noexcept {
+inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& velocity, MoveResult& move) {
   move.status = why;
   move.position = state.position;
   move.velocity = velocity;
@@ -82,18 +82,18 @@ inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& vel
 
 /// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.
 [[nodiscard]] inline bool asks_for_wall(const CharacterDef& character, const Input& input,
-                                        const CharacterState& state) noexcept {
+                                        const CharacterState& state) {
   const bool may_press = input.jump || state.jump_pending;
   return character.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0;
 }
 
-[[nodiscard]] inline bool touches(const MoveResult& move, Side side) noexcept {
+[[nodiscard]] inline bool touches(const MoveResult& move, Side side) {
   return std::any_of(move.contacts.begin(), move.contacts.end(),
                      [side](const Contact& contact) { return contact.side == side; });
 }
 
 /// Notes whether a solid still overlaps the character after a move. If none does, the position is its last free one.
-inline void note_freedom(const MoveResult& move, CharacterState& state) noexcept {
+inline void note_freedom(const MoveResult& move, CharacterState& state) {
   state.crushed = move.status == StepStatus::crushed || (state.crushed && move.status == StepStatus::stuck);
   if (state.crushed || move.status == StepStatus::stuck) return;
   state.last_free = move.position;
@@ -101,8 +101,7 @@ inline void note_freedom(const MoveResult& move, CharacterState& state) noexcept
 }
 
 /// Writes the result of the move into the state for the next step.
-inline void adopt(const CharacterDef& character, const Vec2d& up, const MoveResult& move,
-                  CharacterState& state) noexcept {
+inline void adopt(const CharacterDef& character, const Vec2d& up, const MoveResult& move, CharacterState& state) {
   // Zeros have no sign: states are compared as bytes.
   state.position = move.position.array() + 0.0;
   state.velocity = move.velocity.array() + 0.0;

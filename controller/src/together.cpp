@@ -77,7 +77,7 @@ struct Member {
 
   Vec2d velocity{};  ///< That then, or with which it ended its step [m/s].
 
-  [[nodiscard]] const Vec2d& from() const noexcept { return before.position; }
+  [[nodiscard]] const Vec2d& from() const { return before.position; }
 };
 
 const Box2 nowhere{Vec2d::Constant(std::numeric_limits<double>::infinity()),

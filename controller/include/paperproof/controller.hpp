@@ -75,7 +75,8 @@ class Controller {
   Controller(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep = {});
 
   /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
-  /// nothing else carries over. Allocates as `reserve` says, never throws.
+  /// nothing else carries over. Allocates as `reserve` says, never throws. Without memory the step is `refused`, and
+  /// the scratch must be made anew.
   /// @param scratch made by this controller; any other is invalid input.
   StepStatus step(CharacterState& state, const Input& input, const StepContext& context, Scratch& scratch,
                   StepReport& report) const noexcept;
@@ -94,7 +95,8 @@ class Controller {
   /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
   /// @return `crushed` if something reached the character, else `stuck` if something overlaps it at the end, else
   /// `moved`.
-  StepStatus wait(CharacterState& state, const StepContext& context, Scratch& scratch, StepReport& report) const;
+  StepStatus wait(CharacterState& state, const StepContext& context, Scratch& scratch,
+                  StepReport& report) const noexcept;
 
   /// How what moves near the character went in the last step; empty where nothing near it has an angle. Only where
   /// `Scratch::notes_turned` is set.
@@ -162,37 +164,36 @@ class Controller {
   friend class turning::TurningStep;
   /// Whether a mover has an angle, or the state names a collider that is gone.
   [[nodiscard]] bool needs_turning_step(const CharacterState& state, const StepContext& context,
-                                        const Scratch& scratch) const noexcept;
+                                        const Scratch& scratch) const;
   StepStatus step_in_parts(CharacterState& state, const turning::Wish& wish, const StepContext& context,
-                           Scratch& scratch, StepReport& report) const noexcept;
+                           Scratch& scratch, StepReport& report) const;
   friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
                                              const SweepDef& sweep);
   /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
   Controller(const Scenery& scenery, const CharacterDef& character,
              std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search);
-  [[nodiscard]] bool accepts(const CharacterState& state, const Input& input,
-                             const StepContext& context) const noexcept;
+  [[nodiscard]] bool accepts(const CharacterState& state, const Input& input, const StepContext& context) const;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
-                                    Scratch& scratch, MoveResult& tried) const noexcept;
-  [[nodiscard]] Around around(const StepContext& context, const Scratch& scratch) const noexcept;
+                                    Scratch& scratch, MoveResult& tried) const;
+  [[nodiscard]] Around around(const StepContext& context, const Scratch& scratch) const;
   /// Begins an accepted step: turns the intent into a request.
   /// @param state must outlive the request, as `here`.
   [[nodiscard]] StepRequest begin_step(const Input& input, const StepContext& context, const Around& here,
-                                       bool wall_ahead, CharacterState& state, StepReport& report) const noexcept;
-  void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const noexcept;
+                                       bool wall_ahead, CharacterState& state, StepReport& report) const;
+  void note_passed(bool drop, const StepContext& context, Scratch& scratch, StepReport& report) const;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext& context, Scratch& scratch, CharacterState& state,
-                StepReport& report) const noexcept;
+                StepReport& report) const;
   /// Null: all colliders are there.
-  [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const noexcept {
+  [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const {
     static constexpr ColliderFilter usual{};
     return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
   }
   template <class Ask>
   [[nodiscard]] auto answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
-                            Scratch& scratch, const Ask& ask) const noexcept;
+                            Scratch& scratch, const Ask& ask) const;
 
   const Scenery* scenery_;
   bool asks_all_;  ///< See `PieceSearch::none`.

@@ -12,7 +12,7 @@ constexpr int most_tangents = 128;
 
 }  // namespace
 
-NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position, const Circle& circle) noexcept {
+NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position, const Circle& circle) {
   const Vec2d centre = circle.centre - position;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   NearCircle inside{-infinity, Vec2d::Zero()};  // by the edge that the centre is furthest outside of
@@ -37,7 +37,7 @@ NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position, co
 }
 
 std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& from, const Vec2d& displacement,
-                                 const Circle& circle, double level) noexcept {
+                                 const Circle& circle, double level) {
   Approach result{0, near_circle(outline, from, circle)};
   for (int tangents = 0; tangents < most_tangents; ++tangents) {
     const double above = result.there.separation - level;
@@ -51,8 +51,7 @@ std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& fr
   return result;
 }
 
-OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from,
-                         const Vec2d& to) noexcept {
+OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from, const Vec2d& to) {
   OverlapTime time;
   if (!(near_circle(mover, from, standing).separation < 0)) {
     const auto enters = approach(mover, from, Vec2d(to - from), standing, 0.0);

@@ -22,8 +22,7 @@ struct NearCircle {
 };
 
 /// @param outline 3 points or more, strictly convex, counter-clockwise, relative to `position` [m].
-[[nodiscard]] NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position,
-                                     const Circle& circle) noexcept;
+[[nodiscard]] NearCircle near_circle(std::span<const Vec2d> outline, const Vec2d& position, const Circle& circle);
 
 /// When a motion comes near.
 struct Approach {
@@ -35,10 +34,10 @@ struct Approach {
 /// is nearer than that already and comes nearer; to a few ulp of the positions, and never later. Nothing where it stays
 /// further away, or only goes away.
 [[nodiscard]] std::optional<Approach> approach(std::span<const Vec2d> outline, const Vec2d& from,
-                                               const Vec2d& displacement, const Circle& circle, double level) noexcept;
+                                               const Vec2d& displacement, const Circle& circle, double level);
 
 /// See the `overlap_time` of two outlines.
 [[nodiscard]] OverlapTime overlap_time(std::span<const Vec2d> mover, const Circle& standing, const Vec2d& from,
-                                       const Vec2d& to) noexcept;
+                                       const Vec2d& to);
 
 }  // namespace paperproof::geometry

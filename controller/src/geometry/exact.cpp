@@ -13,7 +13,7 @@ namespace {
 constexpr double rounding = 0x1p-53;
 
 /// Veltkamp's split into two halves of at most 26 bits, so that products of halves are exact.
-TwoDoubles split(double a) noexcept {
+TwoDoubles split(double a) {
   constexpr double splitter = 0x1p27 + 1;
   const double scaled = splitter * a;
   const double high = scaled - (scaled - a);
@@ -21,7 +21,7 @@ TwoDoubles split(double a) noexcept {
 }
 
 /// Dekker's product. A fused multiply-add would be shorter, but would give other bits where it is emulated badly.
-TwoDoubles two_product(double a, double b) noexcept {
+TwoDoubles two_product(double a, double b) {
   const double product = a * b;
   const TwoDoubles x = split(a);
   const TwoDoubles y = split(b);
@@ -34,7 +34,7 @@ TwoDoubles two_product(double a, double b) noexcept {
 template <std::size_t Capacity>
 class ExactSum {
  public:
-  void add(double term) noexcept {
+  void add(double term) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const TwoDoubles sum = two_sum(term, parts_[i]);
@@ -44,21 +44,21 @@ class ExactSum {
     if (term != 0) parts_[kept++] = term;
     size_ = kept;
   }
-  void add_product(double a, double b) noexcept {
+  void add_product(double a, double b) {
     const TwoDoubles product = two_product(a, b);
     add(product.low);
     add(product.high);
   }
   /// Sign of the largest part: all other parts together are smaller.
-  [[nodiscard]] int sign() const noexcept { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
+  [[nodiscard]] int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
   /// Adds the product of two sums, or takes it away.
   template <std::size_t N, std::size_t M>
-  void add_product(const ExactSum<N>& a, const ExactSum<M>& b, double sign = 1) noexcept {
+  void add_product(const ExactSum<N>& a, const ExactSum<M>& b, double sign = 1) {
     for (const double part : a)
       for (const double other : b) add_product(sign * part, other);
   }
-  [[nodiscard]] const double* begin() const noexcept { return parts_.data(); }
-  [[nodiscard]] const double* end() const noexcept { return parts_.data() + size_; }
+  [[nodiscard]] const double* begin() const { return parts_.data(); }
+  [[nodiscard]] const double* end() const { return parts_.data() + size_; }
 
  private:
   std::array<double, Capacity> parts_{};
@@ -67,7 +67,7 @@ class ExactSum {
 
 /// One component of the unrounded sum of some terms.
 template <std::size_t most>
-ExactSum<most> component(std::span<const Vec2d> terms, Eigen::Index i) noexcept {
+ExactSum<most> component(std::span<const Vec2d> terms, Eigen::Index i) {
   ExactSum<most> sum;
   for (const Vec2d& term : terms) sum.add(term[i]);
   return sum;
@@ -76,7 +76,7 @@ ExactSum<most> component(std::span<const Vec2d> terms, Eigen::Index i) noexcept 
 /// (to - from) x (the unrounded sum of all terms). Two parts times as many as there are terms, each product in two
 /// parts, twice.
 template <std::size_t most>
-ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> arm) noexcept {
+ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> arm) {
   const std::array<Vec2d, 2> edge{to, -from};
   ExactSum<8 * most> cross;
   cross.add_product(component<2>(edge, 0), component<most>(arm, 1));
@@ -86,12 +86,12 @@ ExactSum<8 * most> exact_cross(const Vec2d& from, const Vec2d& to, std::span<con
 
 }  // namespace
 
-int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept { return turn_sign(a, b, a, c); }
+int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return turn_sign(a, b, a, c); }
 
 /// The filter: with u = 2^-53 the edges e and f are off by u|e| and u|f|. A product is then off by 3u|e||f|, and their
 /// difference by another u of both; terms of order u^2 and the rounding of the bound itself are covered by taking 5u
 /// for 4u.
-int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept {
+int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   const Vec2d edge = b - a;
   const Vec2d other = d - c;
   const double cross = edge.x() * other.y() - edge.y() * other.x();
@@ -105,7 +105,7 @@ int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) no
 
 /// The filter: n additions are off by at most n u times the sum of all magnitudes, the edge by u, and the products and
 /// their difference by two more; one is for terms of order u^2 and the rounding of the bound itself.
-int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2d> terms) noexcept {
+int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2d> terms) {
   assert(terms.size() <= most_terms);
   Vec2d arm = -a;
   Vec2d size = a.cwiseAbs();
@@ -126,7 +126,7 @@ int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2
   return exact_cross<most_terms + 1>(a, b, std::span(from_a).first(terms.size() + 1)).sign();
 }
 
-int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double factor, double length) noexcept {
+int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double factor, double length) {
   assert(terms.size() <= most_terms);
   ExactSum<4 * most_terms + 2> height;
   for (const Vec2d& term : terms)
@@ -135,7 +135,7 @@ int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double
   return height.sign();
 }
 
-int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept {
+int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) {
   assert(terms.size() <= most_terms && others.size() <= 2 * most_terms);
   ExactSum<2 * 2 * most_terms * 2 * most_terms> dot;
   for (const Eigen::Index i : {0, 1})
@@ -143,7 +143,7 @@ int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others
   return dot.sign();
 }
 
-double length_rounded_up(const Vec2d& v) noexcept {
+double length_rounded_up(const Vec2d& v) {
   const auto is_short = [&](double length) {
     ExactSum<6> over;
     over.add_product(length, length);
@@ -158,7 +158,7 @@ double length_rounded_up(const Vec2d& v) noexcept {
   return length;
 }
 
-bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept {
+bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) {
   assert(terms.size() <= most_terms);
   ExactSum<4 * most_terms * most_terms + 2> over;
   for (const Eigen::Index i : {0, 1}) {
@@ -170,7 +170,7 @@ bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept {
 }
 
 /// The height over the line is the cross product over the length of the edge: the squares are compared.
-bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms, double distance) noexcept {
+bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms, double distance) {
   assert(terms.size() <= most_terms);
   const auto cross = exact_cross<most_terms>(from, to, terms);  // positive on the left
   if (cross.sign() >= 0) return cross.sign() == 0 && distance == 0;
@@ -187,7 +187,7 @@ bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec
   return over.sign() >= 0;
 }
 
-std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) noexcept {
+std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) {
   std::array<Vec2d, 4> terms;
   for (Eigen::Index i = 0; i < 2; ++i) {
     const TwoDoubles way = two_sum(to[i], -from[i]);

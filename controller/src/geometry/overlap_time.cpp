@@ -8,12 +8,12 @@ namespace paperproof::geometry {
 namespace {
 
 /// The edge that ends at vertex `i`.
-Vec2d edge_to(std::span<const Vec2d> outline, std::size_t i) noexcept {
+Vec2d edge_to(std::span<const Vec2d> outline, std::size_t i) {
   return outline[i] - outline[i == 0 ? outline.size() - 1 : i - 1];
 }
 
 /// The axes of the standing outline's edges come first, then those of the mover's.
-SeparatingAxis axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) noexcept {
+SeparatingAxis axis(std::span<const Vec2d> mover, std::span<const Vec2d> standing, std::size_t i) {
   if (i < standing.size()) {
     const Vec2d along = edge_to(standing, i);
     return {along, standing[i], Vec2d::Zero(), least_along(mover, {along.y(), -along.x()})};
@@ -35,7 +35,7 @@ std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::s
   return axes;
 }
 
-OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to) noexcept {
+OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to) {
   OverlapTime time;
   for (std::size_t i = 0; i < axes.size() && time.any(); ++i)
     time.narrow(axes[i].separation(from), axes[i].separation(to), 0);
@@ -43,7 +43,7 @@ OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from
 }
 
 OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
-                         const Vec2d& to) noexcept {
+                         const Vec2d& to) {
   OverlapTime time;
   for (std::size_t i = 0; i < mover.size() + standing.size() && time.any(); ++i) {
     const SeparatingAxis tested = axis(mover, standing, i);
@@ -52,7 +52,7 @@ OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> st
   return time;
 }
 
-Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth) noexcept {
+Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth) {
   const Box2 a = Box2::around(mover);
   const Box2 b = Box2::around(standing);
   const Vec2d middle = (b.lower + b.upper - a.lower - a.upper) / 2;

@@ -23,7 +23,7 @@ using OverlapTime = TimeBelow<double>;
 /// @param mover 3 points or more, counter-clockwise, relative to its position [m].
 /// @param standing the same, or the two ends of a segment [m].
 [[nodiscard]] OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
-                                       const Vec2d& to) noexcept;
+                                       const Vec2d& to);
 
 /// A direction in which two outlines can be apart: the normal of an edge of one of them.
 struct SeparatingAxis {
@@ -33,7 +33,7 @@ struct SeparatingAxis {
   double reach;  ///< Of the mover beyond the line, times the length of the edge [m²].
 
   /// Separation of the mover at a position, times the length of the edge: only its sign and ratios are used [m²].
-  [[nodiscard]] double separation(const Vec2d& position) const noexcept {
+  [[nodiscard]] double separation(const Vec2d& position) const {
     const Vec2d from_near = position - near;
     const Vec2d arm = from_near + shift;
     return reach - (along.x() * arm.y() - along.y() * arm.x());
@@ -46,13 +46,12 @@ struct SeparatingAxis {
                                                           std::span<const Vec2d> standing);
 
 /// The same as the other `overlap_time`, with axes that are already known.
-[[nodiscard]] OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from,
-                                       const Vec2d& to) noexcept;
+[[nodiscard]] OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to);
 
 /// Positions at which `mover` overlaps `standing` by more than `depth` in every direction [m]. They are a box around
 /// the middle of all overlapping positions, or an inverted box (its lower corner above the upper one) if there are
 /// none.
 /// @param mover,standing as of `overlap_time`.
-[[nodiscard]] Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth) noexcept;
+[[nodiscard]] Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth);
 
 }  // namespace paperproof::geometry

@@ -13,13 +13,13 @@ namespace paperproof::geometry {
 /// A turn by an angle about the origin, counter-clockwise.
 class Turn {
  public:
-  explicit Turn(double angle) noexcept : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+  explicit Turn(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
 
-  [[nodiscard]] Vec2d operator()(const Vec2d& v) const noexcept {
+  [[nodiscard]] Vec2d operator()(const Vec2d& v) const {
     return {cosine_ * v.x() - sine_ * v.y(), sine_ * v.x() + cosine_ * v.y()};
   }
   /// Around the turned box.
-  [[nodiscard]] Box2 operator()(const Box2& box) const noexcept {
+  [[nodiscard]] Box2 operator()(const Box2& box) const {
     const Vec2d middle = (*this)(box.middle());
     const Vec2d half = box.upper - box.middle();
     const Vec2d reach{std::abs(cosine_) * half.x() + std::abs(sine_) * half.y(),
@@ -45,13 +45,13 @@ inline void place(std::span<const Vec2d> given, const Pose& pose, std::vector<Ve
 }
 
 /// The pose at a fraction of a step.
-[[nodiscard]] inline Pose pose_at(const MoverMotion& motion, double fraction) noexcept {
+[[nodiscard]] inline Pose pose_at(const MoverMotion& motion, double fraction) {
   return {motion.at(fraction), fraction < 1 ? motion.from_angle + motion.turn() * fraction : motion.to_angle};
 }
 
 /// Encloses what is in a box during a step. The box turns about any point that is no farther from the mover's origin
 /// than the box is. (A corner of the character may be farther: nothing that turns about it comes nearer to it.)
-[[nodiscard]] inline Box2 swept_box(const Box2& box, const MoverMotion& motion) noexcept {
+[[nodiscard]] inline Box2 swept_box(const Box2& box, const MoverMotion& motion) {
   const Box2 before = Turn(motion.from_angle)(box);
   const Box2 after = Turn(motion.to_angle)(box);
   const Box2 both = (before + motion.from).merged(after + motion.to);

@@ -109,7 +109,7 @@ std::string text_of(const Vec2d& point) {
 }
 
 /// A convex outline turns to one side only and goes around once: it runs to the right once and to the left once.
-bool is_convex(Ring ring) noexcept {
+bool is_convex(Ring ring) {
   const std::size_t size = ring.size();
   if (size < 3) return false;
   int turn = 0;
@@ -128,11 +128,11 @@ bool is_convex(Ring ring) noexcept {
   return turn != 0 && reversals == 2;
 }
 
-std::size_t leftmost(Ring ring) noexcept {
+std::size_t leftmost(Ring ring) {
   return static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), left_of) - ring.begin());
 }
 
-int winding(Ring ring) noexcept {
+int winding(Ring ring) {
   const std::size_t corner = leftmost(ring);
   const std::size_t size = ring.size();
   return orientation_sign(ring[(corner + size - 1) % size], ring[corner], ring[(corner + 1) % size]);

@@ -21,7 +21,7 @@ class InvalidRings : public std::invalid_argument {
 
 /// Order of sweeps: by x, and by y where x is the same. This order works as if the plane were turned by a very small
 /// angle, so that no side is vertical.
-[[nodiscard]] inline bool left_of(const Vec2d& a, const Vec2d& b) noexcept {
+[[nodiscard]] inline bool left_of(const Vec2d& a, const Vec2d& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
 
@@ -30,13 +30,13 @@ class InvalidRings : public std::invalid_argument {
 
 /// Whether the ring is the outline of a convex polygon with an area. Vertices on a straight side are allowed. A convex
 /// ring needs no other check. Exact; linear in the number of vertices.
-[[nodiscard]] bool is_convex(Ring ring) noexcept;
+[[nodiscard]] bool is_convex(Ring ring);
 
 /// Which of some points is the first in the order of sweeps.
-[[nodiscard]] std::size_t leftmost(Ring ring) noexcept;
+[[nodiscard]] std::size_t leftmost(Ring ring);
 
 /// +1: counter-clockwise, -1: clockwise. Exact. `ring` must not touch itself and must have an area.
-[[nodiscard]] int winding(Ring ring) noexcept;
+[[nodiscard]] int winding(Ring ring);
 
 /// @param is_closed the first point follows the last.
 /// @throws InvalidRings on a point that repeats the one before it.

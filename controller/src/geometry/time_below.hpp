@@ -16,11 +16,11 @@ struct TimeBelow {
   Number begin = before;
   Number end = after;
 
-  [[nodiscard]] constexpr bool any() const noexcept { return begin < end; }
+  [[nodiscard]] constexpr bool any() const { return begin < end; }
 
   /// One more separation, by its values at both ends. Whether it is below the level at an end depends on its value
   /// there alone. One that is not a number is not below it.
-  constexpr void narrow(Number at_start, Number at_end, Number level) noexcept {
+  constexpr void narrow(Number at_start, Number at_end, Number level) {
     const bool starts_below = at_start < level;
     const bool ends_below = at_end < level;
     if (!starts_below && !ends_below) *this = {after, before};

@@ -29,13 +29,13 @@ class Outline {
     }
   }
 
-  [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
-  [[nodiscard]] const Node& node(NodeIndex i) const noexcept { return nodes_[i]; }
-  [[nodiscard]] const Vec2d& at(NodeIndex i) const noexcept { return vertices_[nodes_[i].vertex]; }
-  [[nodiscard]] const Vec2d& at_next(NodeIndex i) const noexcept { return at(nodes_[i].next); }
-  [[nodiscard]] const Vec2d& at_previous(NodeIndex i) const noexcept { return at(nodes_[i].previous); }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  [[nodiscard]] const Node& node(NodeIndex i) const { return nodes_[i]; }
+  [[nodiscard]] const Vec2d& at(NodeIndex i) const { return vertices_[nodes_[i].vertex]; }
+  [[nodiscard]] const Vec2d& at_next(NodeIndex i) const { return at(nodes_[i].next); }
+  [[nodiscard]] const Vec2d& at_previous(NodeIndex i) const { return at(nodes_[i].previous); }
   /// +1: a corner that sticks out, 0: straight, -1: reflex.
-  [[nodiscard]] int turn(NodeIndex i) const noexcept { return orientation_sign(at_previous(i), at(i), at_next(i)); }
+  [[nodiscard]] int turn(NodeIndex i) const { return orientation_sign(at_previous(i), at(i), at_next(i)); }
 
   /// Adds a bridge from `from` to `to` and back: the two rings become one.
   void bridge(NodeIndex from, NodeIndex to) {
@@ -49,7 +49,7 @@ class Outline {
     nodes_[to].previous = from;
   }
 
-  void clip(NodeIndex i) noexcept {
+  void clip(NodeIndex i) {
     nodes_[nodes_[i].previous].next = nodes_[i].next;
     nodes_[nodes_[i].next].previous = nodes_[i].previous;
     nodes_[i].clipped = true;
@@ -66,18 +66,18 @@ struct Passing {
   Vec2d right;
   bool exists = false;
 
-  [[nodiscard]] int side_of(const Vec2d& point) const noexcept { return orientation_sign(left, right, point); }
+  [[nodiscard]] int side_of(const Vec2d& point) const { return orientation_sign(left, right, point); }
 };
 
 /// Sides do not cross, so the left end of the second, or its right end if the left ends are one, tells which is above.
-bool is_above(const Passing& second, const Passing& first) noexcept {
+bool is_above(const Passing& second, const Passing& first) {
   if (left_of(second.left, first.left)) return !is_above(first, second);
   const int left_end = first.side_of(second.left);
   return (left_end != 0 ? left_end : first.side_of(second.right)) > 0;
 }
 
 /// Is `target`, seen from a node, in the angle between the sides that meet there? It is never along one of them.
-bool looks_inwards(const Outline& outline, NodeIndex node, const Vec2d& target) noexcept {
+bool looks_inwards(const Outline& outline, NodeIndex node, const Vec2d& target) {
   const bool left_of_next = orientation_sign(outline.at(node), outline.at_next(node), target) > 0;
   const bool left_of_previous = orientation_sign(outline.at_previous(node), outline.at(node), target) > 0;
   return outline.turn(node) > 0 ? left_of_next && left_of_previous : left_of_next || left_of_previous;

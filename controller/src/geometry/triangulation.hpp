@@ -14,7 +14,7 @@ struct DirectedRings {
   std::vector<Vec2d> vertices;
   std::vector<std::uint32_t> first_vertex;  ///< Of each ring.
 
-  [[nodiscard]] std::uint32_t size_of(std::size_t ring) const noexcept {
+  [[nodiscard]] std::uint32_t size_of(std::size_t ring) const {
     const std::size_t end = ring + 1 < first_vertex.size() ? first_vertex[ring + 1] : vertices.size();
     return static_cast<std::uint32_t>(end) - first_vertex[ring];
   }

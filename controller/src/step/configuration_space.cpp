@@ -24,7 +24,7 @@ using geometry::normal_of;
 /// Of the points that reach furthest along a normal, the first and the last across it.
 /// @param noise that counts as equally far [m].
 template <class Points>
-Interval face_of(const Points& points, const Vec2d& normal, double noise) noexcept {
+Interval face_of(const Points& points, const Vec2d& normal, double noise) {
   const Vec2d along{-normal.y(), normal.x()};
   const double least = -least_along(points, -normal) - noise;
   Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -62,7 +62,7 @@ SharedAxes::SharedAxes(const CharacterShape& shape) : box(shape.box()) {
   }
 }
 
-OctagonFace SharedAxes::face_along(const Vec2& n) const noexcept {
+OctagonFace SharedAxes::face_along(const Vec2& n) const {
   constexpr Real flat = tolerances.hit;  // points this close to the lowest belong to the face
   OctagonFace face{std::numeric_limits<Real>::infinity(), 0, 0};
   for (const Vec2d& o : points) {
@@ -127,7 +127,7 @@ const OneWaySurfaces& ConfigurationSpace::surfaces_of(MoverIndex mover, double a
   return turned_surfaces_.insert_or_assign(mover, std::move(now)).first->second.surfaces;
 }
 
-Real ConfigurationSpace::support_offset(const Obstacle& of, const Vec2d& normal) const noexcept {
+Real ConfigurationSpace::support_offset(const Obstacle& of, const Vec2d& normal) const {
   const double radius = of.source.is_circle() ? scenery().circle(of.piece).radius : 0;
   return static_cast<Real>(radius - least_along(vertices_of(of), -normal) - least_along(hull(), normal));
 }
@@ -254,7 +254,7 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   }
 }
 
-ConfigurationSpace::Facet ConfigurationSpace::facet(PieceIndex piece, std::size_t axis, double noise) const noexcept {
+ConfigurationSpace::Facet ConfigurationSpace::facet(PieceIndex piece, std::size_t axis, double noise) const {
   const Vec2d n = normal(piece, axis).cast<double>();
   const Interval of_piece = face_of(vertices_of(piece), n, noise);
   const Interval of_hull = axis < axes_.lanes ? axes_.hull_faces[axis] : face_of(hull(), Vec2d(-n), least_noise);
@@ -268,7 +268,7 @@ ConfigurationSpace::Facet ConfigurationSpace::facet(PieceIndex piece, std::size_
 /// A one-way segment hides nothing from a solid: it may be passed. From another it hides what it abuts as a part of one
 /// surface, or along one line: who is not above the one is not above the other. A piece that is not there for some
 /// characters hides nothing of one that is.
-bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece, double noise) const noexcept {
+bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece, double noise) const {
   const Obstacle& one = info(covering);
   const Obstacle& other = info(piece);
   if (one.collider->filter != other.collider->filter) return false;
@@ -281,7 +281,7 @@ bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece, double
 
 /// An axis that bevels a corner has no facet but the corner itself. It is covered by what has the corner, too, and
 /// reaches further along the normal: then that is nearer to whoever comes from there.
-bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner) const noexcept {
+bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner) const {
   const Vec2d n = normal(piece, corner.axis).cast<double>();
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](PieceIndex other) {
     if (is_circle(other)) return false;
@@ -313,7 +313,7 @@ double ConfigurationSpace::open_part(const Facet& facet) {
 }
 
 /// Which part of a facet is in another obstacle; empty where none is.
-Interval ConfigurationSpace::inside(const Facet& facet, PieceIndex other) const noexcept {
+Interval ConfigurationSpace::inside(const Facet& facet, PieceIndex other) const {
   Interval inside{0, 1};
   const Vec2d span = facet.to - facet.from;
   for (std::size_t k = 0; k < axis_count(other); ++k) {

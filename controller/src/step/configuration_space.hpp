@@ -38,9 +38,9 @@ using Four = Eigen::Array<Real, 4, 1, Eigen::DontAlign>;
 struct PerAxis {
   std::array<Real, 12> all;
 
-  [[nodiscard]] Real operator[](std::size_t axis) const noexcept { return all[axis]; }
-  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) const noexcept { return Four::Map(all.data() + 4 * k); }
-  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) noexcept { return Four::Map(all.data() + 4 * k); }
+  [[nodiscard]] Real operator[](std::size_t axis) const { return all[axis]; }
+  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) const { return Four::Map(all.data() + 4 * k); }
+  [[nodiscard]] PAPERPROOF_INLINE auto group(std::size_t k) { return Four::Map(all.data() + 4 * k); }
 };
 
 /// What of the octagon faces a piece along an axis with normal n: its lowest points along n.
@@ -59,7 +59,7 @@ struct OwnAxis {
 
 /// An axis of a circle: its direction, as a number that is larger than any index. The larger component tells the
 /// quarter; the other one is divided by it, which keeps what a double has.
-[[nodiscard]] inline std::size_t axis_along(const Vec2d& direction) noexcept {
+[[nodiscard]] inline std::size_t axis_along(const Vec2d& direction) {
   static_assert(sizeof(std::size_t) == 8);
   const bool level = std::abs(direction.x()) >= std::abs(direction.y());
   const std::size_t quarter = level ? (direction.x() > 0 ? 0 : 2) : (direction.y() > 0 ? 1 : 3);
@@ -68,7 +68,7 @@ struct OwnAxis {
          static_cast<std::size_t>(static_cast<std::int64_t>(tangent * 0x1p59) + (std::int64_t{1} << 59U));
 }
 
-[[nodiscard]] inline Vec2d direction_of(std::size_t axis) noexcept {
+[[nodiscard]] inline Vec2d direction_of(std::size_t axis) {
   const auto rest = static_cast<std::int64_t>(axis & ((std::size_t{1} << 61U) - 1));
   const double tangent = static_cast<double>(rest - (std::int64_t{1} << 59U)) * 0x1p-59;
   const double large = 1 / std::sqrt(1 + tangent * tangent);
@@ -79,7 +79,7 @@ struct OwnAxis {
 }
 
 /// Whether an axis is a direction.
-[[nodiscard]] constexpr bool is_direction(std::size_t axis) noexcept { return axis >> 63U != 0; }
+[[nodiscard]] constexpr bool is_direction(std::size_t axis) { return axis >> 63U != 0; }
 
 /// Part of a line [m], or of a facet, in [0, 1].
 struct Interval {
@@ -95,9 +95,9 @@ struct SharedAxes {
 
   explicit SharedAxes(const CharacterShape& shape);
 
-  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return {points.begin(), points.end()}; }
+  [[nodiscard]] std::span<const Vec2d> hull() const { return {points.begin(), points.end()}; }
   /// What of the hull faces a piece along a direction.
-  [[nodiscard]] OctagonFace face_along(const Vec2& normal) const noexcept;
+  [[nodiscard]] OctagonFace face_along(const Vec2& normal) const;
 
   FixedVector<Vec2d, CharacterShape::max_points> points;  ///< Of the hull, counter-clockwise [m].
   Box2 box;                                               ///< Of the hull, around position zero [m].
@@ -133,7 +133,7 @@ struct Obstacle {
   double angle = 0;              ///< Of its mover [rad].
   std::vector<Vec2d> turned{};   ///< Its vertices, if there is an angle.
 
-  [[nodiscard]] bool is_one_way() const noexcept { return one_way_axis != not_one_way; }
+  [[nodiscard]] bool is_one_way() const { return one_way_axis != not_one_way; }
 };
 
 /// The obstacles near a character, or near several of one shape. An obstacle is made when its piece comes near for the
@@ -152,71 +152,69 @@ class ConfigurationSpace {
   /// Forgets the obstacles of pieces that came or went, and of those near them.
   void follow_edits();
 
-  [[nodiscard]] const PieceFinder& solids() const noexcept { return solids_; }
-  [[nodiscard]] const Scenery& scenery() const noexcept { return solids_.scenery(); }
+  [[nodiscard]] const PieceFinder& solids() const { return solids_; }
+  [[nodiscard]] const Scenery& scenery() const { return solids_.scenery(); }
   /// Hull of the character, counter-clockwise [m].
-  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return axes_.hull(); }
+  [[nodiscard]] std::span<const Vec2d> hull() const { return axes_.hull(); }
   /// Box of the hull, around position zero.
-  [[nodiscard]] const Box2& hull_box() const noexcept { return axes_.box; }
+  [[nodiscard]] const Box2& hull_box() const { return axes_.box; }
 
   /// What the octagon covers or touches while its reference point is in `box` [m].
-  [[nodiscard]] Box2 touched_from(const Box2& box) const noexcept {
-    return (box + axes_.box).inflated(tolerances.touch);
-  }
+  [[nodiscard]] Box2 touched_from(const Box2& box) const { return (box + axes_.box).inflated(tolerances.touch); }
 
   /// Shared axes per piece: 8 or 12, in groups of four.
-  [[nodiscard]] std::size_t lanes() const noexcept { return axes_.lanes; }
+  [[nodiscard]] std::size_t lanes() const { return axes_.lanes; }
   /// Calls `visit(0)`, `visit(1)` and, for 12 axes, `visit(2)`: most shapes have 8, and a loop took a fifth more
   /// instructions.
   template <class Visit>
-  PAPERPROOF_INLINE void for_each_group(const Visit& visit) const noexcept {
+  PAPERPROOF_INLINE void for_each_group(const Visit& visit) const {
     visit(0);
     visit(1);
     if (axes_.lanes == SharedAxes::most) [[unlikely]]
       visit(2);
   }
   /// The components of four normals.
-  [[nodiscard]] auto shared_x(std::size_t group) const noexcept { return Four::Map(axes_.x.data() + 4 * group); }
-  [[nodiscard]] auto shared_y(std::size_t group) const noexcept { return Four::Map(axes_.y.data() + 4 * group); }
+  [[nodiscard]] auto shared_x(std::size_t group) const { return Four::Map(axes_.x.data() + 4 * group); }
+  [[nodiscard]] auto shared_y(std::size_t group) const { return Four::Map(axes_.y.data() + 4 * group); }
 
-  [[nodiscard]] const Obstacle& info(PieceIndex piece) const noexcept { return obstacles_[piece]; }
+  [[nodiscard]] const Obstacle& info(PieceIndex piece) const { return obstacles_[piece]; }
   /// Offsets along four shared axes. The first group are the box directions: the offsets of the piece's box.
-  [[nodiscard]] auto offsets(PieceIndex piece, std::size_t group) const noexcept {
+  [[nodiscard]] auto offsets(PieceIndex piece, std::size_t group) const {
     return obstacles_[piece].offsets.group(group);
   }
-  [[nodiscard]] std::span<const OwnAxis> own_axes(PieceIndex piece) const noexcept { return info(piece).own; }
+  [[nodiscard]] std::span<const OwnAxis> own_axes(PieceIndex piece) const { return info(piece).own; }
   /// A circle has an axis of its own, a tangent like any other: where a piece has none, nothing more is asked.
-  [[nodiscard]] bool is_circle(PieceIndex piece) const noexcept { return info(piece).source.is_circle(); }
-  [[nodiscard]] Circle circle(PieceIndex piece) const noexcept { return circle(info(piece)); }
-  [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const noexcept { return vertices_of(info(piece)); }
+  [[nodiscard]] bool is_circle(PieceIndex piece) const { return info(piece).source.is_circle(); }
+  [[nodiscard]] Circle circle(PieceIndex piece) const { return circle(info(piece)); }
+  [[nodiscard]] PieceVertices vertices_of(PieceIndex piece) const { return vertices_of(info(piece)); }
   /// Where the character at p is nearest to a circle.
-  [[nodiscard]] geometry::NearCircle near_circle(PieceIndex piece, const Vec2& p) const noexcept {
+  [[nodiscard]] geometry::NearCircle near_circle(PieceIndex piece, const Vec2& p) const {
     return geometry::near_circle(hull(), p, circle(piece));
   }
-  [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return axes_.lanes + info(piece).own.size(); }
-  [[nodiscard]] PAPERPROOF_INLINE Vec2 normal(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] std::size_t axis_count(PieceIndex piece) const { return axes_.lanes + info(piece).own.size(); }
+  [[nodiscard]] PAPERPROOF_INLINE Vec2 normal(PieceIndex piece, std::size_t axis) const {
     if (axis < axes_.lanes) return {axes_.x[axis], axes_.y[axis]};
     if (is_direction(axis)) [[unlikely]]
       return normal_along(axis);
     return own_axes(piece)[axis - axes_.lanes].normal;
   }
-  [[nodiscard]] Real offset(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] Real offset(PieceIndex piece, std::size_t axis) const {
     if (axis < axes_.lanes) return info(piece).offsets[axis];
     return is_direction(axis) ? offset_along(piece, axis) : own_axes(piece)[axis - axes_.lanes].offset;
   }
   /// @param axis no direction.
-  [[nodiscard]] const OctagonFace& octagon_face(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] const OctagonFace& octagon_face(PieceIndex piece, std::size_t axis) const {
     return axis < axes_.lanes ? axes_.faces[axis] : own_axes(piece)[axis - axes_.lanes].face;
   }
-  [[nodiscard]] OctagonFace face_along(const Vec2& normal) const noexcept { return axes_.face_along(normal); }
-  [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] OctagonFace face_along(const Vec2& normal) const { return axes_.face_along(normal); }
+  [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const {
     return !is_direction(axis) && (info(piece).covered >> axis & 1U) != 0;
   }
-  [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const {
     return !is_direction(axis) && (info(piece).hidden >> axis & 1U) != 0;
   }
   /// Separation along one axis at p [m].
-  [[nodiscard]] PAPERPROOF_INLINE Real separation(PieceIndex piece, std::size_t axis, const Vec2& p) const noexcept {
+  [[nodiscard]] PAPERPROOF_INLINE Real separation(PieceIndex piece, std::size_t axis, const Vec2& p) const {
     const Vec2 n = normal(piece, axis);
     return n.x() * p.x() + n.y() * p.y() - offset(piece, axis);
   }
@@ -231,26 +229,26 @@ class ConfigurationSpace {
     double noise;   ///< Of rounding, in what is compared with it [m].
   };
 
-  [[nodiscard]] PAPERPROOF_COLD static Vec2 normal_along(std::size_t direction) noexcept {
+  [[nodiscard]] PAPERPROOF_COLD static Vec2 normal_along(std::size_t direction) {
     return direction_of(direction).cast<Real>();
   }
-  [[nodiscard]] PAPERPROOF_COLD Real offset_along(PieceIndex piece, std::size_t direction) const noexcept {
+  [[nodiscard]] PAPERPROOF_COLD Real offset_along(PieceIndex piece, std::size_t direction) const {
     return support_offset(info(piece), direction_of(direction));
   }
-  [[nodiscard]] Circle circle(const Obstacle& of) const noexcept {
+  [[nodiscard]] Circle circle(const Obstacle& of) const {
     const Circle circle = scenery().circle(of.piece);
     return of.angle == 0 ? circle : Circle{of.turned[0], circle.radius};
   }
-  [[nodiscard]] PieceVertices vertices_of(const Obstacle& of) const noexcept {
+  [[nodiscard]] PieceVertices vertices_of(const Obstacle& of) const {
     if (of.angle != 0) [[unlikely]]
       return std::span<const Vec2d>(of.turned);
     return scenery().vertices_of(of.piece);
   }
-  [[nodiscard]] Real support_offset(const Obstacle& of, const Vec2d& normal) const noexcept;
+  [[nodiscard]] Real support_offset(const Obstacle& of, const Vec2d& normal) const;
 
   /// A lane that no axis has.
-  [[nodiscard]] bool is_unused(std::size_t axis) const noexcept { return axis >= axes_.count && axis < axes_.lanes; }
-  [[nodiscard]] Vec2d reach() const noexcept { return axes_.box.size(); }
+  [[nodiscard]] bool is_unused(std::size_t axis) const { return axis >= axes_.count && axis < axes_.lanes; }
+  [[nodiscard]] Vec2d reach() const { return axes_.box.size(); }
   [[nodiscard]] const OneWaySurfaces& surfaces_of(MoverIndex mover, double angle);
   [[nodiscard]] PieceIndex make(PieceIndex source, double angle);
   void fill(Obstacle& obstacle, PieceIndex source, double angle);
@@ -259,10 +257,10 @@ class ConfigurationSpace {
   void find_axes(Obstacle& obstacle);
   void find_seams(PieceIndex piece);
   [[nodiscard]] double open_part(const Facet& facet);
-  [[nodiscard]] Interval inside(const Facet& facet, PieceIndex other) const noexcept;
-  [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis, double noise) const noexcept;
-  [[nodiscard]] bool may_cover(PieceIndex covering, PieceIndex piece, double noise) const noexcept;
-  [[nodiscard]] bool is_covered_corner(PieceIndex piece, const Facet& corner) const noexcept;
+  [[nodiscard]] Interval inside(const Facet& facet, PieceIndex other) const;
+  [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis, double noise) const;
+  [[nodiscard]] bool may_cover(PieceIndex covering, PieceIndex piece, double noise) const;
+  [[nodiscard]] bool is_covered_corner(PieceIndex piece, const Facet& corner) const;
 
   const PieceFinder& solids_;
   CharacterShape shape_;

@@ -17,7 +17,7 @@ struct PieceFace {
 };
 
 /// Along a box direction, of a rectangle: three of four contacts.
-[[nodiscard]] PAPERPROOF_INLINE PieceFace rectangle_face(const Box2& box, const Vec2& n, const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE PieceFace rectangle_face(const Box2& box, const Vec2& n, const Vec2& p) {
   const Vec2& corner = n.x() + n.y() > 0 ? box.upper : box.lower;
   const bool upright = n.x() == 0;
   const Real high = upright ? n.y() * (corner.y() - p.y()) : n.x() * (corner.x() - p.x());
@@ -29,7 +29,7 @@ struct PieceFace {
 /// From differences of coordinates: relative accuracy of a few ulp, also where the offset of the axis has lost its last
 /// digits far from the origin. @param n normal of the axis.
 [[nodiscard]] PAPERPROOF_INLINE PieceFace piece_face(const ConfigurationSpace& space, PieceIndex piece,
-                                                     std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
+                                                     std::size_t axis, const Vec2& n, const Vec2& p) {
   constexpr Real flat = tolerances.hit;  // points this close to the highest belong to the face
   if (axis < 4 && space.info(piece).source.is_rectangle()) return rectangle_face(space.info(piece).box, n, p);
   PieceFace face{-std::numeric_limits<Real>::infinity(), 0, 0};
@@ -47,7 +47,7 @@ struct PieceFace {
 
 /// Separation from a circle along a direction, from differences of coordinates.
 [[nodiscard]] PAPERPROOF_COLD inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece,
-                                                           Vec2 n, Vec2 p) noexcept {
+                                                           Vec2 n, Vec2 p) {
   const Circle circle = space.circle(circle_piece);
   const Vec2 centre = circle.centre - p;
   return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
@@ -56,8 +56,7 @@ struct PieceFace {
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
 [[nodiscard]] PAPERPROOF_INLINE Real time_of_impact(const ConfigurationSpace& space, const Vec2& from,
-                                                    const Vec2& displacement, PieceIndex piece,
-                                                    const EntryAxes& axes) noexcept {
+                                                    const Vec2& displacement, PieceIndex piece, const EntryAxes& axes) {
   if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
   const Real level = axes.missed ? tolerances.hit : Real(0);
   const Vec2 n = space.normal(piece, axes.impact);
@@ -78,14 +77,14 @@ struct ContactPlace {
 
 /// The point of a circle's arc that faces the octagon.
 [[nodiscard]] PAPERPROOF_COLD inline ContactPlace place_on_arc(const ConfigurationSpace& space, PieceIndex piece,
-                                                               Vec2 n, Vec2 p) noexcept {
+                                                               Vec2 n, Vec2 p) {
   const Circle circle = space.circle(piece);
   return {circle.centre + n * circle.radius, separation_along(space, piece, n, p)};
 }
 
 /// @param n normal of the axis.
 [[nodiscard]] PAPERPROOF_INLINE ContactPlace contact_place(const ConfigurationSpace& space, PieceIndex piece,
-                                                           std::size_t axis, const Vec2& n, const Vec2& p) noexcept {
+                                                           std::size_t axis, const Vec2& n, const Vec2& p) {
   if (is_direction(axis)) [[unlikely]]
     return place_on_arc(space, piece, n, p);
   const PieceFace there = piece_face(space, piece, axis, n, p);
@@ -100,7 +99,7 @@ struct ContactPlace {
 /// @param at as the piece sees it. @param offset of the mover of the piece.
 [[nodiscard]] PAPERPROOF_INLINE Contact contact_with(const ConfigurationSpace& space, const UpFrame& up,
                                                      PieceIndex piece, std::size_t axis, const Vec2& at,
-                                                     const Vec2& offset, Real fraction) noexcept {
+                                                     const Vec2& offset, Real fraction) {
   const Vec2 normal = space.normal(piece, axis);
   const ContactPlace place = contact_place(space, piece, axis, normal, at);
   return {.collider = space.info(piece).source.collider,

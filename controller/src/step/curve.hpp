@@ -16,18 +16,18 @@ struct Curve {
   Vec2 out{Vec2::Zero()};  ///< Unit vector from the centre of an arc to its place 0.
   Real radius = 0;         ///< Of an arc [m]. Its places are the tangents of half the angles.
 
-  [[nodiscard]] bool is_arc() const noexcept { return radius > 0; }
-  [[nodiscard]] Vec2 at(Real place) const noexcept {
+  [[nodiscard]] bool is_arc() const { return radius > 0; }
+  [[nodiscard]] Vec2 at(Real place) const {
     if (!is_arc()) return middle + along * place;
     const Real square = place * place;
     return middle + (out * (1 - square) + along * (2 * place)) * (radius / (1 + square));
   }
   /// The place on an arc in a direction from its centre, less than half a turn from `out`.
-  [[nodiscard]] Real place_towards(const Vec2& direction) const noexcept {
+  [[nodiscard]] Real place_towards(const Vec2& direction) const {
     return dot(direction, along) / (1 + dot(direction, out));
   }
   /// One unit of place is at most so long [m].
-  [[nodiscard]] Real pace() const noexcept { return is_arc() ? 2 * radius : Real(1); }
+  [[nodiscard]] Real pace() const { return is_arc() ? 2 * radius : Real(1); }
 };
 
 /// A place on a curve, and which way one goes along it.
@@ -36,7 +36,7 @@ struct Spot {
   static constexpr Real parallel = std::numeric_limits<Real>::epsilon() * 64;
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  Spot(const Curve& on, Real begin, Real last, Real forth) noexcept
+  Spot(const Curve& on, Real begin, Real last, Real forth)
       : curve(on), place(begin), end(last), direction(forth), position(on.at(begin)) {}
 
   const Curve& curve;
@@ -45,14 +45,14 @@ struct Spot {
   Real direction;  ///< 1 or -1.
   Vec2 position;
 
-  [[nodiscard]] bool is_beyond_end() const noexcept { return place * direction > end * direction; }
-  [[nodiscard]] Vec2 after(Real reach) const noexcept { return curve.at(place + direction * reach); }
-  void go(Real reach) noexcept {
+  [[nodiscard]] bool is_beyond_end() const { return place * direction > end * direction; }
+  [[nodiscard]] Vec2 after(Real reach) const { return curve.at(place + direction * reach); }
+  void go(Real reach) {
     place += direction * reach;
     position = curve.at(place);
   }
   /// How far it goes until it is by `depth` > 0 further along a unit vector; infinity if it never is.
-  [[nodiscard]] Real until(const Vec2& normal, Real depth) const noexcept {
+  [[nodiscard]] Real until(const Vec2& normal, Real depth) const {
     const Real turned = dot(normal, curve.along);
     if (!curve.is_arc()) return turned * direction > parallel ? depth / (turned * direction) : infinity;
     // The height over the centre is reached at the roots of a t^2 - 2 b t + c, and is less where that is positive.

@@ -26,10 +26,10 @@ namespace {
 
 class Search {
  public:
-  Search(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query) noexcept
+  Search(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query)
       : space_(space), pieces_(pieces), query_(query), takes_time_(query.begin < query.end), nearest_(query.reach) {}
 
-  [[nodiscard]] std::optional<Vec2> find() noexcept {
+  [[nodiscard]] std::optional<Vec2> find() {
     if (query_.last_free && is_inside_something(*query_.last_free)) return std::nullopt;
     if (takes_time_) {
       if (starts_inside()) return std::nullopt;
@@ -45,7 +45,7 @@ class Search {
   }
 
   /// Whether a position is free, and the straight motion to it.
-  [[nodiscard]] bool reaches(const Vec2& q) const noexcept {
+  [[nodiscard]] bool reaches(const Vec2& q) const {
     if (!(q.cwiseAbs().maxCoeff() <= tolerances.range)) return false;
     for (std::size_t index = 0; index < pieces_.size(); ++index) {
       const PieceIndex piece = pieces_[index];
@@ -85,20 +85,20 @@ class Search {
 
   // Pieces and shadows.
 
-  [[nodiscard]] bool is_passable(std::size_t index) const noexcept { return index < query_.passable; }
+  [[nodiscard]] bool is_passable(std::size_t index) const { return index < query_.passable; }
   /// Offset of the mover of a piece at a fraction of the step; zero for a piece that stands still.
-  [[nodiscard]] Vec2 offset(PieceIndex piece, Real time) const noexcept {
+  [[nodiscard]] Vec2 offset(PieceIndex piece, Real time) const {
     const MoverIndex mover = space_.info(piece).source.mover;
     return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(query_.movers[mover].at(time));
   }
   /// A position relative to the mover of a piece.
-  [[nodiscard]] Vec2 seen(PieceIndex piece, const Vec2& p, Real time) const noexcept { return p - offset(piece, time); }
-  [[nodiscard]] Vec2 seen_at_end(PieceIndex piece, const Vec2& p) const noexcept { return seen(piece, p, query_.end); }
-  [[nodiscard]] Vec2 near(PieceIndex piece) const noexcept { return seen_at_end(piece, query_.near); }
-  [[nodiscard]] bool solid(PieceIndex piece) const noexcept { return !space_.info(piece).is_one_way(); }
-  [[nodiscard]] BestAxis best(PieceIndex piece, const Vec2& at) const noexcept { return best_axis(space_, piece, at); }
+  [[nodiscard]] Vec2 seen(PieceIndex piece, const Vec2& p, Real time) const { return p - offset(piece, time); }
+  [[nodiscard]] Vec2 seen_at_end(PieceIndex piece, const Vec2& p) const { return seen(piece, p, query_.end); }
+  [[nodiscard]] Vec2 near(PieceIndex piece) const { return seen_at_end(piece, query_.near); }
+  [[nodiscard]] bool solid(PieceIndex piece) const { return !space_.info(piece).is_one_way(); }
+  [[nodiscard]] BestAxis best(PieceIndex piece, const Vec2& at) const { return best_axis(space_, piece, at); }
   /// Where the character was before it overlapped a piece that may be passed, as the piece sees it.
-  [[nodiscard]] std::optional<Vec2> side_of(PieceIndex piece) const noexcept {
+  [[nodiscard]] std::optional<Vec2> side_of(PieceIndex piece) const {
     const PieceInfo& info = space_.info(piece).source;
     for (const Crusher& crusher : query_.crushers)
       if (crusher.collider == info.collider)
@@ -106,17 +106,17 @@ class Search {
     if (!query_.entered_from) return std::nullopt;
     return seen(piece, *query_.entered_from, Real(0));
   }
-  [[nodiscard]] std::optional<Vec2> place_of(std::size_t index, Place place) const noexcept {
+  [[nodiscard]] std::optional<Vec2> place_of(std::size_t index, Place place) const {
     const PieceIndex piece = pieces_[index];
     if (place == Place::start) return is_passable(index) ? side_of(piece) : seen(piece, query_.from, query_.begin);
     return query_.last_free ? std::optional(seen(piece, *query_.last_free, query_.begin)) : std::nullopt;
   }
-  [[nodiscard]] bool is_inside_something(const Vec2& p) const noexcept {
+  [[nodiscard]] bool is_inside_something(const Vec2& p) const {
     return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
       return solid(piece) && overlaps_exactly(space_, piece, query_.movers, p, query_.begin);
     });
   }
-  [[nodiscard]] bool starts_inside() const noexcept {
+  [[nodiscard]] bool starts_inside() const {
     const std::span<const PieceIndex> others = pieces_.subspan(query_.passable);
     return std::any_of(others.begin(), others.end(), [&](PieceIndex piece) {
       return solid(piece) && best(piece, seen(piece, query_.from, query_.begin)).separation < 0;
@@ -124,13 +124,13 @@ class Search {
   }
 
   /// The same shadows are needed on many lines, and tangents are expensive: the last ones are kept.
-  [[nodiscard]] const std::optional<View>& view(std::size_t index, Place place) noexcept {
+  [[nodiscard]] const std::optional<View>& view(std::size_t index, Place place) {
     const std::size_t key = 2 * index + static_cast<std::size_t>(place);
     Kept& kept = kept_[key % kept_.size()];
     if (kept.key != key) kept = {key, view_from(index, place)};
     return kept.view;
   }
-  [[nodiscard]] std::optional<View> view_from(std::size_t index, Place place) const noexcept {
+  [[nodiscard]] std::optional<View> view_from(std::size_t index, Place place) const {
     const PieceIndex piece = pieces_[index];
     const std::optional<Vec2> at = place_of(index, place);
     if (!at || (!solid(piece) && (query_.drops || !is_above(space_, piece, *at, Vec2(Vec2::Zero())))))
@@ -145,14 +145,14 @@ class Search {
 
   // The curves that are searched. Positions on them are relative to `query.near`.
 
-  void search_facets(PieceIndex piece) noexcept {
+  void search_facets(PieceIndex piece) {
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       if (!space_.covered(piece, axis))
         search_line(space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, near(piece)), piece);
     if (space_.is_circle(piece)) search_arcs(piece);
   }
 
-  void search_tangents(std::size_t index, Place place) noexcept {
+  void search_tangents(std::size_t index, Place place) {
     const std::optional<View> view = this->view(index, place);
     if (!view) return;
     for (const Vec2& n : {view->tangents.left, view->tangents.right})
@@ -161,7 +161,7 @@ class Search {
 
   /// Searches the line of all w with n·w = bound.
   /// @param facet_of the line bounds this piece.
-  void search_line(const Vec2& n, Real bound, std::optional<PieceIndex> facet_of) noexcept {
+  void search_line(const Vec2& n, Real bound, std::optional<PieceIndex> facet_of) {
     if ((n.x() == 0 && n.y() == 0) || !(std::abs(bound) < nearest_)) return;
     const Curve line{n * bound, {-n.y(), n.x()}};
     const Real half = std::sqrt(nearest_ * nearest_ - bound * bound);
@@ -170,7 +170,7 @@ class Search {
   }
 
   /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.
-  [[nodiscard]] Part facet_on(const Curve& line, PieceIndex piece, Real half) const noexcept {
+  [[nodiscard]] Part facet_on(const Curve& line, PieceIndex piece, Real half) const {
     const Vec2 foot = near(piece) + line.middle;
     Part part{-half, half};
     for (std::size_t axis = 0; axis < space_.axis_count(piece) && part.from <= part.to; ++axis) {
@@ -188,7 +188,7 @@ class Search {
   }
 
   /// The arcs on which a corner of the hull touches a circle, with the gap.
-  void search_arcs(PieceIndex piece) noexcept {
+  void search_arcs(PieceIndex piece) {
     const Circle& circle = space_.circle(piece);
     const Vec2 centre = circle.centre - near(piece);
     const Real radius = circle.radius + query_.gap;
@@ -218,7 +218,7 @@ class Search {
   }
 
   /// Takes the first place on a curve that is free and reached, both ways: the positions must get further away.
-  void sweep_along(const Curve& curve, Real begin, const Part& part) noexcept {
+  void sweep_along(const Curve& curve, Real begin, const Part& part) {
     for (const Real direction : {Real(1), Real(-1)}) {
       Spot spot(curve, begin, direction > 0 ? part.to : part.from, direction);
       Real stride = first_stride / curve.pace();
@@ -237,7 +237,7 @@ class Search {
   /// it is not entered again by a line. The pieces are looked at forwards and backwards in turns, as they are mostly in
   /// order of place. A piece has three regions at most, so no line takes more rounds; of an arc the place is tried as
   /// it is then.
-  void leave_regions(Spot& spot) noexcept {
+  void leave_regions(Spot& spot) {
     // A piece that covers one line often covers the next.
     spot.go(covered_from(spot, last_covering_));
     for (std::size_t round = 0; round <= 3 * pieces_.size() && !spot.is_beyond_end(); ++round) {
@@ -254,7 +254,7 @@ class Search {
   }
 
   /// How far the regions of a piece reach from a spot; 0 if none covers it.
-  [[nodiscard]] Real covered_from(const Spot& spot, std::size_t index) noexcept {
+  [[nodiscard]] Real covered_from(const Spot& spot, std::size_t index) {
     const bool is_solid = solid(pieces_[index]);
     if (!is_solid && query_.drops) return 0;
     const Real obstacle = is_solid ? obstacle_from(spot, pieces_[index]) : Real(0);
@@ -262,7 +262,7 @@ class Search {
   }
 
   /// How far the obstacle reaches, with the gap.
-  [[nodiscard]] Real obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
+  [[nodiscard]] Real obstacle_from(const Spot& spot, PieceIndex piece) const {
     const Vec2 at = near(piece) + spot.position;
     if (best(piece, at).separation >= query_.gap - slack) return 0;
     Real reach = Spot::infinity;
@@ -272,7 +272,7 @@ class Search {
   }
 
   /// Cuts off what of a region is beyond a line. @param depth of the spot behind the line; at `least` it is outside.
-  static void cut(Real& reach, const Spot& spot, const Vec2& normal, Real depth, Real least = slack) noexcept {
+  static void cut(Real& reach, const Spot& spot, const Vec2& normal, Real depth, Real least = slack) {
     reach = depth > least ? std::min(reach, spot.until(normal, depth)) : Real(0);
   }
 
@@ -284,7 +284,7 @@ class Search {
   };
   /// From where the curve is beyond the circle, the tangent there shortens the way, again and again.
   [[nodiscard]] WayOut tangents_until(const Spot& spot, PieceIndex piece, const Vec2& at, Real reach,
-                                      Real level) const noexcept {
+                                      Real level) const {
     // A little beyond the end.
     const Real rest = (spot.end - spot.place) * spot.direction + first_stride / spot.curve.pace();
     WayOut out{std::min(reach, rest), 0};
@@ -300,7 +300,7 @@ class Search {
   }
 
   /// How far a shadow reaches.
-  [[nodiscard]] Real shadow_from(const Spot& spot, std::size_t index, Place place) noexcept {
+  [[nodiscard]] Real shadow_from(const Spot& spot, std::size_t index, Place place) {
     const std::optional<View>& view = this->view(index, place);
     if (!view) return 0;
     const PieceIndex piece = pieces_[index];
@@ -330,7 +330,7 @@ class Search {
   // The checks of a position.
 
   /// @return true where the search along this line ends: a position was taken, or all others on it are further away.
-  bool consider(const Vec2& w) noexcept {
+  bool consider(const Vec2& w) {
     const Vec2 q = query_.near + w;
     const Real distance = length_of(Vec2(q - query_.near));
     if (!(distance < nearest_)) return true;
@@ -342,7 +342,7 @@ class Search {
 
   /// Whether a position is on the side of a piece from which the character came: the straight motion from there is
   /// clear of the piece. It may touch the piece at its start, by rounding.
-  [[nodiscard]] bool keeps_side(PieceIndex piece, const Vec2& q) const noexcept {
+  [[nodiscard]] bool keeps_side(PieceIndex piece, const Vec2& q) const {
     const std::optional<Vec2> from = side_of(piece);
     if (!from) return true;
     const Vec2 to = seen_at_end(piece, q);
@@ -351,7 +351,7 @@ class Search {
   }
 
   /// Whether a straight motion to a position hits no solid, and no one-way segment against its normal.
-  [[nodiscard]] bool clear(PieceIndex piece, const Vec2& place, const Vec2& q) const noexcept {
+  [[nodiscard]] bool clear(PieceIndex piece, const Vec2& place, const Vec2& q) const {
     if (query_.drops && !solid(piece)) return true;
     const Vec2 from = seen(piece, place, query_.begin);
     const Vec2 to = seen_at_end(piece, q);
@@ -360,7 +360,7 @@ class Search {
            clear_of_exactly(space_, piece, query_.movers, place, query_.begin, q, query_.end) || passes(motion, piece);
   }
 
-  [[nodiscard]] bool passes(const Motion& motion, PieceIndex piece) const noexcept {
+  [[nodiscard]] bool passes(const Motion& motion, PieceIndex piece) const {
     return best(piece, motion.from).separation >= tolerances.certain && !find_hit(space_, motion, piece).hit;
   }
 
@@ -382,12 +382,12 @@ class Search {
 }  // namespace
 
 std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
-                                 const FreePositionQuery& query) noexcept {
+                                 const FreePositionQuery& query) {
   return Search{space, pieces, query}.find();
 }
 
 bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query,
-             const Vec2& q) noexcept {
+             const Vec2& q) {
   return Search{space, pieces, query}.reaches(q);
 }
 

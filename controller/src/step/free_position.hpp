@@ -40,10 +40,10 @@ struct FreePositionQuery {
 /// @param pieces every piece that such a motion may hit, those that may be passed first.
 /// @return nothing if there is no such position.
 [[nodiscard]] std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
-                                               const FreePositionQuery& query) noexcept;
+                                               const FreePositionQuery& query);
 
 /// Whether `q` is such a position, at any distance.
 [[nodiscard]] bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
-                           const FreePositionQuery& query, const Vec2& q) noexcept;
+                           const FreePositionQuery& query, const Vec2& q);
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

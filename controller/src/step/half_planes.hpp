@@ -20,16 +20,16 @@ struct HalfPlane {
   Real least = 0;
 
   /// How far `w` is on the allowed side.
-  [[nodiscard]] Real margin(const Vec2& w) const noexcept { return normal.x() * w.x() + normal.y() * w.y() - least; }
+  [[nodiscard]] Real margin(const Vec2& w) const { return normal.x() * w.x() + normal.y() * w.y() - least; }
   /// Up to the rounding of the margin: a motion along the surface is allowed.
-  [[nodiscard]] bool allows(const Vec2& w) const noexcept {
+  [[nodiscard]] bool allows(const Vec2& w) const {
     constexpr Real noise = std::numeric_limits<Real>::epsilon() * 16;
     return margin(w) >= -noise * (std::abs(w.x()) + std::abs(w.y()) + std::abs(least));
   }
 };
 
 /// Of surfaces with one normal only the one that leaves least counts: a handful are left, however many are touched.
-inline void add_plane(const HalfPlane& plane, std::vector<HalfPlane>& planes) noexcept {
+inline void add_plane(const HalfPlane& plane, std::vector<HalfPlane>& planes) {
   for (HalfPlane& known : planes) {
     if (known.normal != plane.normal) continue;
     known.least = std::max(known.least, plane.least);
@@ -40,8 +40,7 @@ inline void add_plane(const HalfPlane& plane, std::vector<HalfPlane>& planes) no
 
 /// The point of the intersection of half planes that is nearest to `wanted`; nothing where they have none in common.
 /// In the plane it is `wanted` itself, its foot on one border, or a crossing of two borders. O(n³) for a handful.
-[[nodiscard]] inline std::optional<Vec2> nearest_allowed(const Vec2& wanted,
-                                                         std::span<const HalfPlane> planes) noexcept {
+[[nodiscard]] inline std::optional<Vec2> nearest_allowed(const Vec2& wanted, std::span<const HalfPlane> planes) {
   const auto allowed = [&](const Vec2& w, const HalfPlane* on, const HalfPlane* also_on) {
     for (const HalfPlane& plane : planes)
       if (&plane != on && &plane != also_on && !plane.allows(w)) return false;

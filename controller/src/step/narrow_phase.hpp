@@ -32,7 +32,7 @@ struct Motion {
   mutable OneWaySurfaces::Index known_surface;
   mutable bool above_known_surface = false;
 
-  [[nodiscard]] Box2 box() const noexcept {
+  [[nodiscard]] Box2 box() const {
     const Vec2 to = from + extended;
     return Box2::between(from, to);
   }
@@ -41,7 +41,7 @@ struct Motion {
 /// In place: a motion is large.
 /// @param lost see `Motion`.
 PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& space, const Vec2& from,
-                                  const Vec2& displacement, const Vec2& lost = Vec2::Zero()) noexcept {
+                                  const Vec2& displacement, const Vec2& lost = Vec2::Zero()) {
   // A shorter motion would make the reach infinite.
   constexpr Real shortest = std::numeric_limits<Real>::min() * Real(1e8);
   motion.from = from;
@@ -60,7 +60,7 @@ PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& spac
 }
 
 [[nodiscard]] PAPERPROOF_INLINE Motion make_motion(const ConfigurationSpace& space, const Vec2& from,
-                                                   const Vec2& displacement, const Vec2& lost = Vec2::Zero()) noexcept {
+                                                   const Vec2& displacement, const Vec2& lost = Vec2::Zero()) {
   Motion motion;
   set_motion(motion, space, from, displacement, lost);
   return motion;
@@ -73,9 +73,9 @@ struct Clearance {
   PerAxis shared_starts;  ///< Separation before the motion along each shared axis [m].
 
   /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
-  [[nodiscard]] Real tau() const noexcept { return std::min(tolerances.hit, start); }
+  [[nodiscard]] Real tau() const { return std::min(tolerances.hit, start); }
   /// One axis keeps the motion clear.
-  [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
+  [[nodiscard]] bool clear() const { return kept >= tau(); }
 };
 
 /// Separations of a piece at the start and at the end of the extended motion [m], shared axes first.
@@ -86,7 +86,7 @@ struct AxisRanges {
 };
 
 PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
-                                   const Clearance& clear, AxisRanges& f) noexcept {
+                                   const Clearance& clear, AxisRanges& f) {
   space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     Four::Map(f.start.data() + 4 * k) = clear.shared_starts.group(k);
     Four::Map(f.end.data() + 4 * k) = clear.shared_starts.group(k) + motion.along.group(k);
@@ -102,7 +102,7 @@ PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion
 /// How far away one of the box directions alone, which are the first shared axes, keeps a piece during the whole motion
 /// [m]. With most pieces that is further than `hit`: looking at these axes first saves half of a sweep.
 [[nodiscard]] PAPERPROOF_INLINE Real kept_by_box(const ConfigurationSpace& space, const Motion& motion,
-                                                 PieceIndex piece) noexcept {
+                                                 PieceIndex piece) {
   const Four start = motion.at.group(0) - space.offsets(piece, 0);
   const Four least = start.min(start + motion.along.group(0));
   return least.maxCoeff();
@@ -110,15 +110,14 @@ PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion
 
 /// Separation of a circle before the motion, and the one that the axis of this separation keeps over the whole motion.
 [[nodiscard]] PAPERPROOF_COLD inline std::pair<Real, Real> clearance_of_circle(const ConfigurationSpace& space,
-                                                                               const Motion& motion,
-                                                                               PieceIndex piece) noexcept {
+                                                                               const Motion& motion, PieceIndex piece) {
   const geometry::NearCircle near = space.near_circle(piece, motion.from);
   const Real along = near.normal.x() * motion.extended.x() + near.normal.y() * motion.extended.y();
   return {near.separation, near.separation + std::min(along, Real(0))};
 }
 
 [[nodiscard]] PAPERPROOF_INLINE Clearance clearance(const ConfigurationSpace& space, const Motion& motion,
-                                                    PieceIndex piece) noexcept {
+                                                    PieceIndex piece) {
   Clearance result;
   Four start;
   Four kept;
@@ -167,10 +166,10 @@ struct PieceHit {
 /// Finds the axis that is entered last; of times that are equal but for rounding the normal that points up most wins.
 class LastEntry {
  public:
-  LastEntry(const ConfigurationSpace& space, PieceIndex piece, const UpFrame& frame) noexcept
+  LastEntry(const ConfigurationSpace& space, PieceIndex piece, const UpFrame& frame)
       : space_(space), frame_(frame), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
 
-  void add(std::size_t axis, Real time) noexcept {
+  void add(std::size_t axis, Real time) {
     Entry& last = space_.covered(piece_, axis) ? covered_ : open_;
     if (!(time > last.time + same) && !(time >= last.time - same && up(axis) > up(last.axis))) return;
     last = {axis, time};
@@ -180,10 +179,10 @@ class LastEntry {
   /// where the motion is stopped: what covers it may be let through, or leave less of it open than counts.
   /// @param faced whether the piece is still apart there along an axis.
   template <class Faced>
-  [[nodiscard]] bool is_covered(const Faced& faced) const noexcept {
+  [[nodiscard]] bool is_covered(const Faced& faced) const {
     return open_.time < 0 || (covered_.time >= 0 && !faced(open_.axis));
   }
-  [[nodiscard]] std::size_t axis(bool is_covered) const noexcept { return is_covered ? covered_.axis : open_.axis; }
+  [[nodiscard]] std::size_t axis(bool is_covered) const { return is_covered ? covered_.axis : open_.axis; }
 
  private:
   struct Entry {
@@ -192,7 +191,7 @@ class LastEntry {
   };
   /// Times closer than this are one corner, met with both facets at once.
   static constexpr Real same = std::numeric_limits<Real>::epsilon() * 64;
-  [[nodiscard]] Real up(std::size_t axis) const noexcept { return frame_.up_of(space_.normal(piece_, axis)); }
+  [[nodiscard]] Real up(std::size_t axis) const { return frame_.up_of(space_.normal(piece_, axis)); }
 
   const ConfigurationSpace& space_;
   const UpFrame& frame_;
@@ -205,7 +204,7 @@ class LastEntry {
 inline constexpr Real covered_share = Real(0.5);
 
 /// When all separations are below a level for the first time; nothing where they never are together.
-[[nodiscard]] inline std::optional<Real> entry_below(const AxisRanges& f, Real level) noexcept {
+[[nodiscard]] inline std::optional<Real> entry_below(const AxisRanges& f, Real level) {
   geometry::TimeBelow<Real> time{0, 1};
   for (std::size_t axis = 0; axis < f.count; ++axis) time.narrow(f.start[axis], f.end[axis], level);
   return time.any() ? std::optional(time.begin) : std::nullopt;
@@ -219,7 +218,7 @@ inline constexpr Real covered_share = Real(0.5);
 /// surface has nowhere: who flies up a slope and over its crest would lose its speed to the side of the next tile. So
 /// the hidden facet stops later, and only where nothing stops the motion that covers it.
 /// @param tau see `Clearance`.
-[[nodiscard]] PAPERPROOF_COLD inline std::optional<Real> sweep_covered(const AxisRanges& f, Real tau) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline std::optional<Real> sweep_covered(const AxisRanges& f, Real tau) {
   if (!entry_below(f, std::min(tau, tolerances.hit * covered_share))) return std::nullopt;
   const Real start = *std::max_element(f.start.begin(), f.start.begin() + f.count);
   if (start <= tolerances.touch * covered_share) return Real(0);
@@ -230,7 +229,7 @@ inline constexpr Real covered_share = Real(0.5);
 /// a little further away: where that counted as touching up to the whole gap of a touch, a walk over a circle of 100 km
 /// would be in the air in one step of four.
 [[nodiscard]] PAPERPROOF_COLD inline PieceHit sweep_circle(const ConfigurationSpace& space, const Motion& motion,
-                                                           PieceIndex piece, Real start) noexcept {
+                                                           PieceIndex piece, Real start) {
   const auto approach = [&](Real level) {
     return geometry::approach(space.hull(), motion.from, motion.extended, space.circle(piece), level);
   };
@@ -265,8 +264,7 @@ enum class Covered : std::uint8_t { as_any, yields };
 /// @param up decides which of two facets counts that are entered at once.
 template <Covered covered = Covered::yields>
 [[nodiscard]] PAPERPROOF_INLINE PieceHit sweep_piece(const ConfigurationSpace& space, const Motion& motion,
-                                                     PieceIndex piece, const Clearance& clear,
-                                                     const UpFrame& up = {}) noexcept {
+                                                     PieceIndex piece, const Clearance& clear, const UpFrame& up = {}) {
   AxisRanges f;
   find_ranges(space, motion, piece, clear, f);
   if (f.count > space.lanes() && space.is_circle(piece)) [[unlikely]]
@@ -327,7 +325,7 @@ template <Covered covered = Covered::yields>
 
 /// What a motion does to an obstacle that may be far away.
 [[nodiscard]] inline PieceHit find_hit(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
-                                       const UpFrame& up = {}) noexcept {
+                                       const UpFrame& up = {}) {
   const Clearance clear = clearance(space, motion, piece);
   return clear.clear() ? PieceHit{} : sweep_piece(space, motion, piece, clear, up);
 }
@@ -335,7 +333,7 @@ template <Covered covered = Covered::yields>
 /// Whether one axis, by more than rounding, separates a piece from both ends of a straight motion: proof that the
 /// motion is clear of it. @param at_begin so much is enough where it begins [m].
 [[nodiscard]] inline bool one_axis_separates(const ConfigurationSpace& space, PieceIndex piece, const Vec2& from,
-                                             const Vec2& to, Real at_begin = tolerances.certain) noexcept {
+                                             const Vec2& to, Real at_begin = tolerances.certain) {
   const auto separates = [&](std::size_t axis) {
     return space.separation(piece, axis, from) >= at_begin && space.separation(piece, axis, to) >= tolerances.certain;
   };
@@ -352,13 +350,12 @@ struct BestAxis {
 };
 
 [[nodiscard]] PAPERPROOF_COLD inline BestAxis best_axis_of_circle(const ConfigurationSpace& space, PieceIndex piece,
-                                                                  const Vec2& p) noexcept {
+                                                                  const Vec2& p) {
   const geometry::NearCircle near = space.near_circle(piece, p);
   return {axis_along(near.normal), near.separation};
 }
 
-[[nodiscard]] PAPERPROOF_INLINE BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece,
-                                                   const Vec2& p) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p) {
   PerAxis f;
   Four largest;
   space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {

@@ -41,7 +41,7 @@ class OctagonSweep final : public SweepInParts {
         chains_(character.shape),
         settings_(settings_for(def, character)) {}
 
-  [[nodiscard]] const PieceFinder& finder() const noexcept override { return finder_; }
+  [[nodiscard]] const PieceFinder& finder() const override { return finder_; }
 
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
@@ -55,7 +55,7 @@ class OctagonSweep final : public SweepInParts {
     Nearby(finder_, scratch.solids, nullptr, nullptr, &memory).reserve(positions);
   }
 
-  void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept override {
+  void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const override {
     result.clear();
     const Moving& moving = request.around.moving;
     const CharacterState& state = request.state;
@@ -73,7 +73,7 @@ class OctagonSweep final : public SweepInParts {
   }
 
   void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
-                   std::vector<ColliderIndex>& passed) const noexcept override {
+                   std::vector<ColliderIndex>& passed) const override {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
       const Obstacle& obstacle = memory.space.info(piece);
@@ -86,7 +86,7 @@ class OctagonSweep final : public SweepInParts {
   }
 
   template <class Question>
-  [[nodiscard]] auto ask(const Around& around, Scratch& scratch, const Question& question) const noexcept {
+  [[nodiscard]] auto ask(const Around& around, Scratch& scratch, const Question& question) const {
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     Surroundings surroundings{around, memory.space, {finder_, scratch.solids, &around.moving, around.filter, &memory}};
     const Box2 before = scratch.solids.box;
@@ -98,21 +98,21 @@ class OctagonSweep final : public SweepInParts {
   }
 
   [[nodiscard]] std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement, const Around& around,
-                                            Scratch& scratch) const noexcept override {
+                                            Scratch& scratch) const override {
     return ask(around, scratch, [&](Surroundings& here) { return octagon_sweep::cast(here, position, displacement); });
   }
   [[nodiscard]] std::size_t overlaps(const Vec2d& position, const Around& around, Scratch& scratch,
-                                     std::span<ColliderIndex> found) const noexcept override {
+                                     std::span<ColliderIndex> found) const override {
     return ask(around, scratch, [&](Surroundings& here) { return octagon_sweep::overlaps(here, position, found); });
   }
   [[nodiscard]] std::size_t contacts_at(const Vec2d& position, double within, const Around& around, Scratch& scratch,
-                                        std::span<Contact> found) const noexcept override {
+                                        std::span<Contact> found) const override {
     return ask(around, scratch,
                [&](Surroundings& here) { return octagon_sweep::contacts_at(here, position, within, found); });
   }
 
  private:
-  [[nodiscard]] static bool in_range(const StepRequest& request) noexcept {
+  [[nodiscard]] static bool in_range(const StepRequest& request) {
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.
     const auto within = [](Real value) { return std::abs(value) <= tolerances.range; };
     const Vec2d& position = request.state.position;
@@ -122,7 +122,7 @@ class OctagonSweep final : public SweepInParts {
 
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
   /// its displacement is long, and the snap.
-  [[nodiscard]] bool comes_near_a_mover(const StepRequest& request, const ConfigurationSpace& space) const noexcept {
+  [[nodiscard]] bool comes_near_a_mover(const StepRequest& request, const ConfigurationSpace& space) const {
     if (request.state.ride.ground != Ride::none || request.state.crushed) return true;
     const Vec2d& at = request.state.position;
     const Real reach =

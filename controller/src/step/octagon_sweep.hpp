@@ -48,22 +48,22 @@ class SweepInParts {
   /// See `Controller::reserve`.
   virtual void reserve(const Box2& positions, Scratch& scratch) const = 0;
   /// Of solid pieces.
-  [[nodiscard]] virtual const PieceFinder& finder() const noexcept = 0;
+  [[nodiscard]] virtual const PieceFinder& finder() const = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
-  virtual void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const noexcept = 0;
+  virtual void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const = 0;
 
   /// See `OneWayChains`.
   virtual void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
-                           std::vector<ColliderIndex>& passed) const noexcept = 0;
+                           std::vector<ColliderIndex>& passed) const = 0;
 
   // See the calls of these names in `Controller`.
   [[nodiscard]] virtual std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement,
-                                                    const Around& around, Scratch& scratch) const noexcept = 0;
+                                                    const Around& around, Scratch& scratch) const = 0;
   [[nodiscard]] virtual std::size_t overlaps(const Vec2d& position, const Around& around, Scratch& scratch,
-                                             std::span<ColliderIndex> found) const noexcept = 0;
+                                             std::span<ColliderIndex> found) const = 0;
   [[nodiscard]] virtual std::size_t contacts_at(const Vec2d& position, double within, const Around& around,
-                                                Scratch& scratch, std::span<Contact> found) const noexcept = 0;
+                                                Scratch& scratch, std::span<Contact> found) const = 0;
 };
 
 /// For one scenery and one character. `scenery` must outlive it.

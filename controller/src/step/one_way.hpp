@@ -9,7 +9,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether the octagon at p + rest, as its mover sees it, is above the surface of a one-way segment. Near the line of a
 /// straight one that is decided exactly; elsewhere a product tells.
 [[nodiscard]] PAPERPROOF_INLINE bool is_above(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p,
-                                              const Vec2& rest) noexcept {
+                                              const Vec2& rest) {
   const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Real apart = space.separation(piece, info.one_way_axis, p);
@@ -23,7 +23,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// not go against a straight segment is clear of it. Nearer than that the segment is looked at, whatever the direction:
 /// its separation counts.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
-                                                               PieceIndex piece) noexcept {
+                                                               PieceIndex piece) {
   const Obstacle& info = space.info(piece);
   if (!info.bent_surface) {
     const Vec2 n = space.normal(piece, info.one_way_axis);
@@ -39,8 +39,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// Whether a piece can stop a motion at all. A solid always can.
-[[nodiscard]] PAPERPROOF_INLINE bool blocks(const ConfigurationSpace& space, const Motion& motion,
-                                            PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool blocks(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece) {
   return !space.info(piece).is_one_way() || one_way_blocks(space, motion, piece);
 }
 

@@ -20,7 +20,7 @@ struct Surroundings : Around {
 
 /// Calls `look(piece, motion)` for the pieces that may be touched from positions in a box, with the motion of each.
 template <class Look>
-void for_each_around(Surroundings& around, const Box2& box, const Look& look) noexcept {
+void for_each_around(Surroundings& around, const Box2& box, const Look& look) {
   around.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const MoverMotion motion = around.moving.motion_of(mover);
     for (const PieceIndex piece : pieces) look(piece, motion);
@@ -28,8 +28,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
 }
 
 /// See `Controller::cast`.
-[[nodiscard]] inline std::optional<Contact> cast(Surroundings& around, const Vec2& position,
-                                                 const Vec2& displacement) noexcept {
+[[nodiscard]] inline std::optional<Contact> cast(Surroundings& around, const Vec2& position, const Vec2& displacement) {
   const ConfigurationSpace& space = around.space;
   std::optional<Contact> first;
   const Box2 box = make_motion(space, position, displacement).box();
@@ -55,8 +54,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
 }
 
 /// See `Controller::overlaps`.
-[[nodiscard]] inline std::size_t overlaps(Surroundings& around, const Vec2& position,
-                                          std::span<ColliderIndex> found) noexcept {
+[[nodiscard]] inline std::size_t overlaps(Surroundings& around, const Vec2& position, std::span<ColliderIndex> found) {
   const ConfigurationSpace& space = around.space;
   std::size_t count = 0;
   ColliderIndex last = no_collider;
@@ -73,8 +71,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
 
 /// Inserts a contact, nearest first. Of one surface the nearest contact stays. Without room the furthest is lost.
 /// @param found not empty. @return the number of contacts.
-[[nodiscard]] inline std::size_t insert_contact(const Contact& contact, std::span<Contact> found,
-                                                std::size_t count) noexcept {
+[[nodiscard]] inline std::size_t insert_contact(const Contact& contact, std::span<Contact> found, std::size_t count) {
   std::size_t k = 0;
   while (k < count && !(found[k].collider == contact.collider && found[k].normal == contact.normal)) ++k;
   if (k == found.size()) --k;
@@ -87,7 +84,7 @@ void for_each_around(Surroundings& around, const Box2& box, const Look& look) no
 
 /// See `Controller::contacts_at`.
 [[nodiscard]] inline std::size_t contacts_at(Surroundings& around, const Vec2& position, Real within,
-                                             std::span<Contact> found) noexcept {
+                                             std::span<Contact> found) {
   const ConfigurationSpace& space = around.space;
   if (found.empty()) return 0;
   std::size_t count = 0;

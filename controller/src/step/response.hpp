@@ -56,7 +56,7 @@ inline constexpr Real same_plane = std::numeric_limits<Real>::epsilon() * 16;
 inline constexpr Real along_plane = std::numeric_limits<Real>::epsilon() * 64;
 
 /// Whether a motion goes into a plane that it touches, rather than along it.
-[[nodiscard]] inline bool enters(const Vec2& displacement, const Vec2& normal) noexcept {
+[[nodiscard]] inline bool enters(const Vec2& displacement, const Vec2& normal) {
   const Real out = dot(displacement, normal);
   return out < 0 && out < -along_plane * length_of(displacement);
 }
@@ -75,25 +75,23 @@ struct Surface {
 };
 
 /// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 follow(Real x, const Vec2& n) noexcept {
-  return {x, -x * n.x() / n.y() + Real(0)};
-}
+[[nodiscard]] PAPERPROOF_INLINE Vec2 follow(Real x, const Vec2& n) { return {x, -x * n.x() / n.y() + Real(0)}; }
 
-[[nodiscard]] PAPERPROOF_INLINE Vec2 slide(const Vec2& w, const Vec2& n) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 slide(const Vec2& w, const Vec2& n) {
   const Real into = dot(w, n);
   return {w.x() - into * n.x() + Real(0), w.y() - into * n.y() + Real(0)};
 }
 
 /// A slide that enters its surface by rounding, along the surface. One that is nothing but rounding is no motion: it
 /// goes about as far into the surface as along it.
-[[nodiscard]] inline Vec2 rounded_slide(const Vec2& slide, const Vec2& n) noexcept {
+[[nodiscard]] inline Vec2 rounded_slide(const Vec2& slide, const Vec2& n) {
   const Real along = slide.x() * n.y() - slide.y() * n.x();
   if (!(std::abs(along) > 1024 * std::abs(dot(slide, n)))) return Vec2::Zero();
   return {n.y() * along + Real(0), -n.x() * along + Real(0)};
 }
 
 /// The response on steep ground and walls, without steering: rules 1 and 2 above.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 impact(Vec2 w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 impact(Vec2 w, const Surface& at) {
   if (w.x() * at.normal.x() < 0) {
     w.x() = 0;
     if (at.after_walk) w.y() = std::min(w.y(), Real(0));
@@ -102,14 +100,14 @@ struct Surface {
 }
 
 /// Under a ceiling.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 bump(const Vec2& w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 bump(const Vec2& w, const Surface& at) {
   const Vec2& n = at.normal;
   if (w.y() > 0) return at.after_walk ? Vec2(Vec2::Zero()) : slide(w, n);
   return {-w.y() * n.y() / n.x() + Real(0), w.y() + Real(0)};
 }
 
 /// The response without steering.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 respond(const Vec2& w, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 respond(const Vec2& w, const Surface& at) {
   if (dot(w, at.normal) >= 0) return w;
   if (at.walkable) return follow(w.x(), at.normal);
   return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
@@ -117,7 +115,7 @@ struct Surface {
 
 /// Rule 3: where steering presses in.
 /// @param unsteered the motion without steering, and @param result what became of it at this surface.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 press(const Vec2& unsteered, const Vec2& result, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Vec2 press(const Vec2& unsteered, const Vec2& result, const Surface& at) {
   if (dot(unsteered, at.normal) < 0) return result;
   const Real y = at.after_walk ? std::min(result.y(), Real(0)) : result.y();
   return {-y * at.normal.y() / at.normal.x() + Real(0), y + Real(0)};
@@ -125,7 +123,7 @@ struct Surface {
 
 /// The response to a surface that is entered, of what is wanted and of what there is without steering.
 /// @param steered the horizontal part that this step's steering added to what was wanted.
-[[nodiscard]] PAPERPROOF_INLINE Desired respond(const Desired& desired, Real steered, const Surface& at) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE Desired respond(const Desired& desired, Real steered, const Surface& at) {
   if (dot(desired.wanted, at.normal) >= 0) return desired;
   const Vec2 unsteered = respond(desired.unsteered, at);
   if (steered == 0) return {unsteered, unsteered};
@@ -136,7 +134,7 @@ struct Surface {
 
 /// A motion of the world that was seen along a surface, or not into it, by a character that is not upright. A motion
 /// that rounding turned into the surface runs along it again.
-[[nodiscard]] inline Vec2 in_world(const UpFrame& up, const Vec2& seen, const Vec2& n) noexcept {
+[[nodiscard]] inline Vec2 in_world(const UpFrame& up, const Vec2& seen, const Vec2& n) {
   const Vec2 w = up.in_world(seen);
   if (!up.is_slanted() || std::abs(dot(w, n)) > along_plane * length_of(w)) return w;
   return Vec2{n.y(), -n.x()} * (w.x() * n.y() - w.y() * n.x());
@@ -144,13 +142,13 @@ struct Surface {
 
 /// The response of a character with any up. Motions and surface are those of the world.
 [[nodiscard]] PAPERPROOF_COLD inline Desired respond_turned(const UpFrame& up, const Desired& desired, Real steered,
-                                                            const Surface& at) noexcept {
+                                                            const Surface& at) {
   const Surface seen{up.seen(at.normal), at.walkable, at.after_walk};
   const Desired result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
   return {in_world(up, result.wanted, at.normal), in_world(up, result.unsteered, at.normal)};
 }
 [[nodiscard]] PAPERPROOF_INLINE Desired respond(const UpFrame& up, const Desired& desired, Real steered,
-                                                const Surface& at) noexcept {
+                                                const Surface& at) {
   return up.is_turned() ? respond_turned(up, desired, steered, at) : respond(desired, steered, at);
 }
 

@@ -11,7 +11,7 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-[[nodiscard]] inline Vec2 unit(const Vec2& v) noexcept {
+[[nodiscard]] inline Vec2 unit(const Vec2& v) {
   const Real length = length_of(v);
   return length > 0 ? Vec2(v / length) : v;
 }
@@ -24,7 +24,7 @@ struct Tangents {
 };
 
 /// Grows with the angle by which a vector is left of another, up to a quarter of a turn to either side: from -1 to 1.
-[[nodiscard]] inline Real leftward(const Vec2& ahead, const Vec2& v) noexcept {
+[[nodiscard]] inline Real leftward(const Vec2& ahead, const Vec2& v) {
   const Real aside = ahead.x() * v.y() - ahead.y() * v.x();
   const Real far = std::abs(aside) + std::max(Real(0), ahead.x() * v.x() + ahead.y() * v.y());
   return far > 0 ? aside / far : Real(0);
@@ -35,7 +35,7 @@ struct Tangents {
 ///   its corners are seen within half a turn.
 /// @param width that the tangents keep from the piece [m].
 [[nodiscard]] inline Tangents tangents_from(const ConfigurationSpace& space, PieceIndex piece, const Vec2& from,
-                                            const Vec2& facing, Real width) noexcept {
+                                            const Vec2& facing, Real width) {
   const Vec2 ahead = -facing;
   Vec2 left = Vec2::Zero();
   Vec2 right = Vec2::Zero();

@@ -52,7 +52,7 @@ struct SweepResult {
   /// them again.
   FixedVector<Stop, MoveResult::max_contacts> stops;
 
-  void clear() noexcept {
+  void clear() {
     hit = false;
     stop = 1;
     least_separation = least_kept = std::numeric_limits<Real>::infinity();
@@ -66,7 +66,7 @@ struct DesiredMotion {
   Desired velocity;      ///< [m/s]
 
   /// Without steering.
-  [[nodiscard]] static DesiredMotion plain(const Vec2& displacement, const Vec2& velocity) noexcept {
+  [[nodiscard]] static DesiredMotion plain(const Vec2& displacement, const Vec2& velocity) {
     return {{displacement, displacement}, {velocity, velocity}};
   }
 };
@@ -109,7 +109,7 @@ struct Corners {
 struct Step {
   // As an aggregate, all of it would be zero first: an eighth of a step.
   Step(const StepRequest& what, const Settings& by, const Nearby& around, const MoversInStep& among, StepMemory& kept,
-       MoveResult& into) noexcept
+       MoveResult& into)
       : request(what),
         space(kept.space),
         settings(by),
@@ -154,54 +154,54 @@ struct Step {
 };
 
 /// Whether a mover passes through the character. It then moves only to a free position.
-[[nodiscard]] inline bool is_passed_through(const Step& step) noexcept {
+[[nodiscard]] inline bool is_passed_through(const Step& step) {
   return step.moving.overlapping > 0 || !step.result.crushed.empty();
 }
 
 /// Displacement of a surface in the rest of the step [m].
-[[nodiscard]] inline Vec2 remaining_of(const Step& step, const TouchedSurface& surface) noexcept {
+[[nodiscard]] inline Vec2 remaining_of(const Step& step, const TouchedSurface& surface) {
   return step.movers.remaining(surface.mover, step.time);
 }
 
 /// Whether a surface moves into a character that stays where it is, by more than rounding.
-[[nodiscard]] inline bool moves_in(const Step& step, const TouchedSurface& surface) noexcept {
+[[nodiscard]] inline bool moves_in(const Step& step, const TouchedSurface& surface) {
   return dot(remaining_of(step, surface), surface.normal) > tolerances.certain;
 }
 
 /// Displacement of the mover of a collider in the step [m].
-[[nodiscard]] inline Vec2 displacement_of(const Step& step, ColliderIndex collider) noexcept {
+[[nodiscard]] inline Vec2 displacement_of(const Step& step, ColliderIndex collider) {
   return step.movers.displacement(step.movers.of(step.space.scenery(), collider));
 }
 
-[[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] inline MoverIndex mover_of(const Step& step, PieceIndex piece) {
   return step.space.info(piece).source.mover;
 }
 
-[[nodiscard]] inline TouchedSurface surface_at(const Step& step, PieceIndex piece, std::size_t axis) noexcept {
+[[nodiscard]] inline TouchedSurface surface_at(const Step& step, PieceIndex piece, std::size_t axis) {
   return {piece, mover_of(step, piece), axis, step.space.normal(piece, axis), step.space.offset(piece, axis)};
 }
 
-[[nodiscard]] inline ColliderIndex collider_of(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] inline ColliderIndex collider_of(const Step& step, PieceIndex piece) {
   return step.space.info(piece).source.collider;
 }
 
 /// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
-[[nodiscard]] inline bool ignored(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] inline bool ignored(const Step& step, PieceIndex piece) {
   return step.memory.is(collider_of(step, piece), step.moving.ignored);
 }
 
 /// Ground that falls faster than the character may.
-[[nodiscard]] inline bool falls_away(const Step& step, const Vec2& ground) noexcept {
+[[nodiscard]] inline bool falls_away(const Step& step, const Vec2& ground) {
   return step.up.up_of(ground) < -step.settings.max_fall_speed;
 }
 
 /// What the turning of a circle adds to the speed of its surface [m/s].
-[[nodiscard]] PAPERPROOF_COLD inline Real speed_of_rim(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real speed_of_rim(const Step& step, PieceIndex piece) {
   const double turn = step.movers.moving.motions[mover_of(step, piece)].turn();
   return static_cast<Real>(-turn / static_cast<double>(step.movers.dt) * step.space.circle(piece).radius);
 }
 
-[[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] inline Real surface_speed(const Step& step, PieceIndex piece) {
   const Obstacle& obstacle = step.space.info(piece);
   Real speed = static_cast<Real>(obstacle.collider->surface_speed);
   if (obstacle.source.is_circle() && obstacle.source.mover != no_mover) [[unlikely]]
@@ -209,39 +209,39 @@ struct Step {
   return speed;
 }
 
-[[nodiscard]] inline bool carries(const Step& step, PieceIndex piece) noexcept {
+[[nodiscard]] inline bool carries(const Step& step, PieceIndex piece) {
   return mover_of(step, piece) != no_mover || surface_speed(step, piece) != 0;
 }
 
-[[nodiscard]] inline bool walkable(const Step& step, const Vec2& normal) noexcept {
+[[nodiscard]] inline bool walkable(const Step& step, const Vec2& normal) {
   return step.up.up_of(normal) >= step.settings.walkable_cosine;
 }
 
-inline void halt(Step& step) noexcept { step.velocity = Vec2::Zero(); }
+inline void halt(Step& step) { step.velocity = Vec2::Zero(); }
 
-[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece, Real time) noexcept {
+[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece, Real time) {
   return step.movers.offset(mover_of(step, piece), time);
 }
 
 /// Offset of the mover of a piece now, at fraction `time`; zero for a piece that stands still.
-[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece) noexcept { return offset(step, piece, step.time); }
+[[nodiscard]] inline Vec2 offset(const Step& step, PieceIndex piece) { return offset(step, piece, step.time); }
 
 /// Whether a piece can stop a motion at all. In a step that drops no one-way segment does.
-[[nodiscard]] inline bool in_way(const Step& step, const Motion& motion, PieceIndex piece) noexcept {
+[[nodiscard]] inline bool in_way(const Step& step, const Motion& motion, PieceIndex piece) {
   return blocks(step.space, motion, piece) && !(step.request.drop && step.space.info(piece).is_one_way());
 }
 
 /// A position relative to the mover of a piece: the piece itself is stored at offset zero.
-[[nodiscard]] inline Vec2 local(const Step& step, PieceIndex piece, const Vec2& p) noexcept {
+[[nodiscard]] inline Vec2 local(const Step& step, PieceIndex piece, const Vec2& p) {
   return mover_of(step, piece) == no_mover ? p : Vec2(p - offset(step, piece));
 }
 
 /// Stores for the last corner of the path how many contacts are reported, and the latest impact among them.
-inline void note_reported(Step& step) noexcept {
+inline void note_reported(Step& step) {
   step.memory.reported_at[step.result.path.size() - 1] = {step.result.contacts.size(), step.latest_impact};
 }
 
-PAPERPROOF_INLINE void push_corner(Step& step, Real fraction) noexcept {
+PAPERPROOF_INLINE void push_corner(Step& step, Real fraction) {
   if (!step.result.path.empty() && step.result.path.back().fraction == fraction &&
       step.result.path.back().position == step.position)
     return;

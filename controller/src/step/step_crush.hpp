@@ -17,7 +17,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
-[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
   if (!step.result.crushed.empty()) return false;
   Real reach = 0;
   for (const TouchedSurface& surface : step.memory.surfaces)
@@ -29,7 +29,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether a circle would drive the character farther than both go: where it squeezes the character out along its
 /// tangent, it leaves the character sooner.
-[[nodiscard]] inline bool circle_flings(const Step& step, const Vec2& wanted, const Vec2& allowed) noexcept {
+[[nodiscard]] inline bool circle_flings(const Step& step, const Vec2& wanted, const Vec2& allowed) {
   const Real own = length_of(wanted) + std::abs(step.steered) * step.movers.dt + tolerances.touch;
   return std::any_of(step.memory.surfaces.begin(), step.memory.surfaces.end(), [&](const TouchedSurface& surface) {
     return step.space.is_circle(surface.piece) && moves_in(step, surface) &&
@@ -42,7 +42,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// @param wanted before the response. @param allowed by the response.
 /// @return false if they would squeeze it out too far in this step: then it goes to a free position, or is crushed.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_squeeze(const Step& step, const DesiredMotion& wanted,
-                                                              DesiredMotion& allowed) noexcept {
+                                                              DesiredMotion& allowed) {
   constexpr Real farthest = 32;  // times as far as they go
   constexpr Real fastest = 8;    // times as fast as they are
   Real way = 0;
@@ -65,7 +65,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
 /// A way out of what the step began inside of is kept.
 /// @param allowed the response to what the last sweep met.
-[[nodiscard]] PAPERPROOF_COLD inline bool goes_beside_circle(Step& step, const Vec2& allowed) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool goes_beside_circle(Step& step, const Vec2& allowed) {
   if (is_passed_through(step) || !circle_flings(step, Vec2(step.motion.displacement * (1 - step.found.stop)), allowed))
     return false;
   const bool has_left = std::any_of(step.memory.marked.begin(), step.memory.marked.end(),
@@ -78,7 +78,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
 /// movers that crushed, no further away than one of them moves; then nothing was crushed.
-PAPERPROOF_COLD inline void undo_crushes(Step& step) noexcept {
+PAPERPROOF_COLD inline void undo_crushes(Step& step) {
   step.moving.ignored &= static_cast<std::uint8_t>(~crushes);
   Real reach = 0;
   for (const ColliderIndex collider : step.result.crushed)
@@ -95,7 +95,7 @@ PAPERPROOF_COLD inline void undo_crushes(Step& step) noexcept {
 
 /// Notes that the mover of a piece crushes the character.
 /// @param since the character was free of the mover at this fraction of the step.
-inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
+inline void crush(Step& step, PieceIndex piece, Real since) {
   const MoverIndex mover = mover_of(step, piece);
   if (ignored(step, piece) || mover == no_mover) return;
   if (step.result.crushed.empty()) {
@@ -110,7 +110,7 @@ inline void crush(Step& step, PieceIndex piece, Real since) noexcept {
 }
 
 /// Lets every touched surface crush that moves into the character. False if there is none.
-PAPERPROOF_COLD inline bool note_crushers(Step& step) noexcept {
+PAPERPROOF_COLD inline bool note_crushers(Step& step) {
   const std::size_t before = step.result.crushed.size();
   for (const TouchedSurface& surface : step.memory.surfaces)
     if (moves_in(step, surface)) crush(step, surface.piece, step.time);
@@ -118,7 +118,7 @@ PAPERPROOF_COLD inline bool note_crushers(Step& step) noexcept {
 }
 
 /// Hands the crushers to the next step, those with a known side first.
-inline void hand_on_crushers(Step& step) noexcept {
+inline void hand_on_crushers(Step& step) {
   for (const bool has_side : {true, false})
     for (const Crusher& known : step.memory.crushers)
       if (step.memory.is(known.collider, overlaps_at_end) && known.has_side == has_side)
@@ -127,7 +127,7 @@ inline void hand_on_crushers(Step& step) noexcept {
 
 /// Finds the movers that were ignored in this step and still overlap the character. If one of them overlapped at the
 /// start, the character is stuck, unless it was crushed in this step. Hands the list to the next step.
-PAPERPROOF_COLD inline void find_movers_that_still_overlap(Step& step) noexcept {
+PAPERPROOF_COLD inline void find_movers_that_still_overlap(Step& step) {
   step.moving.ignored = 0;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(step, piece);
@@ -145,7 +145,7 @@ PAPERPROOF_COLD inline void find_movers_that_still_overlap(Step& step) noexcept 
 /// The character stays where it is for the rest of the step, and movers that run into it crush it. Sweeps do not look
 /// at surfaces that are touched and do not come closer: they would hide a mover that comes later.
 /// @param may_move it moves to a free position instead, if there is one.
-PAPERPROOF_COLD inline void wait(Step& step, bool may_move) noexcept {
+PAPERPROOF_COLD inline void wait(Step& step, bool may_move) {
   halt(step);
   step.memory.surfaces.clear();
   step.moving.waits = true;

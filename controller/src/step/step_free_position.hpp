@@ -16,7 +16,7 @@
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// @param gap that is left around the character [m]. @param reach how far away the position may be [m].
-[[nodiscard]] inline FreePositionQuery query_from(const Step& step, std::size_t corner, Real gap, Real reach) noexcept {
+[[nodiscard]] inline FreePositionQuery query_from(const Step& step, std::size_t corner, Real gap, Real reach) {
   FreePositionQuery query = query_here(step);
   query.from = step.result.path[corner].position;
   query.begin = step.result.path[corner].fraction;
@@ -28,18 +28,17 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// Whether a motion from a corner may pass the collider of a piece.
-[[nodiscard]] inline bool may_pass(const Step& step, PieceIndex piece, std::size_t corner) noexcept {
+[[nodiscard]] inline bool may_pass(const Step& step, PieceIndex piece, std::size_t corner) {
   return step.memory.is(collider_of(step, piece), corner == 0 ? leaving | overlaps_since_start : overlaps_since_start);
 }
 
 /// The pieces for a search from a corner.
-[[nodiscard]] inline std::span<const PieceIndex> pieces_from(Step& step, std::size_t corner,
-                                                             FreePositionQuery& query) noexcept {
+[[nodiscard]] inline std::span<const PieceIndex> pieces_from(Step& step, std::size_t corner, FreePositionQuery& query) {
   return pieces_for(step, query, [&](PieceIndex piece) { return may_pass(step, piece, corner); });
 }
 
 /// Takes a free position that is reached from a corner, if it is nearer than the one found so far.
-inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& found) noexcept {
+inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& found) {
   FreePositionQuery query = query_from(step, corner, gap, found.distance);
   if (!(query.begin < 1)) return;
   const std::span<const PieceIndex> pieces = pieces_from(step, corner, query);
@@ -49,7 +48,7 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
 
 /// @param gap that is left around the character [m].
 [[nodiscard]] inline std::optional<FreePosition> nearest_free_position(Step& step, Real gap, Real reach,
-                                                                       Corners corners) noexcept {
+                                                                       Corners corners) {
   // The gap to a mover comes on top of its displacement.
   constexpr Real beyond = 16 * tolerances.stop;
   const Real whole = reach + beyond;
@@ -65,7 +64,7 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
 }
 
 /// Whether a piece pushes or comes nearer, and is as near as a contact then.
-[[nodiscard]] inline bool is_contact(const Step& step, const Nearest& near) noexcept {
+[[nodiscard]] inline bool is_contact(const Step& step, const Nearest& near) {
   const Vec2 motion_of_mover = step.movers.displacement(mover_of(step, near.piece));
   const bool pushes = dot(motion_of_mover, step.space.normal(near.piece, near.axis)) > tolerances.certain;
   return (near.when > 0 || pushes) && near.separation <= 2 * tolerances.stop &&
@@ -75,7 +74,7 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
 /// By bisection, the largest fraction of a way for which a condition holds, as it does at `low`.
 /// @param length of the way [m]. @param within so much of it the answer may be too small [m].
 template <class Holds>
-[[nodiscard]] Real last_where(Real low, Real high, Real length, Real within, const Holds& holds) noexcept {
+[[nodiscard]] Real last_where(Real low, Real high, Real length, Real within, const Holds& holds) {
   while ((high - low) * length > within) {  // 49 halvings at most, of 4e6 m
     const Real middle = (low + high) / 2;
     if (!(middle > low && middle < high)) break;
@@ -86,8 +85,7 @@ template <class Holds>
 
 /// Where a straight motion is nearest to a piece. The separation is the largest of several that are linear in time,
 /// hence convex: bisection finds its least value.
-[[nodiscard]] inline Nearest nearest_on_way(const Step& step, PieceIndex piece, const Vec2& from,
-                                            const Vec2& to) noexcept {
+[[nodiscard]] inline Nearest nearest_on_way(const Step& step, PieceIndex piece, const Vec2& from, const Vec2& to) {
   const Vec2 displacement = to - from;
   const auto at = [&](Real when) { return best_axis(step.space, piece, Vec2(from + displacement * when)); };
   const auto falls = [&](const BestAxis& best) {
@@ -106,7 +104,7 @@ template <class Holds>
 /// The next piece that the motion from a corner comes as near to as a contact.
 /// @param last the one before; none for the first.
 [[nodiscard]] inline std::optional<Nearest> next_near(Step& step, std::size_t corner, const PathPoint& to,
-                                                      const std::optional<Nearest>& last) noexcept {
+                                                      const std::optional<Nearest>& last) {
   const PathPoint from = step.result.path[corner];
   std::optional<Nearest> next;
   const auto before = [&](const Nearest& a, const Nearest& b) {
@@ -128,7 +126,7 @@ template <class Holds>
 
 /// A character that arrives later at a place where it was stopped may touch nothing there. It then goes on in the same
 /// direction, no faster than before, until something is as near as a contact.
-inline void extend_until_contact(Step& step, FreePosition& found) noexcept {
+inline void extend_until_contact(Step& step, FreePosition& found) {
   const PathPoint from = step.result.path[found.corner];
   if (!(step.time > from.fraction) || next_near(step, found.corner, {found.position, 1}, {})) return;
   const Vec2 displacement = found.position - from.position;
@@ -144,7 +142,7 @@ inline void extend_until_contact(Step& step, FreePosition& found) noexcept {
 }
 
 /// Takes back the path since a corner, and its contacts.
-inline void go_back_to(Step& step, std::size_t corner) noexcept {
+inline void go_back_to(Step& step, std::size_t corner) {
   while (step.result.path.size() > corner + 1) step.result.path.pop_back();
   while (step.result.contacts.size() > step.memory.reported_at[corner].contacts) step.result.contacts.pop_back();
   step.latest_impact = step.memory.reported_at[corner].impact;
@@ -156,7 +154,7 @@ inline void go_back_to(Step& step, std::size_t corner) noexcept {
 /// Goes straight to the free position, from a corner that is the last one of the path. Reports what this motion comes
 /// near to: that is what stops or pushes the character. Each piece is a contact at the moment when it is nearest, and
 /// that moment becomes a corner of the path.
-inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end) noexcept {
+inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end) {
   const PathPoint from = step.result.path[corner];
   const PathPoint to{end, 1};
   halt(step);
@@ -188,7 +186,7 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
 /// Moves to the nearest free position. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
 /// @param corners of the path at which the motion may begin.
-[[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, Corners corners) noexcept {
+[[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, Corners corners) {
   if (step.moving.side_lost) return false;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = step.moving.ignored;

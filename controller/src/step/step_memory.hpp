@@ -89,24 +89,24 @@ struct StepMemory final : OwnMemory, PieceUser {
   }
 
   /// Forgets the last step.
-  void clear() noexcept {
+  void clear() {
     for (const ColliderIndex collider : marked) roles[Scenery::slot_of(collider)] = 0;
     marked.clear();
     surfaces.clear();
     crushers.clear();
   }
   /// Without effect where nothing moves: then a ride in the state comes from another scenery.
-  void mark(ColliderIndex collider, Role role) noexcept {
+  void mark(ColliderIndex collider, Role role) {
     if (roles.empty()) return;
     std::uint8_t& roles_of = roles[Scenery::slot_of(collider)];
     if (roles_of == 0) marked.push_back(collider);
     roles_of |= role | known;
   }
-  void unmark(ColliderIndex collider, Role role) noexcept {
+  void unmark(ColliderIndex collider, Role role) {
     std::uint8_t& roles_of = roles[Scenery::slot_of(collider)];
     roles_of = static_cast<std::uint8_t>(roles_of & ~role);
   }
-  [[nodiscard]] bool is(ColliderIndex collider, std::uint8_t any_of) const noexcept {
+  [[nodiscard]] bool is(ColliderIndex collider, std::uint8_t any_of) const {
     return !marked.empty() && (roles[Scenery::slot_of(collider)] & any_of) != 0;
   }
 
@@ -131,28 +131,28 @@ struct MoversInStep {
   bool active;  ///< A mover comes near the step, or there may be a conveyor.
 
   /// The index of a collider's motion.
-  [[nodiscard]] MoverIndex of(const Scenery& scenery, ColliderIndex collider) const noexcept {
+  [[nodiscard]] MoverIndex of(const Scenery& scenery, ColliderIndex collider) const {
     const auto is_it = [&](PieceIndex piece) { return scenery.pieces()[piece].collider == collider; };
     const auto piece = std::find_if(moving.apart.begin(), moving.apart.end(), is_it);
     if (piece == moving.apart.end()) return scenery.collider(collider).mover;
     return static_cast<MoverIndex>(moving.mover_count() + static_cast<std::size_t>(piece - moving.apart.begin()));
   }
   /// Displacement of a mover in the step [m].
-  [[nodiscard]] Vec2 displacement(MoverIndex mover) const noexcept {
+  [[nodiscard]] Vec2 displacement(MoverIndex mover) const {
     return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(moving.motions[mover].to - moving.motions[mover].from);
   }
   /// [m/s]
-  [[nodiscard]] Vec2 velocity(MoverIndex mover) const noexcept { return displacement(mover) / dt; }
+  [[nodiscard]] Vec2 velocity(MoverIndex mover) const { return displacement(mover) / dt; }
   /// Its offset at a fraction of the step [m].
-  [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const noexcept {
+  [[nodiscard]] Vec2 offset(MoverIndex mover, Real time) const {
     return mover == no_mover ? Vec2(Vec2::Zero()) : Vec2(moving.motions[mover].at(time));
   }
   /// What is left of its displacement after a fraction of the step [m].
-  [[nodiscard]] Vec2 remaining(MoverIndex mover, Real time) const noexcept { return displacement(mover) * (1 - time); }
+  [[nodiscard]] Vec2 remaining(MoverIndex mover, Real time) const { return displacement(mover) * (1 - time); }
 
   /// A motion for the rest of the step, relative to a mover [m]. What is nothing but rounding becomes zero: a rider at
   /// rest rests, and a sweep that looks ahead does not take noise for a direction.
-  [[nodiscard]] Vec2 relative(const Vec2& motion, MoverIndex mover, Real time) const noexcept {
+  [[nodiscard]] Vec2 relative(const Vec2& motion, MoverIndex mover, Real time) const {
     if (mover == no_mover) return motion;
     constexpr Real noise = std::numeric_limits<Real>::epsilon() * 8;
     const Vec2 whole = displacement(mover);

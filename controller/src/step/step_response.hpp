@@ -17,23 +17,22 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-[[nodiscard]] inline HalfPlane half_plane_of(const Vec2& normal, const Vec2& motion) noexcept {
+[[nodiscard]] inline HalfPlane half_plane_of(const Vec2& normal, const Vec2& motion) {
   return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
 }
 
 /// @param desired a slide that enters the surface by rounding.
-PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& desired) {
   desired = DesiredMotion::plain(rounded_slide(desired.displacement.wanted, normal),
                                  rounded_slide(desired.velocity.wanted, normal));
 }
 
-[[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired,
-                                  const TouchedSurface& surface) noexcept {
+[[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired, const TouchedSurface& surface) {
   return half_plane_of(surface.normal, remaining_of(step, surface)).allows(desired.displacement.wanted) &&
          half_plane_of(surface.normal, step.movers.velocity(surface.mover)).allows(desired.velocity.wanted);
 }
 
-[[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired) noexcept {
+[[nodiscard]] inline bool allowed(const Step& step, const DesiredMotion& desired) {
   return std::all_of(step.memory.surfaces.begin(), step.memory.surfaces.end(),
                      [&](const TouchedSurface& surface) { return allowed(step, desired, surface); });
 }
@@ -43,7 +42,7 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
 /// normal.
 /// @param after_walk see `Surface`.
 [[nodiscard]] inline DesiredMotion response_to(const Step& step, const TouchedSurface& surface,
-                                               const DesiredMotion& desired, bool after_walk) noexcept {
+                                               const DesiredMotion& desired, bool after_walk) {
   const Surface at{surface.normal, walkable(step, surface.normal), after_walk};
   const TouchedSurface& ground = step.memory.surfaces[0];
   const auto carries = [&](const TouchedSurface& touched) {
@@ -65,7 +64,7 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
 
 /// Nothing if there is no motion that all surfaces allow.
 [[nodiscard]] inline std::optional<DesiredMotion> nearest_allowed_to(const Step& step, const Vec2& displacement,
-                                                                     const Vec2& velocity) noexcept {
+                                                                     const Vec2& velocity) {
   std::vector<HalfPlane>& displacements = step.memory.displacement_planes;
   std::vector<HalfPlane>& velocities = step.memory.velocity_planes;
   displacements.clear();
@@ -81,29 +80,28 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
 }
 
 /// Takes the nearest motion to a fall that all surfaces allow, if that falls further than what is desired so far.
-inline void prefer_fall(const Step& step, const Vec2& displacement, const Vec2& velocity,
-                        DesiredMotion& desired) noexcept {
+inline void prefer_fall(const Step& step, const Vec2& displacement, const Vec2& velocity, DesiredMotion& desired) {
   const auto falling = nearest_allowed_to(step, displacement, velocity);
   if (falling && step.up.up_of(falling->displacement.wanted) < step.up.up_of(desired.displacement.wanted))
     desired = *falling;
 }
 
 /// Lets the character fall between two surfaces that part, where the responses to one after the other would stop it.
-PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void fall_between(const Step& step, DesiredMotion& desired) {
   prefer_fall(step, step.up.in_world({0, step.fall * step.movers.dt * (1 - step.time)}),
               step.up.in_world({0, step.fall}), desired);
 }
 
 /// Notes that a fall ends between the surfaces that are touched.
 /// @param ground the one that points up most.
-PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground) noexcept {
+PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground) {
   step.wedged = true;
   step.ground = ground.piece;
   step.ground_axis = ground.axis;
 }
 
 /// The response to the first surface, and to a second one that the first response enters. False if that enters a third.
-[[nodiscard]] inline bool respond_one_by_one(const Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] inline bool respond_one_by_one(const Step& step, DesiredMotion& desired) {
   const DesiredMotion wanted = desired;
   const TouchedSurface& first = step.memory.surfaces[0];
   const DesiredMotion alone = response_to(step, first, wanted, step.after_walk);
@@ -127,8 +125,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 /// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
 /// counts.
 /// @param aside unit vector, across the fall.
-[[nodiscard]] PAPERPROOF_COLD inline bool shift_to_fall(Step& step, const Vec2& displacement,
-                                                        const Vec2& aside) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool shift_to_fall(Step& step, const Vec2& displacement, const Vec2& aside) {
   const auto falls = [&] {
     sweep_along(step, displacement);
     return !step.found.hit || step.found.stop * step.motion.length > tolerances.touch;
@@ -150,7 +147,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 /// The same along one of the sides of the character, or of its box: where up is slanted a shaft of its width goes
 /// aslant.
 [[nodiscard]] PAPERPROOF_COLD inline bool fall_along_a_side(Step& step, const Vec2& displacement, const Vec2& velocity,
-                                                            DesiredMotion& desired) noexcept {
+                                                            DesiredMotion& desired) {
   for (std::size_t axis = 0; axis < step.space.lanes(); ++axis) {
     const Vec2 normal = step.space.normal(step.memory.surfaces[0].piece, axis);
     const Vec2 along{-normal.y(), normal.x()};
@@ -165,7 +162,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 
 /// Surfaces with one motion that stop the character together: a fall may still slip down between them. Otherwise the
 /// motion ends there, relative to them. False if their motions differ.
-[[nodiscard]] inline bool respond_in_crease(Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] inline bool respond_in_crease(Step& step, DesiredMotion& desired) {
   const TouchedSurface& first = step.memory.surfaces[0];
   const DesiredMotion alone = response_to(step, first, desired, step.after_walk);
   for (const TouchedSurface& surface : step.memory.surfaces)
@@ -199,7 +196,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 
 /// The nearest motion that all surfaces allow. Steering and horizontal momentum count only where they do not slow a
 /// fall: between two steep surfaces they would become a climb. False if the surfaces leave no motion.
-[[nodiscard]] inline bool respond_together(const Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] inline bool respond_together(const Step& step, DesiredMotion& desired) {
   const Desired displacement = desired.displacement;
   const Desired velocity = desired.velocity;
   const auto wanted = nearest_allowed_to(step, displacement.wanted, velocity.wanted);
@@ -213,7 +210,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 }
 
 /// The response to one surface that stands still: the usual case.
-PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, DesiredMotion& desired) noexcept {
+PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, DesiredMotion& desired) {
   const Surface at{normal, walkable(step, normal), step.after_walk};
   if (step.steered == 0 && !step.up.is_turned()) {
     desired.displacement.wanted = respond(desired.displacement.wanted, at);
@@ -230,7 +227,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
 
 /// Whether steep surfaces that move apart hardly, or close in, hold a fall between them: a slope and a crate that
 /// rests, for example.
-[[nodiscard]] PAPERPROOF_COLD inline bool ends_fall_in_wedge(const Step& step, const DesiredMotion& desired) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool ends_fall_in_wedge(const Step& step, const DesiredMotion& desired) {
   constexpr Real hardly = Real(0.1);
   Real left = 0;
   Real right = 0;
@@ -248,7 +245,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
 }
 
 /// The response to several surfaces, or to one that moves.
-[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool respond_to_all(Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool respond_to_all(Step& step, DesiredMotion& desired) {
   if (step.steered == 0) desired = DesiredMotion::plain(desired.displacement.wanted, desired.velocity.wanted);
   if (!respond_one_by_one(step, desired) && !respond_in_crease(step, desired) && !respond_together(step, desired))
     return false;
@@ -258,7 +255,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
 }
 
 /// False where the surfaces leave no motion.
-[[nodiscard]] inline bool respond_to_surfaces(Step& step, DesiredMotion& desired) noexcept {
+[[nodiscard]] inline bool respond_to_surfaces(Step& step, DesiredMotion& desired) {
   const TouchedSurface& first = step.memory.surfaces[0];
   step.wedged = false;
   if (step.movers.active && step.up.across_of(desired.velocity.wanted) == 0 && carries_from_now(step, first)) {
@@ -280,7 +277,7 @@ PAPERPROOF_INLINE void respond_to_surface(const Step& step, const Vec2& normal, 
 
 /// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
 /// present motion, with the motion of a touched surface, or at a free position.
-PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) noexcept {
+PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) {
   if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
   if (!step.movers.active) return;
   const auto goes = [&](const Vec2& last) {

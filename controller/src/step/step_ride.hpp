@@ -17,14 +17,14 @@
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Of a surface of a piece, and of what stands on it, conveyor included [m/s].
-[[nodiscard]] inline Vec2 ground_velocity(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
+[[nodiscard]] inline Vec2 ground_velocity(const Step& step, PieceIndex piece, const Vec2& normal) {
   Vec2 velocity = Vec2{normal.y(), -normal.x()} * surface_speed(step, piece);
   if (mover_of(step, piece) != no_mover) velocity += step.movers.velocity(mover_of(step, piece));
   return velocity;
 }
 
 /// How far the surface of a piece takes a rider in the rest of the step [m].
-[[nodiscard]] inline Vec2 ground_rest(const Step& step, PieceIndex piece, const Vec2& normal) noexcept {
+[[nodiscard]] inline Vec2 ground_rest(const Step& step, PieceIndex piece, const Vec2& normal) {
   const MoverIndex mover = mover_of(step, piece);
   const Real along = surface_speed(step, piece) * step.movers.dt * (1 - step.time);
   Vec2 rest = Vec2{normal.y(), -normal.x()} * along;
@@ -34,8 +34,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// The surface that carries the character here: of the collider that it rides already, or, where it does not stand on
 /// anything else, the one of the others whose normal points up most.
-[[nodiscard]] inline std::optional<TouchedSurface> carrier_here(Step& step, ColliderIndex ridden,
-                                                                bool walkable_only) noexcept {
+[[nodiscard]] inline std::optional<TouchedSurface> carrier_here(Step& step, ColliderIndex ridden, bool walkable_only) {
   std::optional<TouchedSurface> carrier;
   bool rides = false;
   bool stands_still = false;
@@ -58,7 +57,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 }
 
 /// From now on this ground carries the character.
-PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& ground) noexcept {
+PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& ground) {
   step.moving.ride.ground = collider_of(step, ground.piece);
   step.moving.ride.velocity = ground_velocity(step, ground.piece, ground.normal);
   step.moving.ride.place = step.position - offset(step, ground.piece);
@@ -68,7 +67,7 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
 }
 
 /// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
-[[nodiscard]] PAPERPROOF_COLD inline Vec2 begin_ride(Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Vec2 begin_ride(Step& step) {
   const StepRequest& request = step.request;
   const Ride& ride = request.state.ride;
   constexpr Real noise = std::numeric_limits<Real>::epsilon() * 4;
@@ -94,13 +93,13 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
 }
 
 /// Whether ground that the character lands on without horizontal speed carries it from now on.
-[[nodiscard]] PAPERPROOF_COLD inline bool carries_from_now(const Step& step, const TouchedSurface& ground) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool carries_from_now(const Step& step, const TouchedSurface& ground) {
   return walkable(step, ground.normal) && carries(step, ground.piece) && step.moving.ride.ground == Ride::none &&
          !falls_away(step, ground_velocity(step, ground.piece, ground.normal));
 }
 
 /// Without gravity nothing holds the character to ground that it only touches: that does not carry it.
-PAPERPROOF_COLD inline void end_ride(Step& step) noexcept {
+PAPERPROOF_COLD inline void end_ride(Step& step) {
   if (!step.result.grounded || step.result.contacts.empty()) return;
   const std::optional<TouchedSurface> ground = carrier_here(step, step.moving.ride.ground, false);
   if (!ground) return;

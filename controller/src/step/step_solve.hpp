@@ -17,7 +17,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Stops a motion at ground that is touched now and at the end of the motion. Under tiny gravity a walk enters its
 /// ground by less than the sweep sees. It would leave the ground, sink until the sweep hits it, and be put back, over
 /// and over.
-PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) {
   const Vec2 from = step.position;
   const Real begin = step.time;
   step.position += step.motion.displacement;
@@ -38,7 +38,7 @@ PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) noexcept {
 }
 
 /// Reads what the step wants, and whether it begins as a walk on the ground.
-inline void begin_motion(Step& step) noexcept {
+inline void begin_motion(Step& step) {
   const StepRequest& request = step.request;
   step.position = step.start = request.state.position;
   step.velocity = request.velocity;
@@ -51,7 +51,7 @@ inline void begin_motion(Step& step) noexcept {
 }
 
 /// The desired motion, with and without this step's steering.
-[[nodiscard]] inline DesiredMotion desired_motion(const Step& step) noexcept {
+[[nodiscard]] inline DesiredMotion desired_motion(const Step& step) {
   const Vec2 steered = step.up.in_world({step.steered, 0});
   return {{step.motion.displacement, step.motion.displacement - steered * step.movers.dt},
           {step.velocity, step.velocity - steered}};
@@ -59,7 +59,7 @@ inline void begin_motion(Step& step) noexcept {
 
 /// Ends the step here. The velocity still becomes one that the touched surfaces allow: otherwise it would grow from
 /// step to step.
-PAPERPROOF_COLD inline void end_at_surfaces(Step& step, DesiredMotion& desired) noexcept {
+PAPERPROOF_COLD inline void end_at_surfaces(Step& step, DesiredMotion& desired) {
   if (respond_to_surfaces(step, desired))
     step.velocity = desired.velocity.wanted;
   else
@@ -67,7 +67,7 @@ PAPERPROOF_COLD inline void end_at_surfaces(Step& step, DesiredMotion& desired) 
 }
 
 /// Ends the step here, as the exact certificate or the range forbids the motion. Reports each piece that blocks it.
-PAPERPROOF_COLD inline void cut_short(Step& step) noexcept {
+PAPERPROOF_COLD inline void cut_short(Step& step) {
   if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
   const Vec2 target = step.motion.from + step.motion.displacement * step.found.stop;
   const Real end = step.time + (1 - step.time) * step.found.stop;
@@ -79,7 +79,7 @@ PAPERPROOF_COLD inline void cut_short(Step& step) noexcept {
 }
 
 /// A slide along a surface that is nearer than `stop`, changed so that it ends at that gap.
-[[nodiscard]] inline Vec2 with_gap_restored(const Step& step, const Vec2& displacement, const Stop& at) noexcept {
+[[nodiscard]] inline Vec2 with_gap_restored(const Step& step, const Vec2& displacement, const Stop& at) {
   if (displacement.x() == 0 && displacement.y() == 0) return displacement;
   const Real gap = step.space.separation(at.piece, at.axes.normal, local(step, at.piece, step.position));
   if (!(gap < tolerances.stop - tolerances.restore) || gap < 0) return displacement;
@@ -88,7 +88,7 @@ PAPERPROOF_COLD inline void cut_short(Step& step) noexcept {
 
 /// Advances to the earliest impact, responds to all touched surfaces, and sweeps again with what is left of the
 /// displacement.
-PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
+PAPERPROOF_FLATTEN inline void travel(Step& step) {
   const std::size_t most_corners = step.memory.most_corners - 3;
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion desired = desired_motion(step);
@@ -141,7 +141,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) noexcept {
   last_resort(step, displacement);
 }
 
-PAPERPROOF_COLD inline void look_for_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void look_for_ground(Step& step) {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (step.result.grounded) return;
     if (const auto ground = stood_on(step, piece)) note_ground(step, GroundState::walkable, piece, ground->normal);
@@ -161,7 +161,7 @@ PAPERPROOF_COLD inline void look_for_ground(Step& step) noexcept {
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
 /// leave, or a wedge that ended its fall; or what it slides down.
-PAPERPROOF_INLINE void find_ground(Step& step) noexcept {
+PAPERPROOF_INLINE void find_ground(Step& step) {
   if (step.on_ground || step.wedged || (step.met_ground && stood_on(step, step.ground))) {  // the usual case
     const Vec2 normal = step.space.normal(step.ground, step.ground_axis);
     note_ground(step, walkable(step, normal) ? GroundState::walkable : GroundState::wedge, step.ground, normal);
@@ -175,7 +175,7 @@ PAPERPROOF_INLINE void find_ground(Step& step) noexcept {
 /// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion leaves
 /// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
 /// ceiling. Nor is a one-way surface that the step began beneath.
-PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) noexcept {
+PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) {
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const std::optional<TouchedSurface> ground = stood_on(step, piece);
@@ -188,12 +188,12 @@ PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) noexcept {
   end_at_surfaces(step, desired);
 }
 
-inline void look_at_movers(Step& step) noexcept {
+inline void look_at_movers(Step& step) {
   step.near.look_at(step.movers.moving);
   step.movers.active = step.movers.active || !step.movers.moving.motions.empty();
 }
 
-inline void solve(Step& step) noexcept {
+inline void solve(Step& step) {
   const StepRequest& request = step.request;
   begin_motion(step);
   Vec2 wanted = request.displacement;

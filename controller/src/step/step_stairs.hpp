@@ -18,13 +18,13 @@
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Sweeps, and advances as far as the way is free. @return false where that cannot be certified.
-[[nodiscard]] inline bool go_along(Step& step, const Vec2& displacement) noexcept {
+[[nodiscard]] inline bool go_along(Step& step, const Vec2& displacement) {
   sweep_along(step, displacement);
   return advance(step, step.found.hit ? step.found.stop : Real(1));
 }
 
 /// How far the hull and its foot reach to a side.
-[[nodiscard]] PAPERPROOF_COLD inline FootReach foot_reach(const Step& step, Real side) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline FootReach foot_reach(const Step& step, Real side) {
   Real low = std::numeric_limits<Real>::infinity();
   for (const Vec2d& point : step.space.hull()) low = std::min<Real>(low, step.up.up_of(point));
   FootReach reach{-std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
@@ -40,7 +40,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// is then that way down.
 /// @param side of what is ahead: 1, -1, or 0 if nothing is. @param down how far [m].
 /// @param lean how far a stair may lean back [m].
-[[nodiscard]] inline std::optional<TouchedSurface> ground_below(Step& step, Real side, Real down, Real lean) noexcept {
+[[nodiscard]] inline std::optional<TouchedSurface> ground_below(Step& step, Real side, Real down, Real lean) {
   const Vec2 from = step.position;
   const auto ground = [&]() -> std::optional<TouchedSurface> {
     sweep_along(step, step.up.in_world({0, -down}));
@@ -71,7 +71,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Stands on ground that `ground_below` found, at the end of the way down.
 /// @param speed sideways [m/s], which the walker keeps.
-inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) noexcept {
+inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) {
   const Vec2 carried = ground_velocity(step, ground.piece, ground.normal);
   if (!walkable(step, ground.normal) || falls_away(step, ground_velocity(step, ground.piece, ground.normal)) ||
       !advance(step, step.found.stop))
@@ -86,7 +86,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 }
 
 /// Goes up, on sideways, and down to ground that is higher. @return false if it does not end there.
-[[nodiscard]] inline bool climb_by(Step& step, Real rise, Real sideways, Real speed) noexcept {
+[[nodiscard]] inline bool climb_by(Step& step, Real rise, Real sideways, Real speed) {
   const Vec2 before = step.position;
   if (!go_along(step, step.up.in_world({0, rise})) || !go_along(step, step.up.in_world({sideways, 0}))) return false;
   const Vec2 by = step.up.seen(Vec2(step.position - before));
@@ -98,7 +98,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) n
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
-PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) noexcept {
+PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) {
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
   if (!step.request.grounded || !step.climbs || step.result.status != StepStatus::moved || is_passed_through(step))
     return;
@@ -127,7 +127,7 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
 
 /// How far a circle may fall away below a rider that this step took along a tangent of it [m]; zero where no circle
 /// carries the character.
-[[nodiscard]] PAPERPROOF_COLD inline Real falls_away_below_rider(const Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real falls_away_below_rider(const Step& step) {
   if (step.moving.ride.ground == Ride::none || !step.space.is_circle(step.moving.ridden)) return 0;
   const Vec2 motion = step.velocity - step.movers.velocity(step.moving.carrier);
   const Real radius = step.space.circle(step.moving.ridden).radius;
@@ -137,14 +137,14 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
 
 /// Whether the motion leaves ground just below by no more than rounded vertices bend it, and gravity takes the motion
 /// there: see `leaves`.
-[[nodiscard]] inline bool hardly_leaves(const Step& step, const TouchedSurface& ground) noexcept {
+[[nodiscard]] inline bool hardly_leaves(const Step& step, const TouchedSurface& ground) {
   const Vec2 wanted = step.wanted - step.movers.displacement(ground.mover);
   return enters(wanted, ground.normal) && !leaves(step, ground.piece, ground.normal);
 }
 
 /// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
 /// such a seam the walk is above its ground by up to `touch` more than before.
-PAPERPROOF_COLD inline void follow_ground_down(Step& step) noexcept {
+PAPERPROOF_COLD inline void follow_ground_down(Step& step) {
   constexpr Real bend = 4 * tolerances.touch;          // straight down: enough on ground as steep as 60 degrees
   if (is_passed_through(step)) return;                 // a crushed character does not move
   const Vec2 left_ground = step.moving.ride.velocity;  // of the ground that was walked on

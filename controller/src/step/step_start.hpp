@@ -14,7 +14,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 inline constexpr int restore_rounds = 16;
 
 /// @param now its displacement is that at the end of the step.
-inline void remember(Step& step, const Crusher& now) noexcept {
+inline void remember(Step& step, const Crusher& now) {
   for (Crusher& known : step.memory.crushers) {
     if (known.collider != now.collider) continue;
     known = now;
@@ -23,19 +23,19 @@ inline void remember(Step& step, const Crusher& now) noexcept {
   step.memory.crushers.push_back(now);
 }
 
-[[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) noexcept {
+[[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) {
   return !step.space.info(piece).is_one_way() &&
          overlaps_exactly(step.space, piece, step.movers.moving.motions, position, step.time);
 }
 
-[[nodiscard]] inline bool overlaps(Step& step, const Vec2& position) noexcept {
+[[nodiscard]] inline bool overlaps(Step& step, const Vec2& position) {
   return any_near(step, {position, position}, [&](PieceIndex piece) { return overlaps(step, piece, position); });
 }
 
 /// Ignores the movers that overlap the character, and finds each of them in the list of the state. The list may come
 /// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
 /// if the list is full, its side is not known. True if there is a mover that was not ignored yet.
-inline bool ignore_overlapping_movers(Step& step) noexcept {
+inline bool ignore_overlapping_movers(Step& step) {
   bool any = false;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (mover_of(step, piece) == no_mover || ignored(step, piece) || !overlaps(step, piece, step.position)) return;
@@ -62,14 +62,14 @@ inline bool ignore_overlapping_movers(Step& step) noexcept {
 }
 
 /// Notes the colliders that the step begins inside of.
-inline void note_colliders_left(Step& step) noexcept {
+inline void note_colliders_left(Step& step) {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (overlaps(step, piece, step.position)) step.memory.mark(collider_of(step, piece), leaving);
   });
 }
 
 /// An upper bound for the way out of the colliders that are overlapped: their extent and that of the octagon [m].
-[[nodiscard]] inline Real reach_of_solids_inside(Step& step) noexcept {
+[[nodiscard]] inline Real reach_of_solids_inside(Step& step) {
   const Vec2 middle = step.position + step.space.hull_box().middle();
   Box2 whole{middle, middle};
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
@@ -88,7 +88,7 @@ inline void note_colliders_left(Step& step) noexcept {
 }
 
 /// What a search for a free position has in common that starts now.
-[[nodiscard]] inline FreePositionQuery query_here(const Step& step) noexcept {
+[[nodiscard]] inline FreePositionQuery query_here(const Step& step) {
   return {.from = step.position,
           .near = step.position,
           .crushers = step.memory.crushers,
@@ -100,7 +100,7 @@ inline void note_colliders_left(Step& step) noexcept {
 /// passed: all of those colliders that have a piece for which `may_pass` holds. `query.passable` counts them.
 template <class MayPass>
 [[nodiscard]] inline std::span<const PieceIndex> pieces_for(Step& step, FreePositionQuery& query,
-                                                            const MayPass& may_pass) noexcept {
+                                                            const MayPass& may_pass) {
   Box2 box = Box2{query.near, query.near}.inflated(query.reach).with(query.from);
   for (const std::optional<Vec2>& before : {query.last_free, query.entered_from})
     if (before) box = box.with(*before);
@@ -127,7 +127,7 @@ template <class MayPass>
 
 /// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole: 52
 /// times at most from 1 nm on, as solids are less than 4e6 m wide.
-[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, FreePositionQuery query, Real whole) noexcept {
+[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, FreePositionQuery query, Real whole) {
   const Vec2 extent = step.space.hull_box().size();
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
     const std::span<const PieceIndex> pieces =
@@ -139,7 +139,7 @@ template <class MayPass>
 
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
-[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step) noexcept {
+[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step) {
   const Real whole = reach_of_solids_inside(step);
   FreePositionQuery query = query_here(step);
   const CharacterState& before = step.request.state;
@@ -154,7 +154,7 @@ template <class MayPass>
 }
 
 /// Leaves what overlaps the character. False if there is no way out.
-[[nodiscard]] inline bool leave(Step& step) noexcept {
+[[nodiscard]] inline bool leave(Step& step) {
   const std::optional<Vec2> out = find_way_out(step);
   if (!out) return false;
   if (step.movers.active) note_colliders_left(step);
@@ -168,15 +168,14 @@ template <class MayPass>
 
 /// Whether a piece blocks a character that is at `p` at a fraction of the step. A one-way segment blocks only from
 /// above its surface.
-[[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& p, Real time) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE bool may_block(const Step& step, PieceIndex piece, const Vec2& p, Real time) {
   if (!step.space.info(piece).is_one_way()) return true;
   const Vec2 shift = offset(step, piece, time);
   return !step.request.drop && is_above(step.space, piece, Vec2(p - shift), lost_by(p, shift));
 }
 
 /// The surface of a piece that the character touches now, if it may block.
-[[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> touched_here(const Step& step,
-                                                                           PieceIndex piece) noexcept {
+[[nodiscard]] PAPERPROOF_INLINE std::optional<TouchedSurface> touched_here(const Step& step, PieceIndex piece) {
   const BestAxis best = best_axis(step.space, piece, local(step, piece, step.position));
   const bool touches = std::abs(best.separation) <= tolerances.touch;
   if (!touches || !may_block(step, piece, step.position, step.time)) return std::nullopt;
@@ -185,7 +184,7 @@ template <class MayPass>
 
 /// Pushes the character off the nearest piece, again and again, until every gap is at least `hit`. Without success the
 /// position does not change.
-inline void restore_gap(Step& step) noexcept {
+inline void restore_gap(Step& step) {
   Vec2 q = step.position;
   for (int round = 0; round < restore_rounds; ++round) {
     Real least = std::numeric_limits<Real>::infinity();
@@ -207,7 +206,7 @@ inline void restore_gap(Step& step) noexcept {
 
 /// Where not all gaps can be restored, restores those to moving pieces one by one. Each push must make no gap smaller
 /// that is below `hit`. Otherwise rounding could let a mover that carries the character overlap it.
-inline void restore_gaps_to_movers(Step& step) noexcept {
+inline void restore_gaps_to_movers(Step& step) {
   std::vector<HalfPlane>& pushes = step.memory.displacement_planes;
   pushes.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
@@ -232,7 +231,7 @@ inline void restore_gaps_to_movers(Step& step) noexcept {
 }
 
 /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
-[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step) {
   const CharacterState& state = step.request.state;
   if (state.has_last_free) step.moving.last_free = state.last_free;
   if (state.crushed && ignore_overlapping_movers(step) && !step.moving.side_lost) {

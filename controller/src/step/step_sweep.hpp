@@ -10,7 +10,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether a motion does not enter the surface of a piece that is touched. Its axis alone is then proof that the motion
 /// is clear of the piece.
-[[nodiscard]] inline bool slides_along_touched(const Step& step, const Motion& motion, PieceIndex piece) noexcept {
+[[nodiscard]] inline bool slides_along_touched(const Step& step, const Motion& motion, PieceIndex piece) {
   constexpr Real noise = std::numeric_limits<Real>::epsilon() * 32;
   for (const TouchedSurface& surface : step.memory.surfaces) {
     if (surface.piece != piece) continue;
@@ -26,7 +26,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
 /// one that points up most.
-inline void update_surfaces(Step& step) noexcept {
+inline void update_surfaces(Step& step) {
   const auto less_up = [&](const TouchedSurface& a, const TouchedSurface& b) {
     return step.up.up_of(a.normal) < step.up.up_of(b.normal);
   };
@@ -46,20 +46,20 @@ inline void update_surfaces(Step& step) noexcept {
   if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
 }
 
-PAPERPROOF_COLD inline void note_motion_on_ground(Step& step) noexcept {
+PAPERPROOF_COLD inline void note_motion_on_ground(Step& step) {
   const Vec2 relative = step.movers.relative(step.motion.displacement, step.moving.carrier, step.time);
   step.moving.anchored = relative.x() == 0 && relative.y() == 0;
 }
 
 /// Position of an anchored rider at a fraction of the step.
-[[nodiscard]] PAPERPROOF_COLD inline Vec2 anchor(const Step& step, Real time) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Vec2 anchor(const Step& step, Real time) {
   if (step.moving.carrier == no_mover) return step.position;
   return step.movers.offset(step.moving.carrier, time) + step.moving.ride.place;
 }
 
 /// Calls `visit(piece)` for every piece that may be touched from positions in a box, at any time of the step.
 template <class Visit>
-inline void for_each_near(Step& step, const Box2& box, const Visit& visit) noexcept {
+inline void for_each_near(Step& step, const Box2& box, const Visit& visit) {
   step.near.for_each_group(box, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex) {
     for (const PieceIndex piece : pieces)
       if (!ignored(step, piece)) visit(piece);
@@ -68,7 +68,7 @@ inline void for_each_near(Step& step, const Box2& box, const Visit& visit) noexc
 
 /// Whether `condition(piece)` holds for one of them.
 template <class Condition>
-[[nodiscard]] inline bool any_near(Step& step, const Box2& box, const Condition& condition) noexcept {
+[[nodiscard]] inline bool any_near(Step& step, const Box2& box, const Condition& condition) {
   bool any = false;
   for_each_near(step, box, [&](PieceIndex piece) { any = any || condition(piece); });
   return any;
@@ -76,7 +76,7 @@ template <class Condition>
 
 /// Whether a straight motion from now to a fraction of the step is clear of a piece, exactly.
 [[nodiscard]] inline bool exactly_clear(const Step& step, PieceIndex piece, const Vec2& begin, const Vec2& target,
-                                        Real end) noexcept {
+                                        Real end) {
   const Vec2 from = local(step, piece, begin);
   const Vec2 to = target - offset(step, piece, end);
   if (one_axis_separates(step.space, piece, from, to)) return true;
@@ -86,14 +86,14 @@ template <class Condition>
 }
 
 /// Whether a straight motion that takes no time is clear of every piece, exactly.
-[[nodiscard]] inline bool exactly_clear(Step& step, const Vec2& from, const Vec2& to) noexcept {
+[[nodiscard]] inline bool exactly_clear(Step& step, const Vec2& from, const Vec2& to) {
   return !any_near(step, Box2::between(from, to),
                    [&](PieceIndex piece) { return !exactly_clear(step, piece, from, to, step.time); });
 }
 
 /// The motion of the last sweep, relative to a mover; for `no_mover` it is that motion itself.
 /// @param begin when it began.
-[[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) noexcept {
+[[nodiscard]] inline Motion motion_seen_by(const Step& step, MoverIndex mover, Real begin) {
   if (mover == no_mover) return step.motion;
   const Vec2 offset = step.movers.offset(mover, begin);
   const Vec2 displacement = step.movers.relative(step.motion.displacement, mover, begin);
@@ -102,7 +102,7 @@ template <class Condition>
 
 /// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
 /// @param length of the motion, as the piece sees it [m].
-inline void keep_stop(Step& step, Stop stop, Real length) noexcept {
+inline void keep_stop(Step& step, Stop stop, Real length) {
   stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Real(0);
   if (step.found.hit && stop.stop > step.found.stop + stop.together) return;
   if (!step.found.hit || stop.stop < step.found.stop) {
@@ -118,7 +118,7 @@ inline void keep_stop(Step& step, Stop stop, Real length) noexcept {
 
 /// Sweeps the last motion against what may be in its way, relative to each mover. `found` keeps the first stops.
 template <Covered covered>
-PAPERPROOF_INLINE void sweep(Step& step) noexcept {
+PAPERPROOF_INLINE void sweep(Step& step) {
   const auto against = [&](const Motion& motion, std::span<const PieceIndex> pieces) {
     for (const PieceIndex piece : pieces) {
       const Real kept = kept_by_box(step.space, motion, piece);
@@ -141,10 +141,10 @@ PAPERPROOF_INLINE void sweep(Step& step) noexcept {
 }
 
 /// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
-PAPERPROOF_COLD inline void sweep_again(Step& step) noexcept { sweep<Covered::yields>(step); }
+PAPERPROOF_COLD inline void sweep_again(Step& step) { sweep<Covered::yields>(step); }
 
 /// Whether a covered facet stopped the last sweep.
-[[nodiscard]] inline bool stops_at_covered(const Step& step) noexcept {
+[[nodiscard]] inline bool stops_at_covered(const Step& step) {
   if (!step.found.hit) return false;
   if (step.found.stops.size() == 1) return step.found.stops[0].axes.covered;  // the usual case
   return std::any_of(step.found.stops.begin(), step.found.stops.end(),
@@ -152,7 +152,7 @@ PAPERPROOF_COLD inline void sweep_again(Step& step) noexcept { sweep<Covered::yi
 }
 
 /// Puts the stop with the most upward normal first. Of equal ones it is the one with the lowest index.
-inline void order_stops(Step& step) noexcept {
+inline void order_stops(Step& step) {
   if (step.found.stops.size() < 2) return;
   const auto less_up = [&](const Stop& a, const Stop& b) {
     return step.up.up_of(step.space.normal(a.piece, a.axes.normal)) <
@@ -162,7 +162,7 @@ inline void order_stops(Step& step) noexcept {
 }
 
 /// Sweeps from the present position. Motion and result are in `motion` and `found`.
-PAPERPROOF_FLATTEN inline void sweep_along(Step& step, const Vec2& displacement) noexcept {
+PAPERPROOF_FLATTEN inline void sweep_along(Step& step, const Vec2& displacement) {
   set_motion(step.motion, step.space, step.position, displacement);
   sweep<Covered::as_any>(step);
   if (stops_at_covered(step)) [[unlikely]]
@@ -170,21 +170,21 @@ PAPERPROOF_FLATTEN inline void sweep_along(Step& step, const Vec2& displacement)
   order_stops(step);
 }
 
-[[nodiscard]] inline bool blocks_exactly(const Step& step, PieceIndex piece, const Vec2& target, Real end) noexcept {
+[[nodiscard]] inline bool blocks_exactly(const Step& step, PieceIndex piece, const Vec2& target, Real end) {
   return best_axis(step.space, piece, local(step, piece, step.position)).separation < tolerances.certain &&
          !exactly_clear(step, piece, step.position, target, end);
 }
 
 /// Whether the straight motion to `target` is proved clear of every piece that is nearer than rounding at its start.
 /// For pieces that are further away the sweep is proof enough.
-[[nodiscard]] PAPERPROOF_COLD inline bool certified(Step& step, const Vec2& target, Real end) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline bool certified(Step& step, const Vec2& target, Real end) {
   return !any_near(step, {step.position, step.position},
                    [&](PieceIndex piece) { return blocks_exactly(step, piece, target, end); });
 }
 
 /// Advances along the motion of the last sweep up to fraction `stop`. False where that cannot be certified, or leaves
 /// the range: then nothing has changed.
-[[nodiscard]] inline bool advance(Step& step, Real stop) noexcept {
+[[nodiscard]] inline bool advance(Step& step, Real stop) {
   if (stop == 0) return true;
   Vec2 target = step.motion.from + step.motion.displacement * stop;
   Real end = step.time + (1 - step.time) * stop;
@@ -204,8 +204,7 @@ PAPERPROOF_FLATTEN inline void sweep_along(Step& step, const Vec2& displacement)
 /// Reports one contact for each collider and normal: the same polygon may be floor and wall. No contact gets an earlier
 /// fraction than an impact that came before, although a motion stops a little before its time of impact.
 /// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
-inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real fraction,
-                           std::size_t this_moment) noexcept {
+inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real fraction, std::size_t this_moment) {
   auto& contacts = step.result.contacts;
   fraction = std::max(fraction, step.latest_impact);
   const ColliderIndex collider = collider_of(step, piece);
@@ -226,8 +225,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 
 /// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline Real impact_with_another_piece(Step& step, const Stop& stop,
-                                                                          const Motion& motion,
-                                                                          const Vec2& from) noexcept {
+                                                                          const Motion& motion, const Vec2& from) {
   Real earliest = std::numeric_limits<Real>::infinity();
   for_each_near(step, step.motion.box(), [&](PieceIndex other) {
     if (other == stop.piece || collider_of(step, other) != collider_of(step, stop.piece)) return;
@@ -240,7 +238,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 
 /// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
 /// before its time of impact: another piece of the same collider may be hit in between.
-[[nodiscard]] inline Real impact_of(Step& step, const Stop& stop, const Motion& motion, const Vec2& from) noexcept {
+[[nodiscard]] inline Real impact_of(Step& step, const Stop& stop, const Motion& motion, const Vec2& from) {
   Real earliest = time_of_impact(step.space, from, motion.displacement, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * tolerances.stop) return earliest;
   if (!step.space.info(stop.piece).whole_collider)
@@ -250,7 +248,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 
 /// Time of impact with the collider of a piece in the last sweep, as a fraction of the step.
 /// @param begin when that motion began.
-[[nodiscard]] inline Real fraction_of(Step& step, const Stop& stop, Real begin) noexcept {
+[[nodiscard]] inline Real fraction_of(Step& step, const Stop& stop, Real begin) {
   const Vec2& from = begin == 0 ? step.start : step.motion.from;
   const MoverIndex mover = mover_of(step, stop.piece);
   if (mover == no_mover) return begin + (1 - begin) * impact_of(step, stop, step.motion, from);
@@ -259,7 +257,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
 }
 
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
-PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this_moment) noexcept {
+PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this_moment) {
   step.near.for_each_group(step.motion.box(), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const Motion motion = motion_seen_by(step, mover, begin);
     const Real together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Real(0);
@@ -276,7 +274,7 @@ PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this
 /// The fraction of a contact that is met before any time has passed, by a motion that other contacts have turned.
 /// Either the wanted motion comes to it before it comes to them, or it comes after the first of them.
 /// @param turned time of impact of the motion that was turned.
-[[nodiscard]] PAPERPROOF_COLD inline Real fraction_after_contacts(Step& step, PieceIndex piece, Real turned) noexcept {
+[[nodiscard]] PAPERPROOF_COLD inline Real fraction_after_contacts(Step& step, PieceIndex piece, Real turned) {
   Real first = 1;
   for (const Contact& contact : step.result.contacts) first = std::min<Real>(first, contact.fraction);
   const Vec2 at_first = offset(step, piece, 0);
@@ -292,7 +290,7 @@ PAPERPROOF_COLD inline void report_more(Step& step, Real begin, std::size_t this
 
 /// Reports the contacts of one moment, the earliest impact first, and notes the ground among them.
 /// @param begin when the motion of the last sweep began.
-PAPERPROOF_FLATTEN inline void report(Step& step, Real begin) noexcept {
+PAPERPROOF_FLATTEN inline void report(Step& step, Real begin) {
   const std::size_t before = step.result.contacts.size();
   step.on_ground = false;
   for (const Stop& stop : step.found.stops) {
@@ -317,7 +315,7 @@ PAPERPROOF_FLATTEN inline void report(Step& step, Real begin) noexcept {
 }
 
 /// Puts the contacts in order of fraction; those of one fraction stay as they were met.
-PAPERPROOF_COLD inline void order_contacts(Step& step) noexcept {
+PAPERPROOF_COLD inline void order_contacts(Step& step) {
   const auto begin = step.result.contacts.begin();
   for (auto contact = begin; contact != step.result.contacts.end(); ++contact) {
     const auto place = std::upper_bound(begin, contact, contact->fraction,
@@ -327,7 +325,7 @@ PAPERPROOF_COLD inline void order_contacts(Step& step) noexcept {
 }
 
 /// Reports a contact with a piece that is touched now.
-PAPERPROOF_COLD inline void report_touched(Step& step, PieceIndex piece) noexcept {
+PAPERPROOF_COLD inline void report_touched(Step& step, PieceIndex piece) {
   const std::size_t axis = best_axis(step.space, piece, local(step, piece, step.position)).axis;
   report_contact(step, piece, axis, step.time, step.result.contacts.size());
 }

@@ -10,7 +10,7 @@ using geometry::pose_at;
 namespace {
 
 /// The motion of a circle's centre, as its offset; with the angles of its mover.
-MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) noexcept {
+MoverMotion motion_of_centre(const Vec2d& centre, const MoverMotion& mover) {
   const auto offset = [&](const Pose& pose) {
     return Vec2d(pose.position + geometry::Turn(pose.angle)(centre) - centre);
   };

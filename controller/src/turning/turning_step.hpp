@@ -54,7 +54,7 @@ struct Part {
   /// Of the character while everything turns, in shares of this time.
   std::vector<PathPoint> way{};
 
-  [[nodiscard]] double turned() const noexcept { return begin + (end - begin) * turning_share; }
+  [[nodiscard]] double turned() const { return begin + (end - begin) * turning_share; }
 };
 
 /// Of one scratch. Nothing in it but `turned` outlives a step.
@@ -75,9 +75,7 @@ struct Memory final : OwnMemory {
 };
 
 /// @param scratch made by a controller.
-[[nodiscard]] inline Memory& memory_of(const Scratch& scratch) noexcept {
-  return static_cast<Memory&>(*scratch.turning);
-}
+[[nodiscard]] inline Memory& memory_of(const Scratch& scratch) { return static_cast<Memory&>(*scratch.turning); }
 
 /// One step of one character, or one question about it.
 class TurningStep {
@@ -98,10 +96,10 @@ class TurningStep {
   [[nodiscard]] std::span<const MoverMotion> hold_angles(const Box2& around);
 
  private:
-  [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
-  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
+  [[nodiscard]] const CharacterDef& character() const { return controller_.character(); }
+  [[nodiscard]] std::span<const Vec2d> hull() const { return character().shape.hull(); }
   /// What the character covers from positions in a box.
-  [[nodiscard]] Box2 box_at(const Box2& positions) const noexcept { return positions + character().shape.box(); }
+  [[nodiscard]] Box2 box_at(const Box2& positions) const { return positions + character().shape.box(); }
   [[nodiscard]] bool is_there(ColliderIndex collider) const;
   [[nodiscard]] bool blocks(ColliderIndex collider) const;
 
