@@ -1,12 +1,13 @@
-// Runs every technique, and a crowd, through random scenery and hashes every bit that a step produces.
+// Runs every technique, and several characters, through random scenery and hashes every bit that a step produces.
 //   same_bits            prints one line per scene and technique: its hash after a fifth of the steps and after
-//                        all, and how many steps had a contact (in a crowd: with each other)
+//                        all, and how many steps had a contact (of several: with each other)
 //   same_bits GOLDEN     compares with such lines, and prints both where they differ; exit status 1 then
 //   same_bits GOLDEN fifth   makes and compares a fifth of the steps, for a build that takes a hundred times as long
 // Nothing here may depend on the compiler either: no distribution of the standard library, no libm beyond sqrt.
 #include "agreement/golden_scenes.hpp"
 
 #include <paperproof/techniques.hpp>
+#include <paperproof/together.hpp>
 
 #include <bit>
 #include <cstdio>
@@ -149,31 +150,35 @@ RunResult run(const Scene& scene, std::string_view kind, int steps) {
   });
 }
 
-/// Several at once: the steps are shared between them.
-RunResult run_crowd(const Scene& scene, int steps) {
-  constexpr int members = 8;
-  const paperproof::Scenery scenery(scene.scenery);
-  const paperproof::Crowd crowd(scenery, character_def());
-  paperproof::CrowdScratch scratch = crowd.make_scratch(members);
-  paperproof::CrowdReport report(members);
-  std::vector<paperproof::CharacterState> states(members);
-  std::vector<paperproof::Input> inputs(members);
+/// Several that take turns: the steps are shared between them.
+RunResult run_together(const Scene& scene, int steps) {
+  constexpr std::size_t count = 8;
+  paperproof::Level level(scene.scenery);
+  const paperproof::Controller controller(level, character_def());
+  paperproof::Scratch scratch = controller.make_scratch();
+  paperproof::TogetherScratch turns;
+  std::vector<paperproof::StepReport> reports(count);
+  std::vector<paperproof::CharacterState> states(count);
+  std::vector<paperproof::Companion> companions(count);
+  for (std::size_t i = 0; i < count; ++i)
+    companions[i] = {&controller, &states[i], {}, level.add(body_of(character_def())), &scratch, &reports[i]};
   Random random(8);
   const auto make = [&](int step, const auto& context, Hash& hash) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       if (step % steps_between_shots == 0) states[i] = shot(random, scene);
-      if (step % 20 == 0) inputs[i] = any_input(random);
+      if (step % 20 == 0) companions[i].input = any_input(random);
     }
-    crowd.step(states, inputs, context, scratch, report);
-    hash.add(report.impacts);
-    for (const paperproof::CharacterState& state : states) {
-      hash.add(state.position);
-      hash.add(state.velocity);
-      hash.add(state.grounded);
+    step_together(companions, context, turns);
+    bool have_met = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      hash.add(companions[i].turn);
+      add_step(hash, states[i], reports[i]);
+      for (const paperproof::Contact& contact : reports[i].move.contacts)
+        have_met = have_met || contact.collider >= companions[0].body;
     }
-    return report.impacts > 0;
+    return have_met;
   };
-  return make_steps(scene, steps / members, first_steps / members, make);
+  return make_steps(scene, steps / static_cast<int>(count), first_steps / static_cast<int>(count), make);
 }
 
 using Lines = std::map<std::string, std::string>;
@@ -199,7 +204,7 @@ void add_lines(const Scene& scene, int steps, Lines& lines) {
   for (const std::string_view kind : paperproof::technique_names())
     lines[scene.name + ' ' + std::string(kind) + " double"] =
         line_of([&](int count) { return run(scene, kind, count); }, steps);
-  lines[scene.name + " crowd double"] = line_of([&](int count) { return run_crowd(scene, count); }, steps);
+  lines[scene.name + " together double"] = line_of([&](int count) { return run_together(scene, count); }, steps);
 }
 
 Lines run_all(int steps) {

@@ -4,10 +4,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(core "types|up_frame|tolerances|filter|scenery|character|report|scratch|step_context|octagon_sweep|controller|contact_changes|saved_state|crowd|paperproof")
+set(core "types|up_frame|tolerances|scenery|character|report|step_context|controller|saved_state|together|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
 # The techniques use the core as anybody would, but for its search of boxes, and what surrounds a move in each step.
-set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|one_way_chains|piece_finder|sensors|step_parts)[.]hpp\"")
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques?|technique_controller|crowd|broad_phase|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|one_way_chains|piece_finder|sensors|step_parts)[.]hpp\"")
 # The twin's headers have the adapter's folder in their names, and are not the adapter's.
 file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
 list(JOIN adapter_headers ">|<" adapter_headers)

@@ -1,8 +1,10 @@
 /// Characters as bodies of one joint solve: what the law of `discrete` makes of them is computed here by hand.
-#include "controller/together.hpp"
+#include "controller/states.hpp"
 #include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace paperproof {
 namespace {
@@ -10,17 +12,40 @@ namespace {
 using namespace stepping;
 
 constexpr double gap = Tolerances{}.stop;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// A step takes a second and nothing pulls: velocities are displacements.
-Together flying(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {}) {
-  return Together(std::move(positions), std::move(colliders), {}, {.name = "discrete"});
-}
+struct Flying {
+  explicit Flying(const std::vector<Vec2d>& positions, std::vector<ColliderDef> colliders = {})
+      : scenery(SceneryDef{std::move(colliders)}),
+        states(positions.size()),
+        inputs(positions.size()),
+        movers(scenery.mover_count()) {
+    for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
+  }
+  StepStatus step() { return crowd.step(states, inputs, {gravity, dt, movers}, scratch, report); }
+  /// From right side to left side [m].
+  [[nodiscard]] double gap(std::size_t left, std::size_t right) const {
+    return states[right].position.x() - states[left].position.x() - 2 * half_width;
+  }
+
+  Scenery scenery;
+  std::vector<CharacterState> states;
+  TechniqueCrowd crowd = make_crowd(scenery, {}, {.name = "discrete"});
+  CrowdScratch scratch = crowd.make_scratch(states.size());
+  CrowdReport report{states.size()};
+  std::vector<Input> inputs;
+  std::vector<MoverMotion> movers;  ///< Of the next step.
+  Vec2d gravity{0, 0};
+  double dt = 1;
+};
 
 TEST(DiscreteCrowd, two_that_meet_share_the_overlap_and_go_on_with_the_mean_of_their_velocities) {
   const double apart = 0.4;
   for (const double v1 : {0.3, 0.6, 0.9}) {
     for (const double v2 : {-0.1, 0.2, 0.7}) {
-      Together two = flying({{0, 0}, {2 * half_width + apart, 0}});
+      Flying two({{0, 0}, {2 * half_width + apart, 0}});
       two.states[0].velocity = {v1, 0};
       two.states[1].velocity = {-v2, 0};
       ASSERT_EQ(two.step(), StepStatus::moved);
@@ -51,7 +76,7 @@ TEST(DiscreteCrowd, they_pass_through_each_other_from_the_speed_on_at_which_they
   const double apart = 0.4;
   const double through = apart + 4 * half_width;  // both widths and what is between
   for (const double too_slow : {1e-9, 0.1, -1e-9, -0.1}) {
-    Together two = flying({{0, 0}, {2 * half_width + apart, 0}});
+    Flying two({{0, 0}, {2 * half_width + apart, 0}});
     const double together = through - too_slow;
     two.states[0].velocity = {together * 0.75, 0};
     two.states[1].velocity = {-together * 0.25, 0};
@@ -68,7 +93,7 @@ TEST(DiscreteCrowd, pushed_against_a_wall_overlap_by_what_four_rounds_leave_a_qu
   const double apart = 0.25;
   const double v = 0.65;
   const double wall = 3 * half_width + apart + gap;
-  Together two = flying({{0, 0}, {2 * half_width + apart, 0}}, {rectangle(wall, -5, wall + 1, 5)});
+  Flying two({{0, 0}, {2 * half_width + apart, 0}}, {rectangle(wall, -5, wall + 1, 5)});
   two.states[0].velocity = {v, 0};
   two.step();
   EXPECT_NEAR(two.gap(0, 1), -(v - apart) / 4, 4 * gap);
@@ -84,7 +109,7 @@ TEST(DiscreteCrowd, who_is_pushed_on_tells_whom_it_met_in_order_of_time) {
   // The first takes the second by half of their overlap, and so into the third, which is met earlier in that movement.
   const double apart = 0.5;
   const double near = 0.01;
-  Together three = flying({{0, 0}, {2 * half_width + apart, 0}, {4 * half_width + apart + near, 0}});
+  Flying three({{0, 0}, {2 * half_width + apart, 0}, {4 * half_width + apart + near, 0}});
   three.states[0].velocity = {1, 0};
   three.step();
   const auto& met = three.report.members[1].met;
@@ -97,7 +122,7 @@ TEST(DiscreteCrowd, who_is_pushed_on_tells_whom_it_met_in_order_of_time) {
 
 TEST(DiscreteCrowd, two_pairs_far_apart_are_two_islands_and_a_chain_is_one) {
   const double near = 2 * half_width + 0.1;
-  Together six = flying({{100, 0}, {0, 0}, {100 + near, 0}, {near, 0}, {50, 0}, {2 * near, 0}});
+  Flying six({{100, 0}, {0, 0}, {100 + near, 0}, {near, 0}, {50, 0}, {2 * near, 0}});
   for (CharacterState& state : six.states) state.velocity = {0.2, 0};
   six.step();
   std::vector<CharacterIndex> islands;
@@ -111,7 +136,7 @@ TEST(DiscreteCrowd, two_pairs_far_apart_are_two_islands_and_a_chain_is_one) {
 TEST(DiscreteCrowd, whom_a_mover_would_push_through_the_floor_stays_and_is_in_the_way_of_others) {
   const double half = half_height + gap;
   const ColliderDef press = compare::box(-half_width, half, half_width, half + 1, 0);
-  Together two = flying({{0, 0}, {-2 * half_width - 0.2, 0}}, {rectangle(-5, -half - 0.05, 5, -half), press});
+  Flying two({{0, 0}, {-2 * half_width - 0.2, 0}}, {rectangle(-5, -half - 0.05, 5, -half), press});
   two.states[1].velocity = {0.5, 0};
   two.movers[0] = {{0, 0}, {0, -2 * half - 0.1}};
   two.step();
@@ -125,7 +150,7 @@ TEST(DiscreteCrowd, with_more_pairs_than_there_is_room_for_says_that_something_w
   constexpr std::size_t most = 530;  // 530 * 529 / 2 pairs are more than 256 for each and one piece
   std::vector<Vec2d> places;
   for (std::size_t i = 0; i < most; ++i) places.emplace_back(1e-4 * static_cast<double>(i), 0);
-  Together all = flying(places, {rectangle(-5, -9, 5, -8)});
+  Flying all(places, {rectangle(-5, -9, 5, -8)});
   for (CrowdMember& member : all.report.members) member.step.reserve(64);
   const std::size_t before = tests::allocations();
   ASSERT_EQ(all.step(), StepStatus::moved);
@@ -136,8 +161,85 @@ TEST(DiscreteCrowd, with_more_pairs_than_there_is_room_for_says_that_something_w
   }
 }
 
+TEST(DiscreteCrowd, an_input_that_is_refused_changes_nothing_for_anybody) {
+  struct Refused {
+    const char* what;
+    void (*spoil)(Flying&);
+    StepStatus status = StepStatus::invalid_input;
+  };
+  const std::vector<Refused> all{
+      {"a place", [](Flying& t) { t.states[2].position.x() = nan; }},
+      {"a velocity", [](Flying& t) { t.states[1].velocity.y() = infinite; }},
+      {"a wish", [](Flying& t) { t.inputs[2].move = nan; }},
+      {"an infinite wish", [](Flying& t) { t.inputs[2].move = infinite; }},
+      {"gravity", [](Flying& t) { t.gravity.y() = -infinite; }},
+      {"no time", [](Flying& t) { t.dt = 0; }},
+      {"a time", [](Flying& t) { t.dt = nan; }},
+      {"an input too few", [](Flying& t) { t.inputs.pop_back(); }},
+      {"a motion too few", [](Flying& t) { t.movers.clear(); }},
+      {"a motion from nowhere", [](Flying& t) { t.movers[0].from.x() = nan; }},
+      {"a motion out of range", [](Flying& t) { t.movers[0].to.y() = 3e6; }},
+      {"memory for two", [](Flying& t) { t.scratch = t.crowd.make_scratch(2); }},
+      {"memory that is moved from", [](Flying& t) { const CrowdScratch taken = std::move(t.scratch); }},
+      {"nobody's memory", [](Flying& t) { t.scratch = {.most_characters = 3, .own = {}, .maker = {}}; }},
+      {"another's memory",
+       [](Flying& t) {
+         static const Flying other({{0, 1}, {2, 1}, {4, 1}}, {compare::box(9, 0, 10, 1, 0)});
+         t.scratch = other.crowd.make_scratch(3);
+       }},
+      {"a report of two", [](Flying& t) { t.report = CrowdReport(2); }},
+      {"too fast", [](Flying& t) { t.states[1].velocity.x() = 3e6; }, StepStatus::out_of_range}};
+  for (const auto& [what, spoil, status] : all) {
+    Flying three({{0, 1}, {2, 1}, {4, 1}}, {compare::box(9, 0, 10, 1, 0)});
+    three.states[0].velocity = {1, 1};
+    spoil(three);
+    const std::vector<CharacterState> before = three.states;
+    EXPECT_EQ(three.step(), status) << what;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(three.states[i], before[i])) << what;
+  }
+  EXPECT_EQ(Flying({}).step(), StepStatus::moved) << "nobody is a crowd, too";
+}
+
+TEST(DiscreteCrowd, is_no_crowd_of_another_technique) {
+  const Scenery scenery;
+  for (const std::string_view kind : technique_names()) {
+    if (kind == "discrete") continue;
+    EXPECT_THROW((void)make_crowd(scenery, {}, {.name = kind}), std::invalid_argument) << kind;
+  }
+}
+
+/// On the ground and on a lift beside a wall that moves.
+TEST(DiscreteCrowd, takes_no_memory_in_a_step) {
+  std::vector<Vec2d> at;
+  for (int i = 0; i < 12; ++i) at.emplace_back(i * 0.7, half_height + 0.2 * (i % 3));
+  for (const MoverIndex mover : {no_mover, MoverIndex{0}}) {
+    Flying all(at, {compare::box(-20, -1, 20, 0, mover), compare::box(-4, 0.1, -3, 3, mover == 0 ? 1 : 0)});
+    all.gravity = {0, -30};
+    all.dt = 1.0 / 60;
+    std::size_t impacts = 0;
+    const auto step_200_times = [&] {
+      for (int step = 0; step < 200; ++step) {
+        for (std::size_t i = 0; i < all.inputs.size(); ++i)
+          all.inputs[i] = {.move = (step / 20 + static_cast<int>(i)) % 3 - 1, .jump = step % 40 == static_cast<int>(i)};
+        for (MoverMotion& motion : all.movers) motion = {motion.to, motion.to + Vec2d(0.02, 0.02)};
+        all.step();
+        impacts += all.report.impacts;
+      }
+    };
+    const std::vector<CharacterState> at_first = all.states;
+    const std::vector<MoverMotion> movers_at_first = all.movers;
+    step_200_times();  // scratch and report come to know what there is
+    all.states = at_first;
+    all.movers = movers_at_first;
+    const std::size_t before = tests::allocations();
+    step_200_times();
+    EXPECT_EQ(tests::allocations(), before);
+    EXPECT_GT(impacts, 100U);
+  }
+}
+
 TEST(DiscreteCrowd, who_begins_in_another_comes_out_and_both_say_so) {
-  Together three = flying({{0, 0}, {half_width, 0}, {9, 0}});
+  Flying three({{0, 0}, {half_width, 0}, {9, 0}});
   three.step();
   for (const CharacterIndex i : {0U, 1U}) {
     ASSERT_EQ(three.report.members[i].started_overlapping.size(), 1U);

@@ -310,21 +310,6 @@ TEST(SensorsThatTurn, report_each_visit_and_are_known_at_the_end_of_each_step) {
   EXPECT_GT(events_at_rest, steps / 1000);
 }
 
-TEST(LevelTurning, a_wheel_that_does_not_carry_lets_its_belt_alone_carry) {
-  for (const double belt : {0.0, 1.5}) {
-    ColliderDef wheel = compare::circle({0, 0}, 50, 0);
-    wheel.surface_speed = belt;
-    wheel.carries = false;
-    Played played({{wheel}}, {0, 50.7});
-    for (int i = 0; i < 120; ++i) {
-      played.step_by({0.01, 0}, 0.002);
-      if (i < 60) played.state.velocity.x() = 0;
-      if (i == 59) played.state.position.x() = 0.6;
-    }
-    EXPECT_NEAR(played.state.position.x() - 0.6, belt, 0.06) << "a second on a belt of " << belt << " m/s";
-  }
-}
-
 TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   Played played({{box(-3, -0.1, 3, 0.1, 0)}}, {999'999, 0.8});
   played.state.velocity = {1e9, 0};

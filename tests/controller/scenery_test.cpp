@@ -227,15 +227,13 @@ TEST(AsRun, is_the_definition_that_was_given_whatever_is_kept_of_it) {
   def.colliders.push_back(one_way(chain({{1, 0}, {0, 0}}), {0, 1}));
   def.colliders.push_back(one_way(chain({{1, 0}, {1, 5}}), {0, 1}));  // no piece at all
   def.colliders.push_back(one_way(chain({{0, 0}, {1, 0}, {2, 1}}, 0), {0, 1}));
-  def.colliders.back().carries = false;
   def.colliders.push_back(compare::circle({1, 2}, 0.1));
   const Scenery scenery(def);
   const SceneryDef as_run = scenery.as_run();
   ASSERT_EQ(as_run.colliders.size(), def.colliders.size());
   for (ColliderIndex i = 0; i < def.colliders.size(); ++i) {
     const auto all_of = [](const ColliderDef& of) {
-      return std::tie(of.shape, of.points, of.holes, of.one_way, of.mover, of.sensor, of.surface_speed, of.carries,
-                      of.radius);
+      return std::tie(of.shape, of.points, of.holes, of.one_way, of.mover, of.sensor, of.surface_speed, of.radius);
     };
     EXPECT_TRUE(all_of(as_run.colliders[i]) == all_of(def.colliders[i])) << i;
     const PieceRange pieces = scenery.pieces_of(i);

@@ -76,7 +76,7 @@ TEST(StaleIndices, of_any_kind_are_survived_by_every_technique) {
   EXPECT_GE(walk_by_every_technique(), 12) << "not every technique knows movers";
 }
 
-TEST(StaleIndices, of_any_kind_are_survived_by_a_crowd) {
+TEST(StaleIndices, of_any_kind_are_survived_by_several) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Random random(seed);
     Together all = standing({-1.2, 0, 1.2}, level());
@@ -84,7 +84,8 @@ TEST(StaleIndices, of_any_kind_are_survived_by_a_crowd) {
       for (CharacterState& state : all.states) garble(state, random);
       for (Input& input : all.inputs) input.move = random.integer(-1, 1);
       for (std::size_t k = 0; k < 2; ++k) all.movers[k] = {all.movers[k].to, offsets(step)[k]};
-      ASSERT_EQ(all.step(), StepStatus::moved) << "seed " << seed;
+      all.step();
+      for (const StepReport& report : all.reports) ASSERT_FALSE(is_refused(report.status)) << "seed " << seed;
       for (const CharacterState& state : all.states)
         ASSERT_TRUE(state.position.allFinite() && state.position.y() >= half_height) << "seed " << seed;
     }

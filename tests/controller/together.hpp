@@ -1,12 +1,14 @@
-/// A scenery with several characters in it, and the buttons they are steered with.
+/// A level with several characters in it that take turns, and the buttons they are steered with.
 #pragma once
 
 #include "campaign/shapes.hpp"
 #include "controller/states.hpp"
 
-#include <paperproof/techniques.hpp>
+#include <paperproof/together.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace paperproof::stepping {
@@ -20,48 +22,88 @@ inline constexpr double rest_gap = 5e-7;
 [[nodiscard]] inline bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
 
 struct Together {
-  std::unique_ptr<const Scenery> scenery;
-  TechniqueCrowd crowd;
-  CrowdScratch scratch;
-  CrowdReport report;
+  std::unique_ptr<Level> level;
+  std::vector<ColliderIndex> bodies;
+  std::unique_ptr<const Controller> controller;
+  Scratch scratch;
+  TogetherScratch turns;
   std::vector<CharacterState> states;
   std::vector<Input> inputs;
+  std::vector<StepReport> reports;
+  std::vector<std::size_t> turn;    ///< Of each in the last step.
+  std::vector<std::size_t> order;   ///< In which they are handed over.
   std::vector<MoverMotion> movers;  ///< Of the next step.
   Vec2d gravity{0, 0};
+  Vec2d up{0, 1};
   double dt = 1;
 
-  explicit Together(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {},
-                    const CharacterDef& character = {}, const TechniqueDef& technique = {})
-      : scenery(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)})),
-        crowd(make_crowd(*scenery, character, technique)),
-        scratch(crowd.make_scratch(positions.size())),
-        report(positions.size()),
+  explicit Together(const std::vector<Vec2d>& positions, const std::vector<ColliderDef>& colliders = {},
+                    const CharacterDef& character = {})
+      : level(std::make_unique<Level>(SceneryDef{colliders})),
         states(positions.size()),
         inputs(positions.size()),
-        movers(scenery->mover_count()) {
-    for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
+        reports(positions.size()),
+        turn(positions.size()),
+        order(positions.size()),
+        companions_(positions.size()) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      bodies.push_back(level->add(body_of(character)));
+      states[i].position = positions[i];
+    }
+    controller = std::make_unique<const Controller>(*level, character);
+    scratch = controller->make_scratch();
+    movers.resize(level->mover_count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
   }
-  StepStatus step() { return crowd.step(states, inputs, {gravity, dt, movers}, scratch, report); }
-  /// The movers go on from where they are, each by its way.
-  StepStatus step_with_movers_by(const std::vector<Vec2d>& ways) {
+
+  [[nodiscard]] StepContext context() const { return {gravity, dt, movers, nullptr, up}; }
+  void step() {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const std::size_t i = order[k];
+      companions_[k] = {&*controller, &states[i], inputs[i], bodies[i], &scratch, &reports[i]};
+    }
+    step_together(companions_, context(), turns);
+    for (std::size_t k = 0; k < order.size(); ++k) turn[order[k]] = companions_[k].turn;
+  }
+  /// The movers go on from where they are.
+  void step_with_movers_to(const std::vector<MoverMotion>& places) {
+    for (std::size_t k = 0; k < movers.size(); ++k)
+      movers[k] = {movers[k].to, places[k].to, movers[k].to_angle, places[k].to_angle};
+    step();
+  }
+  void step_with_movers_by(const std::vector<Vec2d>& ways) {
     for (std::size_t k = 0; k < movers.size(); ++k) movers[k] = {movers[k].to, movers[k].to + ways[k]};
-    return step();
+    step();
   }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
+  }
+  [[nodiscard]] bool is_body(ColliderIndex collider) const {
+    return std::find(bodies.begin(), bodies.end(), collider) != bodies.end();
+  }
+  /// Contacts of the last step with others.
+  [[nodiscard]] std::vector<Contact> met(std::size_t i) const {
+    std::vector<Contact> all;
+    for (const Contact& contact : reports[i].move.contacts)
+      if (is_body(contact.collider)) all.push_back(contact);
+    return all;
   }
   /// From right side to left side [m].
   [[nodiscard]] double gap(std::size_t left, std::size_t right) const {
     return states[right].position.x() - states[left].position.x() - 2 * half_width;
   }
+
+ private:
+  std::vector<Companion> companions_;
 };
 
 [[nodiscard]] inline ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
 
 /// In a game: it pulls down, and a step is a frame.
-[[nodiscard]] inline Together under_gravity(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders,
-                                            const CharacterDef& character = {}, const TechniqueDef& technique = {}) {
-  Together all(std::move(positions), std::move(colliders), character, technique);
+[[nodiscard]] inline Together under_gravity(const std::vector<Vec2d>& positions,
+                                            const std::vector<ColliderDef>& colliders,
+                                            const CharacterDef& character = {}) {
+  Together all(positions, colliders, character);
   all.gravity = {0, -30};
   all.dt = 1.0 / 60;
   return all;
@@ -69,10 +111,10 @@ struct Together {
 
 /// Standing side by side, at height zero.
 [[nodiscard]] inline Together standing(const std::vector<double>& at,
-                                       std::vector<ColliderDef> colliders = {floor_at_zero()}) {
+                                       const std::vector<ColliderDef>& colliders = {floor_at_zero()}) {
   std::vector<Vec2d> positions;
-  for (const double x : at) positions.push_back({x, half_height + rest_gap});
-  return under_gravity(std::move(positions), std::move(colliders));
+  for (const double x : at) positions.emplace_back(x, half_height + rest_gap);
+  return under_gravity(positions, colliders);
 }
 
 }  // namespace paperproof::stepping

@@ -62,7 +62,7 @@ TEST(Up, decides_the_sides_of_questions) {
   EXPECT_EQ(side_below({-1, 0}), Side::left) << "its right is up in the world";
 }
 
-TEST(Up, of_a_crowd_turns_with_the_scene) {
+TEST(Up, of_several_turns_with_the_scene) {
   const auto turn = [](Vec2d v, int quarters) -> Vec2d {
     for (; quarters > 0; --quarters) v = Vec2d{-v.y(), v.x()};
     return v;
@@ -75,7 +75,10 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
       for (Vec2d& p : wall.points) p = turn(p, quarters);
     std::vector<Vec2d> starts{{-4, 0}, {-3.5, 2}, {1, 0}, {2.5, 1}, {-1, -1}, {-1.25, 3}};
     for (Vec2d& start : starts) start = turn(start, quarters);
-    scenes.emplace_back(starts, walls, box_shaped(0.5, -0.5, 0.5));
+    Together& scene = scenes.emplace_back(starts, walls, box_shaped(0.5, -0.5, 0.5));
+    scene.up = turn({0, 1}, quarters);
+    scene.gravity = -30 * scene.up;
+    scene.dt = frame;
   }
   std::size_t met = 0;
   for (int step = 0; step < 240; ++step) {
@@ -83,12 +86,13 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
     for (int i = 0; i < 6; ++i) inputs.push_back({.move = (step / 40 + i) % 3 - 1, .jump = (step + 9 * i) % 50 < 4});
     for (int quarters = 0; quarters < 4; ++quarters) {
       Together& scene = scenes[static_cast<std::size_t>(quarters)];
-      scene.crowd.step(scene.states, inputs, standing_with(turn({0, 1}, quarters)), scene.scratch, scene.report);
+      scene.inputs = inputs;
+      scene.step();
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         ASSERT_EQ(scene.states[i].position, turn(scenes[0].states[i].position, quarters)) << step << ", " << i;
-        const auto& contacts = scene.report.members[i].met;
-        constexpr auto side = &CrowdContact::side;
-        ASSERT_TRUE(std::ranges::equal(contacts, scenes[0].report.members[i].met, {}, side, side)) << step;
+        const std::vector<Contact> contacts = scene.met(i);
+        constexpr auto side = &Contact::side;
+        ASSERT_TRUE(std::ranges::equal(contacts, scenes[0].met(i), {}, side, side)) << step;
         met += contacts.size();
       }
     }

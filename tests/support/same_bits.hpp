@@ -1,7 +1,6 @@
 /// Whether numbers, and what reports hold, are the same to the last bit: NaN and the sign of zero count.
 #pragma once
 
-#include <paperproof/together.hpp>
 #include <paperproof/report.hpp>
 
 #include <algorithm>
@@ -21,10 +20,6 @@ inline bool same_bits(const PathPoint& a, const PathPoint& b) {
 inline bool same_bits(const Contact& a, const Contact& b) {
   return a.collider == b.collider && a.side == b.side && same_bits(a.point, b.point) && same_bits(a.normal, b.normal) &&
          same_bits(a.fraction, b.fraction) && same_bits(a.separation, b.separation);
-}
-
-inline bool same_bits(const CrowdContact& a, const CrowdContact& b) {
-  return a.other == b.other && a.side == b.side && same_bits(a.normal, b.normal) && same_bits(a.fraction, b.fraction);
 }
 
 inline bool same_bits(const SensorEvent& a, const SensorEvent& b) {
