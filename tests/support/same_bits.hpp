@@ -2,6 +2,7 @@
 #pragma once
 
 #include <paperproof/report.hpp>
+#include <paperproof/together.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -20,6 +21,10 @@ inline bool same_bits(const PathPoint& a, const PathPoint& b) {
 inline bool same_bits(const Contact& a, const Contact& b) {
   return a.collider == b.collider && a.side == b.side && same_bits(a.point, b.point) && same_bits(a.normal, b.normal) &&
          same_bits(a.fraction, b.fraction) && same_bits(a.separation, b.separation);
+}
+
+inline bool same_bits(const CrowdContact& a, const CrowdContact& b) {
+  return a.other == b.other && a.side == b.side && same_bits(a.normal, b.normal) && same_bits(a.fraction, b.fraction);
 }
 
 inline bool same_bits(const SensorEvent& a, const SensorEvent& b) {
