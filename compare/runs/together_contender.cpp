@@ -63,11 +63,17 @@ class TogetherContender final : public Contender {
     step_together(companions_, context_of(input, movers_), together_);
   }
 
-  [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }
+  [[nodiscard]] Pose pose(std::size_t character) const override {
+    Pose pose = pose_of(states_[character]);
+    if (is_body(pose.ride.ground)) pose.ride = {};
+    return pose;
+  }
   void place(const Pose& pose, std::size_t character) override { states_[character] = state_at(pose); }
   void launch(const Vec2d& velocity, std::size_t character) override { states_[character].velocity = velocity; }
 
  private:
+  [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider != Ride::none && collider >= first_body_; }
+
   /// Contacts with the bodies of others are those with characters.
   void name_others(TraceStep& record) const {
     record.met.clear();
