@@ -375,7 +375,7 @@ void CompanyJudge::judge(std::span<const TraceStep> steps, std::span<StepJudgeme
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (std::size_t j = i + 1; j < steps.size(); ++j) judge_pair(steps[i], steps[j], judgements[i]);
   if (!steps.front().turn) judge_first_impacts(steps, judgements);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  for (std::size_t i = 0; i < steps.size() && !steps.front().turn; ++i) {
     const std::vector<TraceStep> acting = acting_on(steps[i].character, steps);
     for (const TraceStep& other : acting) judge_first_impact(steps[i], other, judgements[i]);
     for (const TraceStep& other : acting.empty() ? steps : std::span(acting))

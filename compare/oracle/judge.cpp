@@ -115,7 +115,10 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   StepJudgement judgement;
   const Path path = path_of(step);
   if (path.empty()) return judgement;
-  if (!continues(step, path.front())) begin_episodes(path.front());
+  if (!continues(step, path.front()))
+    begin_episodes(path.front());
+  else if (header_.bodies > 0)
+    begin_with_bodies(path.front());
   const bool begins_in_turning = turning != nullptr && turning->begins_inside;
   const bool starts_free = inside_.empty() && !begins_in_turning;
   if (!step.respawn && !promises_) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
@@ -130,6 +133,7 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || others.runs_into || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
+    leave_bodies_out(judgement);
     contacts().judge(starts_free, judgement);
   } else {
     contacts().measure_motion(starts_free, judgement);
@@ -281,9 +285,21 @@ bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
 
 bool Judge::continues(const TraceStep& step, const Place& start) const {
   const auto goes_on = [](const MoverMotion& now, const MoverMotion& before) { return now.from == before.to; };
+  const auto bodies = static_cast<std::ptrdiff_t>(header_.bodies);
   return !step.respawn && last_end_ && last_end_->position == start.position &&
-         std::equal(step.movers.begin(), step.movers.end(), last_end_->movers.begin(), last_end_->movers.end(),
-                    goes_on);
+         std::equal(step.movers.begin(), step.movers.end() - bodies, last_end_->movers.begin(),
+                    last_end_->movers.end() - bodies, goes_on);
+}
+
+bool Judge::is_body(ColliderIndex collider) const {
+  return collider + header_.bodies >= header_.scenery.colliders.size();
+}
+
+/// From turn to turn other characters are elsewhere.
+void Judge::begin_with_bodies(const Place& start) {
+  std::erase_if(inside_, [this](const auto& stay) { return is_body(stay.first); });
+  for (const ColliderIndex collider : scenery_.overlapped(start))
+    if (is_body(collider)) inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
 }
 
 void Judge::begin_episodes(const Place& start) {
@@ -292,6 +308,15 @@ void Judge::begin_episodes(const Place& start) {
   for (const ColliderIndex collider : scenery_.overlapped(start)) {
     inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
   }
+}
+
+/// Whether characters overlap or pass each other is asked of their places: see `CompanyJudge`.
+void Judge::leave_bodies_out(StepJudgement& judgement) const {
+  const auto is_body_of_one = [this](ColliderIndex collider) { return is_body(collider); };
+  for (std::vector<ColliderIndex>* found : {&judgement.entered, &judgement.rounded, &judgement.pressed,
+                                            &judgement.drawn, &judgement.tunnelled, &judgement.corner_cut})
+    std::erase_if(*found, is_body_of_one);
+  std::erase_if(judgement.passings, [&](const Passing& passing) { return is_body(passing.collider); });
 }
 
 void Judge::judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement) {
@@ -343,7 +368,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
       judgement.drawn.push_back(collider);
       judgement.max_penetration = std::max(judgement.max_penetration, depth);
     } else {
-      judgement.max_penetration = std::max(judgement.max_penetration, depth);
+      if (!is_body(collider)) judgement.max_penetration = std::max(judgement.max_penetration, depth);
       if (is_new || was_rounded) judgement.entered.push_back(collider);
     }
     touched.erase(collider);

@@ -338,6 +338,9 @@ class Judge {
   /// Whether the step begins where the last one ended, movers included.
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
   void begin_episodes(const Place& start);
+  void begin_with_bodies(const Place& start);
+  [[nodiscard]] bool is_body(ColliderIndex collider) const;
+  void leave_bodies_out(StepJudgement& judgement) const;
   /// Whether no solid is near enough to matter.
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
   void judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement);

@@ -48,8 +48,9 @@ struct TraceStart {
 
 /// What carries a character after a step.
 struct TraceRide {
-  ColliderIndex collider = 0;
-  Vec2d velocity{Vec2d::Zero()};  ///< Of its surface in this step, conveyor included [m/s].
+  ColliderIndex collider = 0;     ///< Without meaning where another character carries it.
+  Vec2d velocity{Vec2d::Zero()};  ///< Of its surface in this step, conveyor included; of a character its own [m/s].
+  std::optional<CharacterIndex> character{};
 };
 
 /// The state with which a step begins that does not continue the one before.
@@ -106,6 +107,9 @@ struct TraceHeader {
   int substeps = 1;                    ///< Into how many shorter steps the contender divides each.
   std::vector<Clause> guarantees{};    ///< What the contender promises. Empty: nothing.
   SceneryDef scenery;                  ///< As run, world metres.
+  /// So many of the last colliders are the bodies of characters, and as many of the last movers theirs: only where a
+  /// turn of one of them is judged.
+  std::size_t bodies = 0;
   std::vector<std::string> ids;        ///< One per collider.
   std::vector<bool> turning;           ///< By mover; empty where none turns.
   std::string box2d;                   ///< Version of the Box2D in use.

@@ -326,20 +326,25 @@ Side read_side(const Value& at) {
   return at.one_of<Side>({{"top", Side::top}, {"bottom", Side::bottom}, {"left", Side::left}, {"right", Side::right}});
 }
 
-std::optional<TraceRide> read_ride(const std::optional<Value>& at, const std::vector<std::string>& ids) {
+std::optional<TraceRide> read_ride(const std::optional<Value>& at, const TraceHeader& header) {
   if (!at) return std::nullopt;
+  const Vec2d velocity = at->require("velocity").point();
+  if (const auto character = at->find("character")) {
+    at->only({"character", "velocity"});
+    return TraceRide{.velocity = velocity, .character = static_cast<CharacterIndex>(character->index(header.characters))};
+  }
   at->only({"collider", "velocity"});
-  return TraceRide{index_of(at->require("collider"), ids), at->require("velocity").point()};
+  return TraceRide{.collider = index_of(at->require("collider"), header.ids), .velocity = velocity};
 }
 
-TraceState read_state(const Value& at, const std::vector<std::string>& ids) {
+TraceState read_state(const Value& at, const TraceHeader& header) {
   at.only({"velocity", "grounded", "jumping", "jump_held", "jump_pending", "ride"});
   return {.velocity = at.require("velocity").point(),
           .grounded = at.is_set("grounded"),
           .jumping = at.is_set("jumping"),
           .jump_held = at.is_set("jump_held"),
           .jump_pending = at.is_set("jump_pending"),
-          .ride = read_ride(at.find("ride"), ids)};
+          .ride = read_ride(at.find("ride"), header)};
 }
 
 VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& def) {
@@ -478,13 +483,13 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   step.velocity = at.require("velocity").point();
   step.grounded = at.require("grounded").flag();
   step.jumping = at.is_set("jumping");
-  step.ride = read_ride(at.find("ride"), header.ids);
+  step.ride = read_ride(at.find("ride"), header);
   if (const auto velocity = at.find("ground_velocity")) step.ground_velocity = velocity->point();
   read_movers(at.require("movers"), header, step);
   read_events(at, header, step);
   if (const auto remainder = at.find("remainder")) step.remainder = remainder->point();
   step.respawn = at.is_set("respawn");
-  if (const auto from = at.find("from")) step.from = read_state(*from, header.ids);
+  if (const auto from = at.find("from")) step.from = read_state(*from, header);
   step.stuck = at.is_set("stuck");
   step.dropped = at.is_set("dropped");
   step.capped = at.is_set("capped");

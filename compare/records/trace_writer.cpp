@@ -225,8 +225,12 @@ void put_input(Buffer& out, const Input& input) {
 
 void put_ride(Buffer& out, const std::optional<TraceRide>& ride, const std::vector<std::string>& ids) {
   if (!ride) return;
-  put_text(out, ",\"ride\":{\"collider\":");
-  put_text(out, ids[ride->collider]);
+  if (ride->character) {
+    fmt::format_to(std::back_inserter(out), ",\"ride\":{{\"character\":{}", *ride->character);
+  } else {
+    put_text(out, ",\"ride\":{\"collider\":");
+    put_text(out, ids[ride->collider]);
+  }
   put_text(out, ",\"velocity\":");
   put(out, ride->velocity);
   out.push_back('}');

@@ -108,7 +108,7 @@ std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 }  // namespace
 
 RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
-    : header_(header), metrics_(header, measured), judgements_(header.characters) {
+    : header_(header), measured_(measured), metrics_(std::in_place, header, measured), judgements_(header.characters) {
   for (std::size_t k = 0; k < header.characters; ++k)
     followers_.push_back({.judge = std::make_unique<Judge>(header_, k > 0 ? followers_[0].judge.get() : nullptr),
                           .intent = Intent(header_)});
@@ -136,14 +136,29 @@ bool RunJudge::is_apart(const TraceStep& record, const Others& others, double wi
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
   const Vec2d up = up_in(record, header_);
   const Vec2d there = right_of(up) * std::copysign(header_.character.wall_reach, move);
-  for (const ExactImpact& impact : solids().impacts({record.path.front(), record.movers}, there))
+  for (const ExactImpact& impact : scenery().impacts({record.path.front(), record.movers}, there))
     if (side_of_normal(impact.normal.dot(right_of(up)), impact.normal.dot(up)) == (move < 0 ? Side::left : Side::right))
       return true;
   return false;
 }
 
-void RunJudge::add(std::span<TraceStep> records) {
-  judge_movers(records);
+/// What one of them does in its turn is the step of a character alone among movers.
+void RunJudge::begin_turns(const TraceStep& record) {
+  in_turns_.emplace(header_, record.movers.size());
+  of_scene_ = std::move(followers_.front().judge);
+  header_ = in_turns_->header();
+  metrics_.emplace(header_, measured_);
+  for (Follower& follower : followers_)
+    follower.judge =
+        std::make_unique<Judge>(header_, &follower == &followers_.front() ? nullptr : followers_[0].judge.get());
+}
+
+void RunJudge::add(std::span<TraceStep> all) {
+  judge_movers(all);
+  if (all.front().turn && !in_turns_) begin_turns(all.front());
+  std::vector<TraceStep> turns;
+  if (in_turns_) turns = in_turns_->turns(all);
+  const std::span<TraceStep> records = in_turns_ ? std::span(turns) : all;
   std::vector<TraceStep> asked(records.begin(), records.end());
   std::vector<Vec2d> starts;
   for (const TraceStep& record : records) starts.push_back(record.path.front().position);
@@ -155,8 +170,13 @@ void RunJudge::add(std::span<TraceStep> records) {
     // What moves stands where the last step left it: a character that was not put elsewhere begins in what it ended in.
     if (follower.begins) follower.inside = follower.judge->overlapped(record);
     follower.begins = false;
-    record.start_overlap = follower.inside;
-    if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
+    record.start_overlap = all[k].start_overlap = follower.inside;
+    if (in_turns_)
+      for (const ColliderIndex collider : scenery().overlapped({record.path.front(), record.movers}))
+        if (in_turns_->is_body(collider)) record.start_overlap.push_back(collider);
+    if (company_)
+      all[k].start_overlap_characters = record.start_overlap_characters =
+          company_->overlapped(starts, record.character);
     const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
     const int parts = header_.substeps * parts_of(record.vertex_ways);
     follower.wanted = follower.intent.begin(record, parts, wall_ahead);
@@ -173,44 +193,41 @@ void RunJudge::add(std::span<TraceStep> records) {
     if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
     // Who gives up is between two surfaces, and has met as much as a step answers, or met others, or what turns.
     const bool gives_up = is_between(record) &&
-                          (places_of(record) > impacts_of_step || !record.met.empty() || is_beside_what_turns(record));
+                          (places_of(record) > impacts_of_step || !all[k].met.empty() || is_beside_what_turns(record));
     asked[k].dropped = record.dropped && gives_up;
   }
-  // How the others act on each of them in its turn; empty where they take no turns.
-  std::vector<std::vector<TraceStep>> acting(records.size());
   for (std::size_t k = 0; k < records.size(); ++k) {
-    if (company_) acting[k] = company_->acting_on(asked[k].character, asked);
-    const Others others = company_ ? company_->others_of(asked[k].character, asked, acting[k]) : Others{};
+    const Others others = company_ && !in_turns_ ? company_->others_of(asked[k].character, asked) : Others{};
     const bool is_alone = is_apart(asked[k], others, beside + others.longest_way);
     followers_[k].steps_alone = is_alone ? followers_[k].steps_alone + 1 : 0;
     followers_[k].touches_nobody = is_alone || is_apart(asked[k], others, guaranteed_gap);
     judgements_[k] = followers_[k].judge->judge(asked[k], others, &followers_[k].wanted);
   }
   if (steps_ == 0) note_begin(asked);
-  if (company_) company_->judge(asked, judgements_);
+  if (company_) company_->judge(in_turns_ ? all : std::span<TraceStep>(asked), judgements_);
   const auto is_far = [](const TraceStep& step) {
     return step.path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
            step.requested.cwiseAbs().maxCoeff() > guaranteed_range;
   };
   // What they note is of the step before.
-  for (std::size_t k = 0; k < records.size(); ++k) metrics_.add(asked[k], judgements_[k], breaches_, is_far(asked[k]));
+  for (std::size_t k = 0; k < records.size(); ++k) metrics_->add(asked[k], judgements_[k], breaches_, is_far(asked[k]));
   for (std::size_t k = 0; k < records.size(); ++k) {
     Follower& follower = followers_[k];
-    const std::span<const TraceStep> all = acting[k].empty() ? asked : acting[k];
     if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
-      const SolidsInStep there(header_, solids(), asked[k]);
+      const SolidsInStep there(header_, scenery(), asked[k]);
       judge_velocity(there, judgements_[k], follower);  // says more than that a bound is broken
-      judge_clauses(asked[k], judgements_[k], all);
+      judge_clauses(asked[k], judgements_[k], asked);
       judge_drops(records[k]);
-      judge_met(asked[k], all);
+      judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_standing(asked[k], follower);
       judge_creeping(asked[k], judgements_[k], follower);
       judge_ride(asked[k], follower);
       judge_carrier(there, follower);
     }
+    if (in_turns_) leave_bodies_out(judgements_[k]);
     follower.inside = judgements_[k].end_overlap;
     follower.intent.end(records[k]);
     follower.last.push_back(asked[k]);
@@ -220,12 +237,38 @@ void RunJudge::add(std::span<TraceStep> records) {
       follower.last_wanted.erase(follower.last_wanted.begin());
     }
   }
+  if (in_turns_) judge_carrying(all);
   ++steps_;
   const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
   steps_broken_ += any([](const StepJudgement& judged) { return judged.broke(); });
   broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
   disagreements_ += any([](const StepJudgement& judged) { return !judged.methods_disagree.empty(); });
   steps_capped_ += std::any_of(records.begin(), records.end(), [](const TraceStep& record) { return record.capped; });
+}
+
+/// Who rides on another character goes as fast as that one does when it ends its step.
+void RunJudge::judge_carrying(std::span<const TraceStep> records) {
+  for (const TraceStep& record : records) {
+    if (!record.ride || !record.ride->character) continue;
+    const Vec2d& velocity = records[*record.ride->character].velocity;
+    const double off = (record.ride->velocity - velocity).norm();
+    if (!(off <= same_speed * (1 + velocity.norm())))
+      note(
+          Clause::velocity, record,
+          fmt::format("says it rides character {} at a velocity that is {:.3g} m/s off", *record.ride->character, off));
+  }
+}
+
+/// Others ask of what the scene has.
+void RunJudge::leave_bodies_out(StepJudgement& judgement) const {
+  const auto is_body = [this](ColliderIndex collider) { return in_turns_->is_body(collider); };
+  const auto of_body = [&](const auto& touch) { return is_body(touch.first); };
+  for (std::vector<ColliderIndex>* found : {&judgement.end_overlap, &judgement.dont_care, &judgement.contact_band})
+    std::erase_if(*found, is_body);
+  for (std::vector<std::pair<ColliderIndex, Side>>* found :
+       {&judgement.deflected, &judgement.ahead, &judgement.faced, &judgement.ghosts})
+    std::erase_if(*found, of_body);
+  std::erase_if(judgement.contacts, [&](const ExactContact& contact) { return is_body(contact.collider); });
 }
 
 void RunJudge::note_begin(const std::vector<TraceStep>& records) {
@@ -282,7 +325,7 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
     fault = fmt::format("begins {} from where the step before ended",
                         metres((path.front().position - follower.last.back().path.back().position).norm()));
   }
-  for (std::size_t i = 0; i < record.movers.size() && !follower.last.empty(); ++i)
+  for (std::size_t i = 0; i + header_.bodies < record.movers.size() && !follower.last.empty(); ++i)
     if (record.movers[i].from != follower.last.back().movers[i].to)
       fault = "a mover begins elsewhere than where the step before left it";
   follower.begins =
@@ -321,7 +364,7 @@ bool RunJudge::stands(const TraceStep& record) const {
   if (record.respawn || is_beside_what_turns(record)) return false;
   if (std::none_of(record.movers.begin(), record.movers.end(), moves)) return true;
   const std::vector<ColliderIndex> near =
-      solids().near(Place(record.path.front(), record.movers), Place(record.path.back(), record.movers), beside);
+      scenery().near(Place(record.path.front(), record.movers), Place(record.path.back(), record.movers), beside);
   return std::none_of(near.begin(), near.end(), [&](ColliderIndex collider) {
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
     return mover != no_mover && moves(record.movers[mover]);
@@ -396,7 +439,7 @@ bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follow
       is_beside_what_turns(record))
     return false;
   return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint& at) {
-    const std::vector<NearPart> parts = solids().near_parts(Place(at, record.movers), guaranteed_gap);
+    const std::vector<NearPart> parts = scenery().near_parts(Place(at, record.movers), guaranteed_gap);
     return std::any_of(parts.begin(), parts.end(), [this](const NearPart& part) { return moves_or_conveys(part); });
   });
 }
@@ -416,7 +459,7 @@ bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follow
   if (!(gravity_in(record, header_).dot(up) < 0)) return false;
   const auto stands_on_what_moves = [&](const PathPoint& at) {
     bool stands = false;
-    for (const NearPart& part : solids().near_parts(Place(at, record.movers), guaranteed_gap))
+    for (const NearPart& part : scenery().near_parts(Place(at, record.movers), guaranteed_gap))
       for (const NearFace& face : part.faces) {
         if (!(face.normal.dot(up) > 0)) continue;
         if (!moves_or_conveys(part)) return false;
@@ -554,14 +597,14 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
     const Contact& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
     const auto is_there = [&](const PathPoint& corner) {
       const Place at(corner, record.movers);
-      if (&first == &contact) return solids().separation(at, contact.collider) <= guaranteed_gap;
-      return has_face(solids().near_parts(at, guaranteed_gap), contact);
+      if (&first == &contact) return scenery().separation(at, contact.collider) <= guaranteed_gap;
+      return has_face(scenery().near_parts(at, guaranteed_gap), contact);
     };
     if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
       // It gives way from the start, and meets no later than what was requested touches.
       const Place start(record.path.front(), record.movers);
       const double approach = (carried - record.requested).dot(contact.normal);
-      const auto touch = solids().time_of_impact(start, record.requested, contact.collider);
+      const auto touch = scenery().time_of_impact(start, record.requested, contact.collider);
       const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
                            static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
       if (at_once && approach > 0)
@@ -584,13 +627,13 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
           off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
       };
       look(pace, same_speed);
-      if (company_)
+      if (company_ && !in_turns_)
         for (const Vec2d& goes : company_->ways_at(record, records, corner.fraction))
           look(goes, detail::least_approach);
       // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
       // reports.
       const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
-      const auto touch = solids().impact_between(Place(begin, record.movers), far, contact.collider);
+      const auto touch = scenery().impact_between(Place(begin, record.movers), far, contact.collider);
       if (!touch || !(touch->normal.dot(contact.normal) > same_face)) continue;
       const double when = begin.fraction + static_cast<double>(touch->fraction) * (1 - begin.fraction);
       off = std::min(off, std::abs(contact.fraction - when) * std::abs((carried - pace).dot(touch->normal)));
@@ -620,7 +663,7 @@ void RunJudge::judge_drops(const TraceStep& record) {
         for (Place* place : {&from, &to}) place->position += shift * Vec2d(one_way->y(), -one_way->x());
         Place below = from;
         below.position -= guaranteed_gap * *one_way;
-        passes = passes || solids().meets(from, to, chain) || solids().meets(from, below, chain);
+        passes = passes || scenery().meets(from, to, chain) || scenery().meets(from, below, chain);
       }
     if (!record.input.drop || !passes)
       note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");
@@ -655,7 +698,7 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     else if (!company_->has_face(record, other, met.normal))
       note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
   }
-  if (!company_) return;
+  if (!company_ || in_turns_) return;
   for (const TraceStep& other : records) {
     const bool says = std::any_of(record.met.begin(), record.met.end(),
                                   [&](const CrowdContact& met) { return met.other == other.character; });
@@ -752,6 +795,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
              "has a contact with `" + header_.ids[contact.collider] + "` in a point that it does not come to");
       continue;
     }
+    if (in_turns_ && in_turns_->is_body(contact.collider)) continue;  // a meeting has no point
     if (const std::optional<PlaceFault> fault = place_fault(header_, record, contact))
       note(fault->clause, record, fault->words);
   }
@@ -777,7 +821,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
                        record.dropped || header_.substeps > 1 || wanted.parts > 1;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
-  if (detail::stairs_climbed(header_, solids(), record, {}, wanted) > 0) {
+  if (detail::stairs_climbed(header_, scenery(), record, {}, wanted) > 0) {
     const double changed = (record.velocity - wanted.velocity).dot(right_of(up));
     const bool is_pushed = !record.met.empty() || !stands(record);
     if (!is_pushed && std::abs(changed) > same_speed * (1 + wanted.velocity.norm()))
@@ -795,9 +839,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const std::optional<TraceRide> carrier = record.from             ? record.from->ride
                                            : follower.last.empty() ? std::nullopt
                                                                    : follower.last.back().ride;
-  const bool is_handed_on = record.turn && !follower.touches_nobody;
-  const bool is_bounded_only = is_handed_on || !record.met.empty() ||
-                               std::any_of(surfaces.begin(), surfaces.end(), turns) ||
+  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(), turns) ||
                                (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
   if (is_bounded_only) return;
   if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
@@ -825,12 +867,12 @@ void RunJudge::add_refused(const TraceStep& record) {
 
 Breaches RunJudge::breaches() const {
   Breaches all = breaches_;
-  metrics_.end(all);
+  metrics_->end(all);
   return all;
 }
 
 void RunJudge::write(Row& row) const {
-  metrics_.write(row);
+  metrics_->write(row);
   const Breaches all = breaches();
   if (contains(header_.turning, true)) row.arc_error_max_m = arc_error_;
   if (!header_.guarantees.empty())

@@ -3,6 +3,7 @@
 
 #include "metrics/metrics.hpp"
 #include "oracle/company.hpp"
+#include "oracle/in_turns.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/met_surfaces.hpp"
@@ -27,7 +28,10 @@ class RunJudge {
   /// A step that was refused, and changed nothing.
   void add_refused(const TraceStep& record);
 
-  [[nodiscard]] const ExactScenery& solids() const noexcept { return followers_.front().judge->scenery(); }
+  /// Of the scene.
+  [[nodiscard]] const ExactScenery& solids() const noexcept {
+    return of_scene_ ? of_scene_->scenery() : followers_.front().judge->scenery();
+  }
   [[nodiscard]] const StepJudgement& judgement(std::size_t character) const noexcept { return judgements_[character]; }
   /// Whether no other character would be overlapped there.
   /// @param positions of all.
@@ -82,9 +86,18 @@ class RunJudge {
   [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
   void write_faults(Row& row) const;
 
-  TraceHeader header_;
+  void begin_turns(const TraceStep& record);
+  void judge_carrying(std::span<const TraceStep> records);
+  void leave_bodies_out(StepJudgement& judgement) const;
+  /// What a step is judged among: in turns with the bodies of the others.
+  [[nodiscard]] const ExactScenery& scenery() const noexcept { return followers_.front().judge->scenery(); }
+
+  TraceHeader header_;  ///< Where they take turns, with their bodies.
+  const Measured measured_;
+  std::optional<InTurns> in_turns_;
+  std::unique_ptr<Judge> of_scene_;        ///< Null where they take no turns.
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
-  Metrics metrics_;
+  std::optional<Metrics> metrics_;
   std::vector<Follower> followers_;
   std::optional<MoverWayJudge> ways_;  ///< None where no script is known.
   double arc_error_ = 0;               ///< See `MoverWayJudgement` [m].

@@ -50,7 +50,6 @@ class TogetherContender final : public Contender {
           rides_[k].ground < first_body_ || rides_[k].ground == Ride::none
               ? movers_.carried_by(rides_[k], input.players[k].drop)
               : Vec2d(states_[rides_[k].ground - first_body_].position - from[rides_[k].ground - first_body_]);
-      if (states_[k].ride.ground != Ride::none && states_[k].ride.ground >= first_body_) record.ride.reset();
       name_others(record);
       movers_.write(record);
       refuse_unusable(reports_[k].status);
@@ -74,8 +73,10 @@ class TogetherContender final : public Contender {
  private:
   [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider != Ride::none && collider >= first_body_; }
 
-  /// Contacts with the bodies of others are those with characters.
+  /// Contacts with the bodies of others are those with characters, and so is what carries it.
   void name_others(TraceStep& record) const {
+    if (record.ride && record.ride->collider >= first_body_)
+      record.ride = TraceRide{.velocity = record.ride->velocity, .character = record.ride->collider - first_body_};
     record.met.clear();
     for (const Contact& contact : record.contacts)
       if (contact.collider >= first_body_)
