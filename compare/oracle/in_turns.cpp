@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace paperproof::compare {
 namespace {
 
@@ -52,9 +54,14 @@ MoverMotion InTurns::motion_of(const TraceStep& other, const TraceStep& one, con
 TraceStep InTurns::turn_of(const TraceStep& one, std::span<const TraceStep> steps, const Carrier& carrier) const {
   TraceStep turn = one;
   for (const TraceStep& other : steps) turn.movers.push_back(motion_of(other, one, carrier));
+  // What others push it against is met after them.
+  turn.contacts.clear();
   for (const CrowdContact& met : one.met)
     turn.contacts.push_back(
         {.collider = body_of(met.other), .normal = met.normal, .fraction = met.fraction, .side = met.side});
+  turn.contacts.insert(turn.contacts.end(), one.contacts.begin(), one.contacts.end());
+  std::stable_sort(turn.contacts.begin(), turn.contacts.end(),
+                   [](const Contact& a, const Contact& b) { return a.fraction < b.fraction; });
   turn.met.clear();
   if (const Carrier on = carrier_of(one.ride)) {
     const MoverMotion& motion = turn.movers[turn.movers.size() - steps.size() + *on];

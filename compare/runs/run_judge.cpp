@@ -133,6 +133,17 @@ bool RunJudge::is_apart(const TraceStep& record, const Others& others, double wi
                                      [&](const PathPoint& at) { return others.near(at, within).empty(); });
 }
 
+/// Whether another character is near that goes in its turn, or went since the one before.
+bool RunJudge::is_beside_another(const TraceStep& turn, const Follower& follower) const {
+  const std::vector<ColliderIndex> near =
+      scenery().near(Place(turn.path.front(), turn.movers), Place(turn.path.back(), turn.movers), beside);
+  return std::any_of(near.begin(), near.end(), [&](ColliderIndex collider) {
+    const MoverIndex mover = header_.scenery.colliders[collider].mover;
+    return in_turns_->is_body(collider) && (moves(turn.movers[mover]) || follower.last.empty() ||
+                                            turn.movers[mover].from != follower.last.back().movers[mover].to);
+  });
+}
+
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
   const Vec2d up = up_in(record, header_);
   const Vec2d there = right_of(up) * std::copysign(header_.character.wall_reach, move);
@@ -198,7 +209,8 @@ void RunJudge::add(std::span<TraceStep> all) {
   }
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Others others = company_ && !in_turns_ ? company_->others_of(asked[k].character, asked) : Others{};
-    const bool is_alone = is_apart(asked[k], others, beside + others.longest_way);
+    const bool is_alone = in_turns_ ? !is_beside_another(asked[k], followers_[k])
+                                    : is_apart(asked[k], others, beside + others.longest_way);
     followers_[k].steps_alone = is_alone ? followers_[k].steps_alone + 1 : 0;
     followers_[k].touches_nobody = is_alone || is_apart(asked[k], others, guaranteed_gap);
     judgements_[k] = followers_[k].judge->judge(asked[k], others, &followers_[k].wanted);

@@ -86,6 +86,7 @@ class RunJudge {
   [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
   void write_faults(Row& row) const;
 
+  [[nodiscard]] bool is_beside_another(const TraceStep& turn, const Follower& follower) const;
   void begin_turns(const TraceStep& record);
   void judge_carrying(std::span<const TraceStep> records);
   void leave_bodies_out(StepJudgement& judgement) const;
