@@ -129,10 +129,13 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
     });
     if (!is_known) surfaces.push_back(at);
   };
+  const auto mover_of = [this](ColliderIndex collider) { return header_.scenery.colliders[collider].mover; };
   std::optional<double> handed_on;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {
       const bool is_character = part.collider == no_collider;
+      const bool goes_along = !is_character && first_.ridden && mover_of(*first_.ridden) != no_mover &&
+                              mover_of(part.collider) == mover_of(*first_.ridden);
       if (is_character && !handed_on) handed_on = others_.handed_on ? others_.handed_on() : HUGE_VAL;
       for (const NearFace& face : part.faces)
         for (const std::optional<Vec2d>& way : {std::optional(part.moved), part.comes, part.goes}) {
@@ -149,7 +152,7 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
             if (walkable != is_ground && (walkable || !is_character)) continue;
             const bool is_overlapped = face.separation < 0;
             MetSurface at = face_of(part, normal, dt_);
-            at.velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable);
+            at.velocity = is_overlapped || goes_along ? velocity : imparted(velocity, normal, walkable);
             at.walkable = walkable;
             at.is_overlapped = is_overlapped;
             if (!is_character && find_way(step_.vertex_ways, part.collider) != nullptr) {

@@ -32,6 +32,19 @@ bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact
   });
 }
 
+/// Whether a leg leads along some face of what was touched there, and against the normal that was touched: past a rim.
+bool leaves_past_rim(const SolidsInStep& solids, const PathPoint& from, const PathPoint& to, const Contact& touch) {
+  const double share = to.fraction - from.fraction;
+  const Vec2d way = to.position - from.position - share * solids.moved(touch.collider, touch.point, touch.fraction);
+  if (!(way.dot(touch.normal) < -touched)) return false;
+  const std::vector<NearPart> parts = solids.at(from.fraction).near_parts(Place(from, solids.step().movers), touched);
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return part.collider == touch.collider && std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+             return face.separation >= 0 && way.dot(face.normal) >= -touched;
+           });
+  });
+}
+
 bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
@@ -128,6 +141,11 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
   const TraceStep& step = solids.step();
   const Vec2d up = up_in(step, solids.header());
   std::vector<MetSurface> surfaces;
+  const std::vector<ColliderDef>& colliders = solids.header().scenery.colliders;
+  // Walls and slopes of what is ridden.
+  const auto goes_along = [&](ColliderIndex collider) {
+    return ridden && colliders[*ridden].mover != no_mover && colliders[collider].mover == colliders[*ridden].mover;
+  };
   for (const Contact& touch : contacts) {
     // A contact tells when it would be touched, a corner when the way ends at the gap before it.
     const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
@@ -140,13 +158,14 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     while (since != step.path.begin() && is_touched(*std::prev(since))) --since;
     MetSurface one{.normal = touch.normal};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
-    one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable);
+    one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable || goes_along(touch.collider));
     one.ridden = ridden == touch.collider;
     one.is_side = touch.side == Side::left || touch.side == Side::right;
     one.climbs = walks && touches_ground(solids, *corner);
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
     const auto leaves = std::find_if_not(corner + 1, step.path.end(), is_touched);
-    if (leaves != step.path.end()) one.left = leaves->fraction;
+    if (leaves != step.path.end())
+      one.left = (leaves_past_rim(solids, *std::prev(leaves), *leaves, touch) ? std::prev(leaves) : leaves)->fraction;
     one.returned = leaves != step.path.end() && is_touched(step.path.back());
     one.touched_since = std::min(one.met, since->fraction);
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction),
