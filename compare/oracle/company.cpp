@@ -115,7 +115,8 @@ std::vector<TraceStep> CompanyJudge::acting_on(CharacterIndex character, std::sp
     if (stands_on_it) return true;
     if (other.turn > one.turn) return pair_.meet_between(start_of(one), from, start_of(one), to);
     const double rounding = ulp_at(header_, from) + ulp_at(header_, to);
-    return pair_.separation(start_of(one), to) >= pair_.separation(start_of(one), from) - rounding;
+    return !pair_.meet_between(start_of(one), from, start_of(one), to) &&
+           pair_.separation(start_of(one), to) >= pair_.separation(start_of(one), from) - rounding;
   };
   std::vector<TraceStep> acting(steps.begin(), steps.end());
   for (TraceStep& acts : acting) {

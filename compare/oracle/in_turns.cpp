@@ -46,9 +46,10 @@ MoverMotion InTurns::motion_of(const TraceStep& other, const TraceStep& one, con
   }
   const Vec2d& at = begin_of(one);
   if (carrier == other.character) return {from, to};
-  if (other.turn > one.turn)
-    return pair_.meet_between(at, from, at, to) ? MoverMotion{from, to} : MoverMotion{from, from};
-  return pair_.separation(at, to) >= pair_.separation(at, from) - noise ? MoverMotion{from, to} : MoverMotion{to, to};
+  const bool comes_to_it = pair_.meet_between(at, from, at, to);
+  if (other.turn > one.turn) return comes_to_it ? MoverMotion{from, to} : MoverMotion{from, from};
+  const bool recedes = !comes_to_it && pair_.separation(at, to) >= pair_.separation(at, from) - noise;
+  return recedes ? MoverMotion{from, to} : MoverMotion{to, to};
 }
 
 TraceStep InTurns::turn_of(const TraceStep& one, std::span<const TraceStep> steps, const Carrier& carrier) const {

@@ -71,6 +71,7 @@ struct Member {
   std::vector<std::size_t> near;      ///< The others that it may meet.
   std::vector<std::size_t> in_way;    ///< Those that have not gone, and are in its way.
   std::vector<std::size_t> yielding;  ///< Of these the ones that let it go as if they were not there.
+  std::vector<std::size_t> carried;   ///< Those that ride on it, and have gone first by the way that it would go.
   // While it waits: how far it would go without those that yield [m],
   std::optional<Vec2d> carries;  ///< for those that ride on it, and
   std::optional<Vec2d> pushes;   ///< as movers alone take it, for others.
@@ -110,11 +111,13 @@ class OfController final : public TurnTaker {
   void step(std::span<const Other> others, bool is_taken) override {
     turning::Memory& memory = turning::memory_of(*companion_.scratch);
     const Scenery& scenery = controller().scenery();
+    // Too few of them are refused.
     const std::size_t movers = std::min(context_.movers.size(), scenery.mover_count());
+    const bool are_all = movers == scenery.mover_count();
     memory.motions_of_all.assign(context_.movers.begin(),
                                  context_.movers.begin() + static_cast<std::ptrdiff_t>(movers));
     memory.bodies.clear();
-    for (const Other& other : others) {
+    for (const Other& other : are_all ? others : std::span<const Other>{}) {
       memory.motions_of_all.push_back(other.motion);
       memory.bodies.push_back(scenery.pieces_of(order_[other.who]->body).first);
     }
@@ -176,6 +179,7 @@ struct TogetherScratch::Turns {
   void find_in_way(std::size_t i);
   void find_riders_in_way(std::size_t i);
   void let_go_first(std::size_t i);
+  void try_step(std::size_t i);
   void take_turn(std::size_t i);
   void take_velocity_of_carrier(std::size_t i);
   void end_turn(std::size_t i);
@@ -199,14 +203,13 @@ std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) 
   return owner == near.end() ? nobody : *owner;
 }
 
-/// Whether one that has gone came no nearer to where another begins.
+/// Whether one that has gone came no nearer to where another begins, and did not fly past it.
 bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) const {
   constexpr double noise = 1e-12;
-  const auto gap_to = [&](const Vec2d& place) {
-    const Vec2d at = members[i].from() - place;
-    return pass(hull(i), hull(other), at, at, 0).gap;
-  };
-  return gap_to(members[other].to) >= gap_to(members[other].from()) - noise;
+  const Vec2d before = members[i].from() - members[other].from();
+  const Vec2d now = members[i].from() - members[other].to;
+  const Passing passing = pass(hull(i), hull(other), before, now, Tolerances{}.certain);
+  return passing.enters > passing.leaves && pass(hull(i), hull(other), now, now, 0).gap >= passing.gap - noise;
 }
 
 /// How another goes while one takes its turn.
@@ -286,7 +289,7 @@ void TogetherScratch::Turns::find_riders_in_way(std::size_t i) {
   std::erase_if(me.in_way, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
 }
 
-/// Whether movers may take one along, or in_way that they push.
+/// Whether movers may take one along, or others that they push.
 bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
   const std::vector<Contact>& contacts = report_of(i).move.contacts;
   return members[i].before.ride.ground != Ride::none ||
@@ -321,8 +324,23 @@ void TogetherScratch::Turns::let_go_first(std::size_t i) {
   }
   for (const std::size_t other : in_way)
     if (is_still(other)) take_turn(other);
+  if (me.carries) std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.carried), rides);
   me.carries.reset();
   me.pushes.reset();
+}
+
+/// Makes the step of one. Those that it carries have made room for it: they are in its way only where it would not
+/// pass.
+void TogetherScratch::Turns::try_step(std::size_t i) {
+  Member& me = members[i];
+  if (!me.carried.empty()) {
+    me.yielding = me.carried;
+    attempt(i, Try::without_those);
+    if (std::all_of(me.carried.begin(), me.carried.end(),
+                    [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
+      return;
+  }
+  attempt(i, Try::its_step);
 }
 
 void TogetherScratch::Turns::take_turn(std::size_t i) {
@@ -335,10 +353,10 @@ void TogetherScratch::Turns::take_turn(std::size_t i) {
   }
   me.waits = true;
   me.began = begun++;
+  me.carried.clear();
   find_riders_in_way(i);
   if (!me.in_way.empty()) let_go_first(i);
-  for (attempt(i, Try::its_step), find_in_way(i); !me.in_way.empty(); attempt(i, Try::its_step), find_in_way(i))
-    let_go_first(i);
+  for (try_step(i), find_in_way(i); !me.in_way.empty(); try_step(i), find_in_way(i)) let_go_first(i);
   end_turn(i);
 }
 
@@ -431,6 +449,7 @@ void TogetherScratch::Turns::let_take_turns() {
     std::sort(group.begin(), group.end());
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
+      members[i].velocity = members[i].before.velocity;
       members[i].has_gone = members[i].waits = members[i].is_late = false;
     }
     for (const std::size_t i : first)
@@ -457,6 +476,7 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     member.reach = all[i]->reach();
     if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = nowhere;  // it is refused
     member.to = member.from();
+    member.velocity = member.before.velocity;
     member.is_in_group = member.has_gone = member.waits = false;
     member.carrier = nobody;
     member.near.clear();

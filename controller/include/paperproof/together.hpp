@@ -80,7 +80,7 @@ class TogetherScratch {
 ///    one as well. Of several that wait for each other the last one goes first, and stops at the others.
 /// 3. To a character that it carries, another is a mover that goes straight from where it began to where it ended. So
 /// is
-///    one that went before and did not come nearer. Both carry and give way as movers do, at their speed.
+///    one that went before and did not come nearer, nor past it. Both carry and give way as movers do, at their speed.
 /// 4. A rider that is in the way of its carrier goes first, carried by the way that its carrier would go without it.
 /// One
 ///    that a mover presses pushes whoever is in its way likewise: they go as far as it would. If they have no room, the
