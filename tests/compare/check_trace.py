@@ -85,7 +85,7 @@ class Step:
         self.path = exact(record["path"])
         self.turn = record.get("turn")  # its place in the order of the step; None where all move at once
         self.pushed = False  # by another in its turn
-        self.contacts = record["contacts"]
+        self.contacts, self.velocity = record["contacts"], record.get("velocity")
         self.dt = record.get("dt", header["dt"])
         self.up = vector(record.get("up", header["up"]))
         self.frame = Frame(self.up)
@@ -96,6 +96,14 @@ class Step:
 
     def get(self, key, default=None):
         return self.record.get(key, default)
+
+    def note_others(self, others):
+        self.ways_of_others = {other.who: other.way() for other in others}
+        ride = self.get("ride", {})
+        if ride.get("character") in self.ways_of_others:
+            # A rider takes over the velocity of its carrier, which went its way at another one where something stopped it.
+            goes = [float(x) / self.dt for x in self.ways_of_others[ride["character"]]]
+            self.velocity = [v - a + b for v, a, b in zip(self.velocity, ride["velocity"], goes)]
 
     def first_event(self):
         return min((event["fraction"] for event in self.contacts + self.get("met", [])), default=None)
@@ -194,6 +202,7 @@ class Checker:
         for step in together:
             step.last = self.last.get(step.who)
             others = [other for other in together if other is not step]
+            step.note_others(others)
             step.pushed = any(self.company.pushes(other, step) for other in others)
             yield from ((step.record, clause, step.told + words) for clause, words in self.check_alone(step, others))
         pairs = itertools.combinations if together[0].turn is None else itertools.permutations
@@ -215,7 +224,7 @@ class Checker:
         for check in (self.check_start, self.check_wanted, self.check_movers, self.check_rest):
             yield from check(step, same)
         if not same:
-            for check in (self.check_crush, self.check_stuck, self.check_way, self.check_contacts, self.check_sensors,
+            for check in (self.check_carrier, self.check_crush, self.check_stuck, self.check_way, self.check_contacts, self.check_sensors,
                           self.check_ground, self.check_speed, self.check_legs):
                 yield from check(step, others)
         self.note_sides(step)
@@ -264,7 +273,7 @@ class Checker:
         elif step.get("from"):
             intent.begin_anew(step.record["from"])
         wanted = intent.wanted(step.record, step.dt, step.frame, step.gravity, step.motion, self.colliders,
-                               lambda move: self.has_wall(step, move))
+                               lambda move: self.has_wall(step, move), step.ways_of_others)
         step.began_grounded, step.jumped = intent.began_grounded, intent.jumping and not intent.grounded
         if wanted is None:
             self.skip("wanted", "carried by what turns")
@@ -613,6 +622,28 @@ class Checker:
             elif hangs:
                 yield "hanging", "could have fallen"
 
+    def check_carrier(self, step, others):
+        """Another character that carries one is under it, where it stands or goes in the turn, or ends."""
+        if "character" not in step.get("ride", {}):
+            return
+        ride = step.record["ride"]
+        carrier = next((other for other in others if other.who == ride["character"]), None)
+        if carrier is None or not self.company.is_under(carrier, step):
+            yield "ground_invented", f"rides character {ride['character']}, which is not there"
+            return
+        goes = vector(carrier.record["velocity"])
+        rounding = 1e-9 * (1 + size(goes))
+        if size(less(vector(ride["velocity"]), goes)) > rounding:
+            yield "velocity", f"rides character {carrier.who} at {ride['velocity']} m/s, which goes at {carrier.record['velocity']}"
+        before = step.last.get("ride", {}) if step.last else {}
+        rides_on = before.get("character") == carrier.who and [met["character"] for met in step.get("met", [])] == [carrier.who]
+        if rides_on and not step.contacts and len(step.path) == 2:
+            # Along a way without a bend it goes at one speed, relative to what carries it.
+            relative = scaled(less(step.way(), carrier.way()), 1 / Fraction(step.dt))
+            off = size(less(less(vector(step.record["velocity"]), vector(ride["velocity"])), relative))
+            if off > 2 * GAP / Fraction(step.dt):
+                yield "velocity", f"ends {off} m/s faster or slower than it goes on character {carrier.who}"
+
     def check_ground_missed(self, step, before):
         """On ground that it touches, and does not leave, it is grounded. It leaves ground from which the same motion for one
         more step would part it by more than it touches."""
@@ -645,7 +676,7 @@ class Checker:
             self.skip("speed_lost", "begins inside, crushed, stuck, dropped or pushed, or goes in parts")
             return
         want = [float(x) / step.dt for x in step.wanted]
-        have, made = record["velocity"], [float(x) / step.dt for x in step.way()]
+        have, made = step.velocity, [float(x) / step.dt for x in step.way()]
         largest = max(abs(float(x)) for corner in step.path for x in corner[:2])
         rounding = (1e-5 if self.header["scalar"] == "float" else SLOWER) * (1 + math.hypot(*want)) + largest * 1e-14 / step.dt
         normals = [vector(c["normal"]) for c in step.contacts] + [vector(m["normal"]) for m in step.get("met", [])]

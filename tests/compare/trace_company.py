@@ -77,6 +77,14 @@ class Company:
             return True
         return other.turn > one.turn and self.meet((mine, mine), (start, end))
 
+    def is_under(self, other, one):
+        """Whether one touches another from above where its step ends: where that stands or goes in the turn, or ends."""
+        def touches(place):
+            sides = list(self.sides_between(one.path[-1][:2], place))
+            return max(gap for gap, _ in sides) <= GAP and any(gap >= -1e-10 and dot(n, one.up) > 0 for gap, n in sides)
+
+        return touches(self.acts(other, one)[-1][:2]) or touches(other.path[-1][:2])
+
     def acts(self, other, one):
         """The way of another as one meets it in its turn: straight and even where it moves one, or went before and came no
         nearer to where one began; else it stands."""

@@ -59,7 +59,7 @@ class Legs:
         if step.began_grounded and not held:
             stairs = self.character.get("step_height", 0)
             room += self.character.get("snap", 0) + (STAIRS * 2 * stairs + wish if stairs else 0)
-        ends_at = math.hypot(*step.record["velocity"])
+        ends_at = math.hypot(*step.velocity)
         too_fast = ROUNDING * (1 + ends_at)
         if excess(speed) <= room and ends_at <= speed + too_fast:
             return

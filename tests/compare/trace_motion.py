@@ -58,8 +58,8 @@ class Intent:
         self.crushed, self.sides, self.left_ground = False, set(), False
         self.carrier = (0.0, 0.0)  # how fast what carries went in the step before
 
-    def wanted(self, step, dt, frame, gravity, motion, colliders, wall_ahead):
-        """None where the trace does not say it: a rider of what turns."""
+    def wanted(self, step, dt, frame, gravity, motion, colliders, wall_ahead, ways):
+        """None where the trace does not say it: a rider of what turns. `ways`: how far each of the other characters goes."""
         c, part = self.character, dt / (self.parts * motion.parts())
         own = [a - b for a, b in zip(self.velocity, self.ride["velocity"] if self.ride else (0, 0))]
         before, rise = frame.across(own), frame.rise(own)
@@ -80,7 +80,7 @@ class Intent:
         if "max_fall_speed" in c:
             rise = max(rise, -c["max_fall_speed"])
         speed = frame.world(walk + frame.across(gravity) * part, rise)
-        carried = self.carried(step, dt, motion, colliders)
+        carried = self.carried(step, dt, motion, colliders, ways)
         if carried is None:
             self.rise = float("inf")
             return None
@@ -109,10 +109,13 @@ class Intent:
         self.jumping, self.grounded, self.pending, self.coyote_left = True, False, False, 0.0
         return c["jump_speed"] * (1 if button else c["jump_cut"])
 
-    def carried(self, step, dt, motion, colliders):
-        """By what it rides: the way of a mover in this step, and what a conveyor's surface ran in the one before."""
+    def carried(self, step, dt, motion, colliders, ways):
+        """By what it rides: the way of a mover, or of another character, in this step, and what a conveyor's surface ran in
+        the one before."""
         if not self.ride:
             return (0.0, 0.0)
+        if "character" in self.ride:
+            return tuple(map(float, ways[self.ride["character"]]))
         name, speed = self.ride["collider"], self.ride["velocity"]
         collider = colliders[name]
         if step["input"].get("drop") and collider.one_way is not None:
@@ -159,7 +162,8 @@ class Intent:
         self.sides = {contact["side"] for contact in step["contacts"]}
         self.ride = step.get("ride")
         self.left_ground = not self.ride and any(step.get("ground_velocity", (0, 0)))
-        self.carrier = tuple(float(x) / dt for x in (motion.change(self.ride["collider"]) if self.ride else (0, 0)))
+        on_collider = self.ride and "collider" in self.ride
+        self.carrier = tuple(float(x) / dt for x in (motion.change(self.ride["collider"]) if on_collider else (0, 0)))
 
 
 def differs(wanted, step, scalar):
