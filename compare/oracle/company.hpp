@@ -14,9 +14,8 @@ namespace paperproof::compare {
 /// Two characters go along their ways at the same time, so it is the way of their difference that counts, exactly.
 ///
 /// **In turns.** Where steps have a `turn`, each goes along its way while the others stand: those before it where they
-/// ended, those after it where they began. Passed is who is met so. Where one says that it is crushed or stuck, it has
-/// room among the others as they stand then; whether it is on ground is asked where all have ended. All else that a
-/// character says of its step is asked with the others as they act on it: see `acting_on`.
+/// ended, those after it where they began. Passed is who is met so. All else that a character says of its step is asked
+/// of a step among movers: see `InTurns`.
 ///
 /// **Inside.** Their open interiors overlap at the end of the step. It is new where they did not at its beginning.
 ///
