@@ -63,6 +63,8 @@ FIRST = {
     "rises": lambda step, _: step["velocity"][1] > 2 and not step["contacts"],
     "rides": lambda step, before: step["grounded"] and before["grounded"] and "ride" in step and step["input"] == {"move": 0},
     "rides up": lambda step, _: "ride" in step and step["ride"]["velocity"][1] > 0 and step["contacts"],
+    "rides up on a head": lambda step, _: "character" in step.get("ride", {}) and step["requested"][1] > 0,
+    "stands on no head": lambda step, _: "character" not in step.get("ride", {}),
     "walks on the plank": lambda step, _: step["grounded"] and step["input"] == {"move": 1} and step["velocity"][0] > 3.9,
     # Of the plank: within what it falls in two steps.
     "is just above": lambda step, _: not step["contacts"] and step["path"][-1][1] < 0.625 + 0.25,
@@ -240,9 +242,9 @@ SPOILT = [
     ("a normal of a circle that is turned", "land_on_circle", at("touches", turned(0.1)), "normal"),
     ("one that walks into the other", "characters_head_on", at("meets", end_moved(0.3, 0)), "overlap"),
     ("one that passes the other", "characters_head_on", at("meets", detour(99, 0.7)), "passage"),
-    ("two that do not say the same", "characters_head_on", at("meets", put("met", 0, "normal", to=lambda n: [-x for x in n])), "contact_invented"),
-    ("two that met earlier", "characters_head_on", at("meets", lambda step, steps, k: [
-        met.update(fraction=met["fraction"] / 2) for one in (step, steps[k + 1]) for met in one["met"]]), "time_of_impact"),
+    ("one that met what is behind it", "characters_head_on", at("meets", put("met", 0, to=lambda met: {
+        **met, "normal": [-x for x in met["normal"]], "side": {"left": "right", "right": "left"}[met["side"]]})), "contact_invented"),
+    ("one that met earlier", "characters_head_on", at("meets", put("met", 0, "fraction", to=lambda t: t / 2)), "time_of_impact"),
     ("a way through one that stands", "turns", at("comes to another", detour(-2, 1.2)), "passage"),
     ("an end in one that went before", "turns", at("comes to another", end_moved(-0.1, 0)), "overlap"),
     ("a head that goes up before who stands on it", "turns", at("goes up on a head", head_goes_first), "passage"),
@@ -257,6 +259,14 @@ SPOILT = [
     ("a normal of what turns that is turned", "see_saw", at("walks on the plank", turned(0.1)), "normal"),
     ("a rider that is not carried", "two_on_a_lift", at("rides up",
         put("requested", 1, to=lambda y: y - 0.02)), "wanted"),
+    ("a rider that its carrier does not carry", "turns", at("rides up on a head", lambda step, steps, k: step.update(
+        requested=[a - b + c for a, b, c in zip(step["requested"], steps[k - 1]["path"][-1], steps[k - 1]["path"][0])])), "wanted"),
+    ("a rider that is slower than its way", "turns", at("rides up on a head",
+        put("velocity", 0, to=lambda v: v + 0.5)), "velocity"),
+    ("a rider that goes on faster than its carrier", "turns", at("rides up on a head",
+        put("ride", "velocity", 1, to=lambda v: v + 0.5)), "velocity"),
+    ("a ride on a head that is not there", "turns", at("stands on no head", lambda step, *_: step.update(
+        ride={"character": 1 if step["character"] != 1 else 2, "velocity": [0, 0]})), "ground_invented"),
 ]
 
 
