@@ -86,13 +86,6 @@ const std::vector<Found> all_found{
     {"presses/chambers", {135}, {Clause::start_inside}},
     {"presses/chambers", {310}, {Clause::time_of_impact}},
     {"presses/chambers", {409}, {Clause::contact_invented}},
-    // It met another before, or another leaves nothing of its motion that leads there.
-    {"crowd/rooms", {17, 41, 48, 88, 92}, {Clause::contact_missed}},
-    // It went on from there another way; or stood still, held by another; or came down at once as the step ended; or
-    // went more slowly, as others left it.
-    {"crowd/rooms", {1, 42, 54, 75, 78, 81, 624, 875, 916}, {Clause::time_of_impact}},
-    // Two others held it between them for a part of the step.
-    {"crowd/rooms", {61, 62, 66, 91}, {Clause::hanging}},
 };
 
 TEST(CampaignFound, what_broke_once_holds) {
