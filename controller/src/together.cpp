@@ -66,6 +66,7 @@ struct Member {
   bool waits = false;                 ///< Its turn has begun: it waits for those in its way.
   bool follows = false;               ///< It waits for its carrier to go.
   bool is_late = false;               ///< It was crushed beside one that went sooner, and might have given way.
+  bool has_velocity = false;          ///< That of its carrier is in its own.
   std::size_t began = 0;              ///< How many turns had begun before its own.
   std::size_t carrier = nobody;       ///< Whom it rides on.
   std::vector<std::size_t> near;      ///< The others that it may meet.
@@ -75,8 +76,6 @@ struct Member {
   // While it waits: how far it would go without those that yield [m],
   std::optional<Vec2d> carries;  ///< for those that ride on it, and
   std::optional<Vec2d> pushes;   ///< as movers alone take it, for others.
-
-  Vec2d velocity{};  ///< That then, or with which it ended its step [m/s].
 
   [[nodiscard]] const Vec2d& from() const { return before.position; }
 };
@@ -315,7 +314,6 @@ void TogetherScratch::Turns::let_go_first(std::size_t i) {
   if (std::any_of(in_way.begin(), in_way.end(), rides)) {
     std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
     me.carries = attempt(i, Try::without_those);
-    me.velocity = all[i]->state().velocity;
     // Over the edge of a stair it goes higher than it ends.
     double peak = 0;
     for (const PathPoint& corner : report_of(i).move.path)
@@ -377,13 +375,14 @@ bool TogetherScratch::Turns::comes_late(std::size_t i) const {
   });
 }
 
-/// A carrier that climbs a stair, or is stopped, has another velocity than its way has.
+/// When all have gone: a carrier that climbs a stair, or is stopped, has another velocity than its way has.
 void TogetherScratch::Turns::take_velocity_of_carrier(std::size_t i) {
   CharacterState& state = all[i]->state();
   const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
-  if (carrier == nobody) return;
+  if (carrier == nobody || std::exchange(members[i].has_velocity, true)) return;
+  take_velocity_of_carrier(carrier);
   MoveResult& move = report_of(i).move;
-  const Vec2d change = members[carrier].velocity - state.ride.velocity;
+  const Vec2d change = all[carrier]->state().velocity - state.ride.velocity;
   for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
                           &move.ride.velocity, &move.ground.velocity})
     *velocity += change;
@@ -395,9 +394,7 @@ void TogetherScratch::Turns::end_turn(std::size_t i) {
     me.is_late = is_crushed(i, false) && comes_late(i);
     if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
   }
-  take_velocity_of_carrier(i);
   me.to = all[i]->state().position;
-  me.velocity = all[i]->state().velocity;
   me.has_gone = true;
   turn_of[i] = turns++;
 }
@@ -449,7 +446,6 @@ void TogetherScratch::Turns::let_take_turns() {
     std::sort(group.begin(), group.end());
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
-      members[i].velocity = members[i].before.velocity;
       members[i].has_gone = members[i].waits = members[i].is_late = false;
     }
     for (const std::size_t i : first)
@@ -459,8 +455,9 @@ void TogetherScratch::Turns::let_take_turns() {
     const std::size_t known = first.size();
     for (const std::size_t i : group)
       if (members[i].is_late && !contains(first, i)) first.push_back(i);
-    if (first.size() == known) return;
+    if (first.size() == known) break;
   }
+  for (const std::size_t i : group) take_velocity_of_carrier(i);
 }
 
 void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, const Vec2d& with_up) {
@@ -476,8 +473,7 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     member.reach = all[i]->reach();
     if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = nowhere;  // it is refused
     member.to = member.from();
-    member.velocity = member.before.velocity;
-    member.is_in_group = member.has_gone = member.waits = false;
+    member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
     member.carrier = nobody;
     member.near.clear();
   }

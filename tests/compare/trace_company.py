@@ -87,10 +87,11 @@ class Company:
 
     def acts(self, other, one):
         """The way of another as one meets it in its turn: straight and even where it moves one, or went before and came no
-        nearer to where one began; else it stands."""
+        nearer to where one began, nor past it; else it stands."""
         mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
         gaps = [max(gap for gap, _ in self.sides_between(mine, at)) for at in (start, end)]
-        even = self.pushes(other, one) or (other.turn < one.turn and gaps[1] >= gaps[0] - 1e-12)
+        passes = self.meet((mine, mine), (start, end))
+        even = self.pushes(other, one) or (other.turn < one.turn and not passes and gaps[1] >= gaps[0] - 1e-12)
         return [(*start, ZERO), (*end, Fraction(1))] if even else self.stands(other, one)
 
     def check(self, one, other):
