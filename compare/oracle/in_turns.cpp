@@ -1,8 +1,7 @@
 #include "oracle/in_turns.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <string>
 
 namespace paperproof::compare {
 namespace {
@@ -33,7 +32,7 @@ InTurns::InTurns(const TraceHeader& header, std::size_t movers)
     body.points = header.points;
     body.mover = static_cast<MoverIndex>(movers + k);
     header_.scenery.colliders.push_back(std::move(body));
-    header_.ids.push_back(fmt::format("character {}", k));
+    header_.ids.push_back("character " + std::to_string(k));
   }
 }
 
