@@ -33,6 +33,9 @@ continuity: a step begins where the last one ended, movers too; fractions ascend
     is put back; the last one is that of the run, where the header says how many `steps` it has, or was refused.
 mover_way: movers are where their scripts have them: trace_scripts.py.
 
+Of characters that go at the same time contacts, ground, falls, speed, room and starts inside are not asked: others may have
+turned them aside, held or pushed them. In turns all is asked.
+
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
 """
 import argparse
@@ -56,6 +59,8 @@ from trace_world import STAYS, Motion, World, wider
 CLAUSES = ("overlap", "passage", "one_way", "gap", "time_of_impact", "contact_missed", "contact_invented", "normal", "sensor",
            "rest", "start_inside", "refusal", "hanging", "speed_lost", "ground_invented", "ground_missed", "crush", "wanted",
            "velocity", "continuity", "mover_way")
+BESIDE_OTHERS = {"gap", "time_of_impact", "contact_missed", "contact_invented", "normal", "start_inside", "hanging", "speed_lost",
+                 "ground_invented", "ground_missed", "crush", "velocity"}  # not asked of those that go at the same time
 NEEDED = ("scene", "contender", "scalar", "mode", "dt", "points", "gravity", "up", "character", "starts", "guarantees",
           "colliders")
 NEEDED_IN_A_STEP = ("step", "input")
@@ -203,12 +208,11 @@ class Checker:
             step.last = self.last.get(step.who)
             others = [other for other in together if other is not step]
             step.note_others(others)
-            step.pushed = any(self.company.pushes(other, step) for other in others)
+            step.pushed = step.turn is not None and any(self.company.pushes(other, step) for other in others)
             yield from ((step.record, clause, step.told + words) for clause, words in self.check_alone(step, others))
-        pairs = itertools.combinations if together[0].turn is None else itertools.permutations
-        for one, other in pairs(together, 2):
+        for one, other in itertools.permutations(together, 2):
             faults = list(self.company.check(one, other)) if one.who < other.who else []
-            if self.asks("time_of_impact", "contact_invented", "normal") and not one.sampled:
+            if one.turn is not None and self.asks("time_of_impact", "contact_invented", "normal") and not one.sampled:
                 faults += self.company.check_met(one, other, self.is_turned)
             yield from ((one.record, clause, one.told + words) for clause, words in faults)
         self.last.update((step.who, step) for step in together)
@@ -223,7 +227,14 @@ class Checker:
         same = self.is_repeated(step)
         for check in (self.check_start, self.check_wanted, self.check_movers, self.check_rest):
             yield from check(step, same)
-        if not same:
+        if self.count > 1 and step.turn is None:
+            # Others may have turned it aside, held or pushed it.
+            step.excused = step.get("crush", [])
+            for clause in BESIDE_OTHERS & self.clauses:
+                self.skip(clause, "goes at the same time as others")
+            for check in (self.check_way, self.check_sensors):
+                yield from check(step, others)
+        elif not same:
             for check in (self.check_carrier, self.check_crush, self.check_stuck, self.check_way, self.check_contacts, self.check_sensors,
                           self.check_ground, self.check_speed, self.check_legs):
                 yield from check(step, others)

@@ -54,9 +54,7 @@ class Company:
         return not any(self.meet(*part) for part in parts(way, other))
 
     def stands(self, other, one):
-        """The way of another in the turn of one; its own where they take no turns."""
-        if one.turn is None:
-            return other.path
+        """The way of another in the turn of one."""
         at = other.path[-1 if other.turn < one.turn else 0][:2]
         return [(*at, ZERO), (*at, Fraction(1))]
 
@@ -68,8 +66,6 @@ class Company:
 
     def pushes(self, other, one):
         """Whether another moves one in its turn: one stands on it, or it comes after, into where one began."""
-        if one.turn is None:
-            return False
         mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
         between_them = list(self.sides_between(mine, start))
         touches = 0 <= max(gap for gap, _ in between_them) <= GAP
@@ -113,19 +109,11 @@ class Company:
             yield "passage", f"and character {other.who} come to overlap or pass through each other"
 
     def check_met(self, one, other, is_turned):
-        """What two say of how they met; in turns what one says. `is_turned(step, fraction)`: something may have turned it
-        aside before."""
-        of_one, of_other = ([met for met in a.get("met", []) if met["character"] == b.who]
-                            for a, b in ((one, other), (other, one)))
-        theirs, goes = other.path, other.wanted
-        if one.turn is not None:
-            theirs = self.acts(other, one)
-            goes = less(theirs[-1], theirs[0])
-        elif [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
-                (met["normal"], met["fraction"]) for met in of_other]:
-            yield "contact_invented", f"and character {other.who} do not say the same of how they met"
-            return
-        for met in of_one:
+        """What one says of how it met another in its turn. `is_turned(step, fraction)`: something may have turned it aside
+        before."""
+        theirs = self.acts(other, one)
+        goes = less(theirs[-1], theirs[0])
+        for met in (met for met in one.get("met", []) if met["character"] == other.who):
             n = vector(met["normal"])
             if abs(met["normal"][0] ** 2 + met["normal"][1] ** 2 - 1) > 1e-12:
                 yield "normal", f"has a normal that is no unit vector at character {other.who}"
@@ -136,9 +124,9 @@ class Company:
             if not any(0 < gap <= GAP for gap in gaps):
                 yield "contact_invented", (f"and character {other.who} have met, and at no corner are within 1e-6 m: "
                                            f"{[float(gap) for gap in gaps]}")
-            elif one.turn is not None and apart > 2 * GAP:
+            elif apart > 2 * GAP:
                 yield "time_of_impact", f"says it met character {other.who} at {met['fraction']}, {float(apart)} m away"
-            elif not is_turned(one, met["fraction"]) and (one.turn is not None or not is_turned(other, met["fraction"])):
+            elif not is_turned(one, met["fraction"]):
                 yield from self.check_impact(one, other, theirs[0][:2], goes, n, Fraction(met["fraction"]))
 
     def check_impact(self, one, other, theirs, goes, n, t):
