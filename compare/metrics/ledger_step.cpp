@@ -121,8 +121,7 @@ bool StepLedger::is_missed_by_mine(const Contact& touch) const {
 bool StepLedger::is_right_of_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.mine.judged;
   if (is_exact(judged, touch) || contains(judged.deflected, std::pair(touch.collider, touch.side))) return true;
-  return (contains(judged.dont_care, touch.collider) && !is_ghost(judged, touch)) ||
-         contains(judged.excused_by_company, touch.collider);
+  return (contains(judged.dont_care, touch.collider) && !is_ghost(judged, touch)) || judged.beside_another;
 }
 
 bool StepLedger::reports_next(const Contact& touch) const {

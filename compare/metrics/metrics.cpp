@@ -82,7 +82,7 @@ void Metrics::match(const View& view, Matches& matches, Breaches& breaches) cons
       ++matches.stuck;
       continue;
     }
-    if (!right && contains(now.by_company, touch.first)) {
+    if (!right && now.beside_another) {
       ++matches.by_company;
       continue;
     }
@@ -141,7 +141,7 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
                                          .deflected = judgement.deflected,
                                          .ahead = judgement.ahead,
                                          .band = judgement.contact_band,
-                                         .by_company = judgement.excused_by_company},
+                                         .beside_another = judgement.beside_another},
                                         [&](const View& view) { match(view, matches_, breaches); });
   for (const Contact& contact : step.contacts) touched_.insert(contact.collider);
   if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
@@ -160,11 +160,9 @@ void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judg
     sums_.first_contact_step = step.step;
     sums_.first_contact_fraction = fraction;
   }
-  const bool exact = meets ? judgement.first_met == with_another->other
-                           : !judgement.first_met && std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
-                                                                 [&](const ExactContact& contact) {
-                                                                   return contact.collider == with_scenery->collider;
-                                                                 });
+  const bool exact =
+      !meets && std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
+                            [&](const ExactContact& contact) { return contact.collider == with_scenery->collider; });
   if (judgement.turning_toi_error) raise(sums_.toi_error_max, *judgement.turning_toi_error);
   if (judgement.first_impact && judgement.first_impact_comparable && exact) {
     raise(sums_.toi_error_max, std::abs(fraction - *judgement.first_impact));
@@ -172,7 +170,8 @@ void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judg
 }
 
 void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judgement) {
-  if (!judgement.first_impact) return;
+  met_another_ = met_another_ || judgement.beside_another;  // which may come before any other impact
+  if (!judgement.first_impact || met_another_) return;
   const bool later = sums_.exact_first_impact_step && (*sums_.exact_first_impact_step != step.step ||
                                                        *judgement.first_impact >= *sums_.exact_first_impact_fraction);
   if (later) return;
@@ -182,10 +181,7 @@ void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judge
   const auto with =
       std::min_element(judgement.contacts.begin(), judgement.contacts.end(),
                        [](const ExactContact& a, const ExactContact& b) { return a.fraction < b.fraction; });
-  if (judgement.first_met)
-    sums_.exact_first_impact = named(*judgement.first_met);
-  else
-    sums_.exact_first_impact = with == judgement.contacts.end() ? "" : "`" + ids_[with->collider] + "`";
+  sums_.exact_first_impact = with == judgement.contacts.end() ? "" : "`" + ids_[with->collider] + "`";
 }
 
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
@@ -258,7 +254,7 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   exempt(Exempt::hover, judgement.hovers);
   exempt(Exempt::drawn, !judgement.drawn.empty());
   exempt(Exempt::late_ground, judgement.ground_late);
-  exempt(Exempt::touched_crush, judgement.excused_crush);
+  exempt(Exempt::company, judgement.excused_crush);
   exempt(Exempt::unsure, judgement.unsure);
   exempt(Exempt::in_parts, judgement.in_parts);
   exempt(Exempt::turning_sensor, judgement.turning_sensor);
@@ -355,7 +351,7 @@ void Metrics::write(Row& row) const {
                                      {Exempt::stuck, matches.stuck},
                                      {Exempt::deflected, matches.deflected},
                                      {Exempt::ahead, matches.ahead}})
-    if (often > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)] = often;
+    if (often > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)] += often;
 }
 
 }  // namespace paperproof::compare

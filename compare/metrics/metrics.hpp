@@ -44,7 +44,8 @@ namespace paperproof::compare {
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
 /// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact
-///   arithmetic has, over the steps that began free.
+///   arithmetic has, over the steps that began free. None after a character came beside another at the same time: what
+///   two would have met of each other is not asked (`CompanyJudge`).
 /// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
 ///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
 /// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where
@@ -88,7 +89,7 @@ class Metrics {
     std::vector<Touch> deflected{};
     std::vector<Touch> ahead{};
     std::vector<ColliderIndex> band{};
-    std::vector<ColliderIndex> by_company{};
+    bool beside_another = false;
   };
   struct Matches {
     int counted = 0;
@@ -127,8 +128,9 @@ class Metrics {
   double dt_;  ///< [s]
   Measured measured_;
   bool has_one_way_ = false;
-  bool promises_ = false;  ///< See `Party::promising`.
-  bool sampled_ = false;   ///< See `Party::sampled`.
+  bool promises_ = false;     ///< See `Party::promising`.
+  bool sampled_ = false;      ///< See `Party::sampled`.
+  bool met_another_ = false;  ///< One was beside another that goes at the same time.
   double motion_wanted_ = 0;
   double motion_lost_ = 0;
   std::vector<Follower> followers_;  ///< By character.

@@ -40,22 +40,22 @@ double narrower_at_foot(std::span<const Vec2d> points, const Vec2d& up) {
 }  // namespace
 
 EndJudge::EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
-                   const TraceStep& step, const Wanted& wanted, const Others& others, const LaterParts& later)
+                   const TraceStep& step, const Wanted& wanted, const WhatTurns& turns, const LaterParts& later)
     : header_(header),
       scenery_(scenery),
       grown_scenery_(grown_scenery),
       step_(step),
       wanted_(later.whole(wanted)),
-      others_(others),
+      turns_(turns),
       later_(later),
       up_(up_in(step, header)),
       dt_(length_of(step, header)) {}
 
 /// The parts near where the step ends, and how they go then.
 std::vector<NearPart> EndJudge::near_at_end(double within) const {
-  if (!others_.near_at_end) return near(step_.path.size() - 1, within);
+  if (!turns_.near_at_end) return near(step_.path.size() - 1, within);
   std::vector<NearPart> parts = scenery_.near_parts(end(), within);
-  for (NearPart& part : others_.near_at_end(within)) parts.push_back(std::move(part));
+  for (NearPart& part : turns_.near_at_end(within)) parts.push_back(std::move(part));
   return parts;
 }
 
@@ -64,8 +64,8 @@ bool EndJudge::meets_ground(const Vec2d& displacement) const {
   Place beyond = end();
   beyond.position += displacement;
   std::vector<ExactImpact> impacts = scenery_.impacts_between(end(), beyond);
-  if (others_.impacts_at_end)
-    for (ExactImpact& impact : others_.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
+  if (turns_.impacts_at_end)
+    for (ExactImpact& impact : turns_.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
   for (const ExactImpact& impact : impacts)
     if (is_walkable(impact.normal, header_, up_) && !contains(step_.dropped_through, impact.collider)) return true;
   return false;
@@ -86,9 +86,9 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
     return face.separation >= 0 && is_walkable(face.normal, header_, up_);
   };
   if (step_.grounded) {
-    // Who stands does not go on into its ground. How what turns, or another character, goes then is not known.
+    // Who stands does not go on into its ground. How what turns goes then is not known.
     const auto holds = [&](const NearPart& part, const NearFace& face) {
-      const bool is_known = part.collider != no_collider && find_way(step_.vertex_ways, part.collider) == nullptr;
+      const bool is_known = find_way(step_.vertex_ways, part.collider) == nullptr;
       const double apart = face.normal.dot(step_.velocity * dt_ - part.moved);
       const double rounding = rounding_of_motion * (1 + step_.velocity.norm() * dt_);
       return walkable(part, face) && (!is_known || apart >= -guaranteed_touch - rounding);
@@ -116,11 +116,11 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
   judgement.ground_missed = touches && !leaves && stands_on_ground();
 }
 
-/// Whether no other character and nothing that turns is within reach where the step begins.
+/// Whether nothing that turns is within reach where the step begins.
 /// @param beyond so much farther than the step goes [m].
 bool EndJudge::is_alone(double beyond) const {
-  const double within = beyond + contact_reach + wanted_.displacement.norm() + later_.bend() + others_.longest_way;
-  return !others_.near || others_.near(step_.path.front(), within).empty();
+  const double within = beyond + contact_reach + wanted_.displacement.norm() + later_.bend() + turns_.longest_way;
+  return !turns_.near || turns_.near(step_.path.front(), within).empty();
 }
 
 /// Whether the wanted motion comes within 1e-6 m of nothing.
@@ -159,10 +159,7 @@ double EndJudge::flight_error() const {
 bool EndJudge::may_take_rise(const NearPart& part, const NearFace& face) const {
   const double slope = face.normal.dot(up_);
   if (slope < 0) return true;
-  double against = face.normal.dot(wanted_.velocity * dt_ - part.moved);
-  for (const std::optional<Vec2d>& way : {part.comes, part.goes})
-    if (way) against = std::min(against, face.normal.dot(wanted_.velocity * dt_ - *way));
-  const bool is_entered = against < part.unsure;
+  const bool is_entered = face.normal.dot(wanted_.velocity * dt_ - part.moved) < part.unsure;
   const bool moves = !part.moved.isZero(0) || part.unsure > 0;
   const bool follows =
       slope > 0 && (is_entered || !wanted_.jumped) &&
@@ -294,7 +291,7 @@ void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
                         ahead.dot(wanted_.velocity) > 0;
   if (!(may_leave || may_miss) || !is_alone(character.snap + character.step_height)) return;
   judgement.ground_left = may_leave && meets_ground_first(stopped, character.snap);
-  if (!may_miss || !touches_riser(ahead) || stairs_climbed(header_, scenery_, step_, others_, wanted_) > 0) return;
+  if (!may_miss || !touches_riser(ahead) || stairs_climbed(header_, scenery_, step_, turns_, wanted_) > 0) return;
   const double most = headroom();
   const std::array shares{1.0, 0.5, 0.25, 0.125};
   judgement.kerb_missed = std::any_of(shares.begin(), shares.end(), [&](double share) {

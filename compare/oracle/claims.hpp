@@ -12,10 +12,10 @@ namespace paperproof::compare::detail {
 /// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
 /// for one step.
 ///
-/// **Grounded** is right where a solid or another character has a walkable face within `guaranteed_touch` that the
-/// velocity does not lead into by more than that in one step (not asked of what turns, and of characters), or where the
-/// unsteered motion points down and all that is within it leaves no way down (a wedge). It hovers where no walkable
-/// face is met by an exact motion straight down by the gap: the octagon only touches beside the face.
+/// **Grounded** is right where a solid has a walkable face within `guaranteed_touch` that the
+/// velocity does not lead into by more than that in one step (not asked of what turns), or where the unsteered motion
+/// points down and all that is within it leaves no way down (a wedge). It hovers where no walkable face is met by an
+/// exact motion straight down by the gap: the octagon only touches beside the face.
 ///
 /// **Ground missed.** The octagon is met by a walkable face on a motion by `guaranteed_touch` against the face's
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
@@ -29,8 +29,8 @@ namespace paperproof::compare::detail {
 /// more than 1e-5 m, and down to such ground, which is higher. Where a corner is met on the way down, the ground may
 /// lie ahead by as much as the shape is narrower at its foot. Asked in runs of one character, of steps without a stair.
 ///
-/// Both are asked of steps in one part, without `drop`, and where no other character and nothing that turns is as near
-/// as the character would go.
+/// Both are asked of steps in one part, without `drop`, and where nothing that turns is as near as the character would
+/// go.
 ///
 /// **Speed lost.** A step begins free, and its wanted motion comes within 1e-6 m of nothing: it goes exactly as wanted.
 /// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
@@ -39,7 +39,7 @@ class EndJudge {
  public:
   /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
   EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
-           const TraceStep& step, const Wanted& wanted, const Others& others, const LaterParts& later = {});
+           const TraceStep& step, const Wanted& wanted, const WhatTurns& turns, const LaterParts& later = {});
 
   /// @param starts_free the step begins inside nothing.
   void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
@@ -50,7 +50,7 @@ class EndJudge {
  private:
   [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
-    return parts_near(scenery_, step_, others_, corner, within);
+    return parts_near(scenery_, step_, turns_, corner, within);
   }
   [[nodiscard]] std::vector<NearPart> near_at_end(double within) const;
   [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
@@ -73,7 +73,7 @@ class EndJudge {
   const ExactScenery& grown_scenery_;
   const TraceStep& step_;
   const Wanted wanted_;  ///< By all parts of the step, but for what later ones steer.
-  const Others& others_;
+  const WhatTurns& turns_;
   const LaterParts later_;
   Vec2d up_;
   double dt_;  ///< [s]

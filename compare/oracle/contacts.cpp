@@ -80,9 +80,6 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   add_dont_care(judgement);
   add_ghosts(judgement);
   add_normal_error(judgement);
-  if (header_.characters > 1)
-    for (const Contact& contact : step_.contacts)
-      if (has_face(contact)) judgement.faced.emplace_back(contact.collider, contact.side);
   measure_motion(starts_free, judgement);
   // What a crush stops is not stopped by nothing.
   if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free, judgement);
@@ -150,8 +147,8 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
   const auto is_ground = [this](const Contact& contact) {
     return header_.scenery.colliders[contact.collider].mover == no_mover && is_walkable(contact.normal, header_, up_);
   };
-  const bool on_ground_alone = promises_ && !step_.contacts.empty() && step_.met.empty() &&
-                               std::all_of(step_.contacts.begin(), step_.contacts.end(), is_ground);
+  const bool on_ground_alone =
+      promises_ && !step_.contacts.empty() && std::all_of(step_.contacts.begin(), step_.contacts.end(), is_ground);
   // A contact that exact arithmetic has, or that an exact one deflected the motion into, may take it.
   for (const Contact& contact : step_.contacts) {
     const auto is_it = [&](const auto& one) { return one.collider == contact.collider && one.side == contact.side; };

@@ -18,12 +18,6 @@ inline constexpr double least_approach = 1e-3;
 /// Of the character as it stands. What rounding leaves of a component that is zero is none.
 [[nodiscard]] Side side_along(const Vec2d& normal, const Vec2d& up);
 
-/// What a contact may leave of a motion, by the laws that there are: it slides, without steering or momentum across up
-/// or with it; on ground its part across up goes on along it.
-/// @param own how far the collider goes meanwhile [m]. @param steered across up, of the motion [m].
-[[nodiscard]] std::vector<Vec2d> ways_left(const Vec2d& motion, const Vec2d& own, double steered, const Vec2d& normal,
-                                           const TraceHeader& header, const Vec2d& up);
-
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:

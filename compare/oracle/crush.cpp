@@ -30,11 +30,11 @@ class Departure {
   /// @param movers that press. A character above a one-way chain may go along with the mover of that chain: such a
   /// chain bounds no place, so that the search alone would not find this one.
   [[nodiscard]] std::optional<Vec2d> room(const Place& end, double reach, std::span<const MoverIndex> movers,
-                                          const Others& characters) const {
+                                          const WhatTurns& turns) const {
     const auto can_go_there = [&](const Vec2d& position) {
       const Place there(position, end.movers, end.fraction);
       return (position - end.position).norm() <= reach && reaches(there) &&
-             (!characters.left_free || characters.left_free(way_to(position)));
+             (!turns.left_free || turns.left_free(way_to(position)));
     };
     for (const MoverIndex mover : movers) {
       const Vec2d along = from_.position + end.offset(mover) - from_.offset(mover);
@@ -122,7 +122,7 @@ std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by) {
 
 std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
                                std::span<const Place> path, std::span<const ColliderIndex> crushed,
-                               const Meetings& meetings, const Others& characters) {
+                               const Meetings& meetings, const WhatTurns& turns) {
   const Place& end = path.back();
   double motion = 0;
   std::vector<MoverIndex> movers;
@@ -141,14 +141,14 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
   std::vector<Place> way;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
     way.push_back(path[corner]);
-    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, movers, characters))
+    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, movers, turns))
       return room;
   }
   if (way.size() != last + 1 || last + 1 >= path.size()) return std::nullopt;
   const std::optional<Place> touched = touched_on(scenery, path[last], path[last + 1], crushed);
   if (!touched) return std::nullopt;
   way.push_back(*touched);
-  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, movers, characters);
+  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, movers, turns);
 }
 
 }  // namespace paperproof::compare::detail

@@ -8,29 +8,21 @@
 
 namespace paperproof::compare {
 
-/// What is no solid of the exact scenery, the other characters of a run and what turns, means for a character: where it
-/// has room, and what holds it.
-struct Others {
-  /// Those within so many metres when the step has come to a corner of the way. Empty where there are none.
+/// What turns is no solid of the exact scenery. What it means for a character: where that has room, and what holds it.
+/// All empty where nothing turns near by, but for `left_free`, which is empty where nothing turns at all.
+struct WhatTurns {
+  /// What is within so many metres when the step has come to a corner of the way.
   std::function<std::vector<NearPart>(const PathPoint& corner, double within)> near{};
-  /// The same where the step ends, `moved` as what turns goes then; of characters that take turns where all have ended.
-  /// Empty where nothing turns near by, and nobody takes turns.
+  /// The same where the step ends, `moved` as what turns goes then.
   std::function<std::vector<NearPart>(double within)> near_at_end{};
-  /// Adds to a way the moments at which others turn. Empty where there are no other characters.
-  std::function<void(std::vector<PathPoint>& path)> add_moments{};
-  /// What a displacement from where the step ends meets first of them, while all stays as it is then.
+  /// What a displacement from where the step ends meets first, while all stays as it is then.
   std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
-  /// Of what turns only: whether something that is farther away than `within` at a corner of the way is met in the rest
-  /// of the step, if the character goes on by so much.
+  /// Whether something that is farther away than `within` at a corner of the way is met in the rest of the step, if the
+  /// character goes on by so much.
   std::function<bool(const PathPoint& corner, const Vec2d& way, double within)> runs_into{};
-  /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
-  /// there are none.
+  /// Whether it leaves free a way of the whole step, from fraction 0 to 1, and the place where it ends.
   std::function<bool(std::span<const PathPoint> way)> left_free{};
-  /// How far those may push it, of the other characters, that touch it, or touch one that does, and so on: a push
-  /// begins with a character that wants to go, or with what moves near one of them [m]. Empty where there are none.
-  std::function<double()> handed_on{};
-  double longest_way = 0;  ///< That one of them, or a point of it, is asked to go, or goes, in the step [m].
-  bool touched = false;    ///< One of them touched it during the step.
+  double longest_way = 0;  ///< That a point of it goes in the step [m].
 };
 
 }  // namespace paperproof::compare
@@ -62,6 +54,6 @@ inline constexpr double push_beyond_motion = 0.25;
 /// @param crushed the colliders of movers that are said to crush.
 [[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
                                              std::span<const Place> path, std::span<const ColliderIndex> crushed,
-                                             const Meetings& meetings, const Others& characters = {});
+                                             const Meetings& meetings, const WhatTurns& turns = {});
 
 }  // namespace paperproof::compare::detail

@@ -72,14 +72,10 @@ struct NearPart {
   ColliderIndex collider = 0;
   Vec2d moved{Vec2d::Zero()};   ///< By its mover in the whole step [m].
   std::vector<NearFace> faces;  ///< All along which they are apart, the farthest first; the best alone on overlap.
-  /// Of another character, which does not go evenly: how far it would go in the time of a whole step, as it comes to
-  /// this moment, and as it goes on from it [m].
-  std::optional<Vec2d> comes{};
-  std::optional<Vec2d> goes{};
-  double unsure = 0;        ///< So much farther than `moved` it may come along a normal [m]: of what turns,
-  double unsure_along = 0;  ///< and so much farther it may go along the face.
-  double rim = 0;           ///< So far the rim of a disc that turns goes along itself, counter-clockwise [m],
-  double rim_unsure = 0;    ///< as far as that is known: the character goes round, and the centre on an arc [m].
+  double unsure = 0;            ///< So much farther than `moved` it may come along a normal [m]: of what turns,
+  double unsure_along = 0;      ///< and so much farther it may go along the face.
+  double rim = 0;               ///< So far the rim of a disc that turns goes along itself, counter-clockwise [m],
+  double rim_unsure = 0;        ///< as far as that is known: the character goes round, and the centre on an arc [m].
 };
 
 /// The octagon's interior came to overlap a sensor's, or ceased to.

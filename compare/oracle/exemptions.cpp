@@ -13,7 +13,7 @@ namespace {
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 15> all_exemptions{{
+constexpr std::array<Exemption, 14> all_exemptions{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -33,7 +33,9 @@ constexpr std::array<Exemption, 15> all_exemptions{{
      {0, box2d_skin, its_own, its_own}},
     {Exempt::company,
      "company",
-     "touches another character, and reports or misses contacts with scenery",
+     "is beside another character that goes at the same time: contacts with scenery, lost speed, falls, ground and "
+     "room "
+     "count neither way",
      "",
      {0, 1, 1, 1}},
     {Exempt::stuck,
@@ -41,11 +43,6 @@ constexpr std::array<Exemption, 15> all_exemptions{{
      "is stuck, crushed or begins inside something, and misses or invents contacts",
      "",
      {1, 1, 1, 1}},
-    {Exempt::touched_crush,
-     "touched_crush",
-     "says that it is crushed with room left, touched by another character",
-     "",
-     {0, 1, 1, 1}},
     {Exempt::late_ground,
      "late_ground",
      "says that it is grounded by what was under it earlier in the step",

@@ -29,7 +29,6 @@ enum class Exempt : std::uint8_t {
   hover,
   company,
   stuck,
-  touched_crush,
   late_ground,
   drawn,
   deflected,

@@ -1,6 +1,7 @@
 #include "oracle/hanging.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/legs.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ Reach reach_of(const TraceHeader& header) {
 }
 
 HangingJudge::HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                           const Others& others, const Vec2d& up)
-    : header_(header), scenery_(scenery), step_(step), others_(others), up_(up) {}
+                           const WhatTurns& turns, const Vec2d& up)
+    : header_(header), scenery_(scenery), step_(step), turns_(turns), up_(up) {}
 
 bool HangingJudge::HalfPlane::holds(const Vec2d& d) const {
   return normal.dot(d) - bound >= -normal_rounding * (d.norm() + std::abs(bound));
@@ -62,14 +63,12 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) c
   if (all.holds) return false;
   const Vec2d free = nearest_free(unsteered, all.obstacles, reach.opening);
   if (!falls_short_of(std::min(-free.dot(up_), asked))) return false;
-  if (step_.movers.empty() && !others_.near) return true;
+  if (step_.movers.empty()) return true;
   return falls_short_of(fall_leg_by_leg(unsteered, corners, reach)) && !is_run_into(reach);
 }
 
 bool HangingJudge::has_support(std::size_t corner, double within) const {
-  std::vector<NearPart> parts = scenery_.near_parts(Place(step_.path[corner], step_.movers), within);
-  if (others_.near)
-    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
+  const std::vector<NearPart> parts = detail::parts_near(scenery_, step_, turns_, corner, within);
   const std::vector<ColliderIndex>& dropped = step_.dropped_through;
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
     if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
@@ -108,23 +107,17 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& fall, 
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     for (const NearPart& part : parts_near(corner, reach.contact)) {
       const double unsure = bounds == Bounds::safe ? part.unsure : 0;
-      const auto obstacle = [&](const Vec2d& moved) {
-        Obstacle planes;
-        for (const NearFace& face : part.faces)
-          planes.push_back({face.normal, face.normal.dot(moved) + unsure, face.separation});
-        return planes;
-      };
-      const Obstacle whole = obstacle(part.moved);
+      Obstacle planes;
+      for (const NearFace& face : part.faces)
+        planes.push_back({face.normal, face.normal.dot(part.moved) + unsure, face.separation});
       const auto lets_fall = [&](const HalfPlane& plane) {
         return plane.separation >= reach.opening && plane.normal.dot(fall) >= 0;  // however it moves
       };
-      const bool falls_past = std::any_of(whole.begin(), whole.end(), lets_fall);
+      const bool falls_past = std::any_of(planes.begin(), planes.end(), lets_fall);
       Nearby& nearby = corners[corner];
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact ||
                      (is_ground(part) && (step_.grounded || !falls_past));
-      nearby.obstacles.push_back(whole);
-      nearby.coming.push_back(obstacle(part.comes.value_or(part.moved)));
-      nearby.going.push_back(obstacle(part.goes.value_or(part.moved)));
+      nearby.obstacles.push_back(std::move(planes));
     }
   }
   return corners;
@@ -138,8 +131,8 @@ double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Near
   double fall = 0;
   double rate = -wanted.dot(up_);
   for (std::size_t corner = 0; corner + 1 < corners.size(); ++corner) {
-    const std::vector<Obstacle>& begin = corners[corner].going;
-    const std::vector<Obstacle>& end = corners[corner + 1].coming;
+    const std::vector<Obstacle>& begin = corners[corner].obstacles;
+    const std::vector<Obstacle>& end = corners[corner + 1].obstacles;
     std::vector<Obstacle> both = begin;
     both.insert(both.end(), end.begin(), end.end());
     for (const auto& obstacles : {std::cref(begin), std::cref(end), std::cref(both)})
@@ -159,7 +152,7 @@ bool HangingJudge::is_run_into(const Reach& reach) const {
 }
 
 bool HangingJudge::is_run_into(const PathPoint& corner, const Vec2d& way, const Reach& reach) const {
-  if (others_.runs_into && others_.runs_into(corner, way, reach.contact)) return true;
+  if (turns_.runs_into && turns_.runs_into(corner, way, reach.contact)) return true;
   const Place there(corner, step_.movers);
   const std::vector<ExactImpact> impacts =
       scenery_.impacts_between(there, Place(corner.position + way, step_.movers, 1));
@@ -173,12 +166,10 @@ bool HangingJudge::is_run_into(const PathPoint& corner, const Vec2d& way, const 
 }
 
 std::vector<NearPart> HangingJudge::parts_near(std::size_t corner, double within) const {
-  const Place at(step_.path[corner], step_.movers);
-  std::vector<NearPart> parts = scenery_.near_parts(at, within);
+  std::vector<NearPart> parts = scenery_.near_parts(Place(step_.path[corner], step_.movers), within);
   std::erase_if(parts, [&](const NearPart& part) { return !blocks(corner, part, within); });
-  if (others_.near) {
-    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
-  }
+  if (turns_.near)
+    for (NearPart& part : turns_.near(step_.path[corner], within)) parts.push_back(std::move(part));
   return parts;
 }
 

@@ -28,7 +28,7 @@ enum class Bounds : std::uint8_t { safe, nominal };
 class HangingJudge {
  public:
   /// @param up of the character in this step, a unit vector: it falls against that.
-  HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
+  HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const WhatTurns& turns,
                const Vec2d& up = {0, 1});
 
   /// @param made what the step went [m].
@@ -50,9 +50,7 @@ class HangingJudge {
   /// One of these has to hold.
   using Obstacle = std::vector<HalfPlane>;
   struct Nearby {
-    std::vector<Obstacle> obstacles;  ///< By how far they go in the whole step,
-    std::vector<Obstacle> coming;     ///< as they come to the corner,
-    std::vector<Obstacle> going;      ///< and as they go on from it.
+    std::vector<Obstacle> obstacles;  ///< By how far they go in the whole step.
     bool holds = false;               ///< Something of it is ground, or overlaps the octagon.
     void add(const Nearby& other);
   };
@@ -71,7 +69,7 @@ class HangingJudge {
   const TraceHeader& header_;
   const ExactScenery& scenery_;
   const TraceStep& step_;
-  const Others& others_;
+  const WhatTurns& turns_;
   Vec2d up_;
 };
 

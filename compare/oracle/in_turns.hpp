@@ -34,8 +34,6 @@ class InTurns {
   /// @param steps one of each character, in order. @return their turns, likewise.
   [[nodiscard]] std::vector<TraceStep> turns(std::span<const TraceStep> steps);
 
-  [[nodiscard]] bool is_body(ColliderIndex collider) const noexcept { return collider >= first_body_; }
-
  private:
   using Carrier = std::optional<CharacterIndex>;
 

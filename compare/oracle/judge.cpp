@@ -37,6 +37,24 @@ Place between(const Place& from, const Place& to, double share) {
           from.fraction + share * (to.fraction - from.fraction)};
 }
 
+/// Takes back what another that is near may have brought about.
+void excuse_beside_another(const TraceStep& step, StepJudgement& judgement) {
+  std::erase_if(judgement.contacts, [&step](const ExactContact& exact) {
+    return std::none_of(step.contacts.begin(), step.contacts.end(), [&exact](const Contact& contact) {
+      return contact.collider == exact.collider && contact.side == exact.side;
+    });
+  });
+  judgement.ghosts.clear();
+  judgement.first_impact.reset();
+  judgement.first_approach.reset();
+  judgement.hangs = judgement.hovers = judgement.ground_refuted = judgement.ground_late = judgement.ground_missed =
+      false;
+  judgement.ground_left = judgement.kerb_missed = judgement.start_mishandled = judgement.stuck_refuted = false;
+  judgement.motion_lost = judgement.ghost_speed_loss = judgement.speed_lost = judgement.speed_gained = 0;
+  judgement.way_gained = judgement.leg_error = judgement.end_error = 0;
+  judgement.crept.setZero();
+}
+
 bool same_motion(const MoverMotion& a, const MoverMotion& b) { return a.from == b.from && a.to == b.to; }
 
 }  // namespace
@@ -67,52 +85,36 @@ std::vector<ColliderIndex> Judge::overlapped(const TraceStep& step) const {
   return all;
 }
 
-StepJudgement Judge::judge(const TraceStep& step, const Others& others, const Wanted* wanted) {
-  if (!turning_->any()) return judge_step(step, others, wanted);
-  const AmongTurning turning{step, others, turning_->begin(step)};
-  return judge_step(turning_->exact_part(step), with_turning(step, others), wanted, &turning);
+StepJudgement Judge::judge(const TraceStep& step, const Wanted* wanted, bool beside_another) {
+  if (!turning_->any()) return judge_step(step, {}, wanted, beside_another);
+  const AmongTurning turning{step, turning_->begin(step)};
+  return judge_step(turning_->exact_part(step), what_turns(step), wanted, beside_another, &turning);
 }
 
-Others Judge::with_turning(const TraceStep& step, const Others& characters) const {
-  Others all = characters;
-  all.left_free = [this, &step, &characters](std::span<const PathPoint> way) {
-    return turning_->left_free(step, way) && (!characters.left_free || characters.left_free(way));
-  };
+WhatTurns Judge::what_turns(const TraceStep& step) const {
+  WhatTurns turns;
+  turns.left_free = [this, &step](std::span<const PathPoint> way) { return turning_->left_free(step, way); };
   if (step.path.empty() || turning_->is_alone(step, std::max(detail::reach_of(header_).contact, own_reach(header_))))
-    return all;
-  const auto with = [&characters](std::vector<NearPart> parts, const PathPoint& corner, double within) {
-    if (characters.near)
-      for (NearPart& part : characters.near(corner, within)) parts.push_back(std::move(part));
-    return parts;
+    return turns;
+  turns.near = [this, &step](const PathPoint& corner, double within) { return turning_->near(step, corner, within); };
+  turns.near_at_end = [this, &step](double within) { return turning_->near_at_end(step, within); };
+  turns.impacts_at_end = [this, &step](const Vec2d& displacement) {
+    return turning_->impacts_at_end(step, displacement);
   };
-  all.near = [this, &step, with](const PathPoint& corner, double within) {
-    return with(turning_->near(step, corner, within), corner, within);
-  };
-  all.near_at_end = [this, &step, &characters, with](double within) {
-    std::vector<NearPart> parts = turning_->near_at_end(step, within);
-    if (!characters.near_at_end) return with(std::move(parts), step.path.back(), within);
-    for (NearPart& part : characters.near_at_end(within)) parts.push_back(std::move(part));
-    return parts;
-  };
-  all.impacts_at_end = [this, &step, &characters](const Vec2d& displacement) {
-    std::vector<ExactImpact> impacts = turning_->impacts_at_end(step, displacement);
-    if (characters.impacts_at_end)
-      for (ExactImpact& impact : characters.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
-    return impacts;
-  };
-  all.runs_into = [this, &step](const PathPoint& corner, const Vec2d& way, double within) {
+  turns.runs_into = [this, &step](const PathPoint& corner, const Vec2d& way, double within) {
     return turning_->runs_into(step, corner, way, within);
   };
-  all.longest_way = std::max(all.longest_way, turning_->longest_way(step));
-  return all;
+  turns.longest_way = turning_->longest_way(step);
+  return turns;
 }
 
-StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
-                                const AmongTurning* turning) {
+StepJudgement Judge::judge_step(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted,
+                                bool beside_another, const AmongTurning* turning) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
-  if (!others.near && repeats(step, wanted)) return last_->judgement;  // others may have gone
+  if (!turns.near && !beside_another && repeats(step, wanted)) return last_->judgement;
   dt_ = length_of(step, header_);
   StepJudgement judgement;
+  judgement.beside_another = beside_another;
   const Path path = path_of(step);
   if (path.empty()) return judgement;
   if (!continues(step, path.front()))
@@ -124,15 +126,15 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   if (!step.respawn && !promises_) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
   // Before the way is judged: from which side it came into what it is inside of is known where the step begins.
   if (step.stuck && !starts_free)
-    judgement.stuck_refuted = is_stuck_refuted(path.front(), others, turning, begins_in_turning);
-  leaving_ = promises_ && !starts_free ? leaving_of(path, others, begins_in_turning) : Leaving{};
+    judgement.stuck_refuted = is_stuck_refuted(path.front(), turns, turning, begins_in_turning);
+  leaving_ = promises_ && !starts_free ? leaving_of(path, turns, begins_in_turning) : Leaving{};
   const auto contacts = [&] {
     const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
     return detail::ContactJudge(header_, scenery_, grown, step);
   };
-  if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || others.runs_into || !alone(path, step)) {
+  if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || turns.runs_into || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
-    judge_way(path, step, others, judgement);
+    judge_way(path, step, turns, judgement);
     leave_bodies_out(judgement);
     contacts().judge(starts_free, judgement);
   } else {
@@ -153,12 +155,13 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     const bool ends_in_turning = std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(),
                                              [this](ColliderIndex collider) { return turning_->turns(collider); });
     judgement.stuck_refuted =
-        judgement.end_overlap.empty() || is_stuck_refuted(path.back(), others, turning, ends_in_turning);
+        judgement.end_overlap.empty() || is_stuck_refuted(path.back(), turns, turning, ends_in_turning);
   }
-  judge_progress(step, others, wanted, starts_free, judgement);
+  judge_progress(step, turns, wanted, starts_free, judgement);
+  if (beside_another) excuse_beside_another(step, judgement);
   last_end_.emplace(path.back());
   last_.reset();
-  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_)
+  if (path.size() == 1 && inside_.empty() && !beside_another && step.remainder == remainder_before_)
     last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
   remainder_before_ = step.remainder;
   return judgement;
@@ -221,13 +224,9 @@ void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const
 
 /// Whether there is a way out of what is overlapped where the step begins, or ends.
 /// @param in_turning something that turns is overlapped there.
-bool Judge::is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning, bool in_turning) {
-  if (!in_turning) return has_way_out(at, others);
-  const auto accept = [&](const Vec2d& out) {
-    const auto& left_free = turning->characters.left_free;
-    return !ends_on_another_side(at, out) &&
-           (!left_free || left_free(std::vector<PathPoint>{{at.position, 0}, {out, 1}}));
-  };
+bool Judge::is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning, bool in_turning) {
+  if (!in_turning) return has_way_out(at, turns);
+  const auto accept = [&](const Vec2d& out) { return !ends_on_another_side(at, out); };
   return at.fraction == 1 ? turning_->frees_at_end(turning->step, accept) : turning_->frees(turning->step, accept);
 }
 
@@ -291,15 +290,12 @@ bool Judge::continues(const TraceStep& step, const Place& start) const {
                     last_end_->movers.end() - bodies, goes_on);
 }
 
-bool Judge::is_body(ColliderIndex collider) const {
-  return collider + header_.bodies >= header_.scenery.colliders.size();
-}
-
 /// From turn to turn other characters are elsewhere.
 void Judge::begin_with_bodies(const Place& start) {
-  std::erase_if(inside_, [this](const auto& stay) { return is_body(stay.first); });
+  std::erase_if(inside_, [this](const auto& stay) { return header_.is_body(stay.first); });
   for (const ColliderIndex collider : scenery_.overlapped(start))
-    if (is_body(collider)) inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
+    if (header_.is_body(collider))
+      inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
 }
 
 void Judge::begin_episodes(const Place& start) {
@@ -312,19 +308,19 @@ void Judge::begin_episodes(const Place& start) {
 
 /// Whether characters overlap or pass each other is asked of their places: see `CompanyJudge`.
 void Judge::leave_bodies_out(StepJudgement& judgement) const {
-  const auto is_body_of_one = [this](ColliderIndex collider) { return is_body(collider); };
+  const auto is_body = [this](ColliderIndex collider) { return header_.is_body(collider); };
   for (std::vector<ColliderIndex>* found : {&judgement.entered, &judgement.rounded, &judgement.pressed,
                                             &judgement.drawn, &judgement.tunnelled, &judgement.corner_cut})
-    std::erase_if(*found, is_body_of_one);
+    std::erase_if(*found, is_body);
   std::erase_if(judgement.passings, [&](const Passing& passing) { return is_body(passing.collider); });
 }
 
-void Judge::judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement) {
+void Judge::judge_way(const Path& path, const TraceStep& step, const WhatTurns& turns, StepJudgement& judgement) {
   Touched touched;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, i);
   }
-  judge_crushes(path, step, touched, others, judgement);
+  judge_crushes(path, step, touched, turns, judgement);
   judge_end(path, touched, judgement);
   for (const auto& [collider, corner] : touched) {
     if (is_said_as_crush(path.back(), collider, judgement) &&
@@ -368,7 +364,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
       judgement.drawn.push_back(collider);
       judgement.max_penetration = std::max(judgement.max_penetration, depth);
     } else {
-      if (!is_body(collider)) judgement.max_penetration = std::max(judgement.max_penetration, depth);
+      if (!header_.is_body(collider)) judgement.max_penetration = std::max(judgement.max_penetration, depth);
       if (is_new || was_rounded) judgement.entered.push_back(collider);
     }
     touched.erase(collider);
@@ -477,7 +473,7 @@ std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) c
   return entered;
 }
 
-void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
+void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const WhatTurns& turns,
                           StepJudgement& judgement) {
   const auto goes = [&](ColliderIndex collider) {
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
@@ -507,7 +503,8 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, others);
+  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, turns);
+  const bool has_room = judgement.room && !judgement.beside_another;
   // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
   const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
   const auto touches = [&](ColliderIndex collider) {
@@ -519,31 +516,25 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
   const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), presses);
   for (const ColliderIndex collider : step.crushed) {
     const bool moves = pressed && goes(collider) && touches(collider);
-    const bool excused = moves && judgement.room && others.touched && allowed(Exempt::touched_crush, header_) > 0;
-    judgement.excused_crush = judgement.excused_crush || excused;
-    (moves && (!judgement.room || excused) ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
+    judgement.excused_crush = judgement.excused_crush || (moves && judgement.room && judgement.beside_another);
+    (moves && !has_room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
   }
-  if (judgement.room) return;
+  if (has_room) return;
   for (const std::vector<ColliderIndex>& excused : {pressing, entered})
     for (const ColliderIndex collider : excused)
       if (!entered.empty() && !contains(judgement.crushed, collider) && !contains(step.crushed, collider))
         judgement.crushed.push_back(collider);
 }
 
-void Judge::judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
+void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted, bool starts_free,
                            StepJudgement& judgement) {
   const detail::LaterParts later =
       wanted != nullptr ? detail::later_parts(header_, step, *wanted) : detail::LaterParts{};
   std::optional<TraceStep> whole;
   if (later.any()) whole.emplace(step).requested += later.way;
-  // Whoever moves while the others stand is on ground where all have ended.
-  Others ended;
-  if (step.turn && others.near_at_end)
-    ended.near = [&others](const PathPoint&, double within) { return others.near_at_end(within); };
-  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, ended.near ? ended : others,
-                                     up_in(step, header_));
+  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, turns, up_in(step, header_));
   if (promises_ && wanted != nullptr) {
-    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
+    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, turns, later);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
     end.judge_walk(starts_free, judgement);
@@ -551,11 +542,11 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     const double probed = header_.character.snap + header_.character.step_height + detail::extent_of(header_.points);
     if ((judgement.ground_left || judgement.kerb_missed) && !turning_->is_alone(step, probed))
       judgement.ground_left = judgement.kerb_missed = false;
-    judge_legs(step, others, *wanted, later, judgement);
+    judge_legs(step, turns, *wanted, later, judgement);
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
   }
-  excuse_by_turning(step, later, others, judgement);
+  excuse_by_turning(step, later, turns, judgement);
   const bool breaks_crush = !judgement.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush);
   // What a crush stops is not stopped by nothing, and one breach is said once.
   if (breaks_crush) judgement.motion_lost = judgement.ghost_speed_loss = judgement.speed_lost = 0;
@@ -564,17 +555,14 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
   Vec2d made = step.path.back().position - step.path.front().position;
   if (!promises_) made += step.remainder - before;  // a grid's
   const detail::Reach own = detail::reach_of(header_);
-  TraceStep among = whole ? *whole : step;
-  if (others.add_moments) others.add_moments(among.path);
-  const detail::HangingJudge fall(header_, scenery_, among, others, up_in(step, header_));
-  judgement.hangs = fall.hangs(made, own);
+  judgement.hangs = hanging.hangs(made, own);
   judgement.unsure =
-      judgement.unsure || (others.runs_into && !judgement.hangs && fall.hangs(made, own, detail::Bounds::nominal));
+      judgement.unsure || (turns.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
-                                          fall.hangs(made, detail::exact_reach));
+                                          hanging.hangs(made, detail::exact_reach));
 }
 
-Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool from_turning) {
+Judge::Leaving Judge::leaving_of(const Path& path, const WhatTurns& turns, bool from_turning) {
   Leaving leaving{.inside = true, .turning = from_turning};
   if (path.size() < 2 || path[1].fraction != 0 || from_turning) return leaving;
   const Place& start = path[0];
@@ -606,7 +594,7 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
     const Vec2d ahead = (end - start.position).normalized();
     const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
     return open(end) && open(end + aside) && open(end - aside) && keeps_side(end) &&
-           (!others.left_free || others.left_free(std::vector<PathPoint>{{start.position, 0}, {end, 1}}));
+           (!turns.left_free || turns.left_free(std::vector<PathPoint>{{start.position, 0}, {end, 1}}));
   };
   const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};
   leaving.longer = scenery_.find_free(question, way.norm() - around_way_out, around_way_out, accept).has_value();
@@ -624,24 +612,16 @@ double Judge::turned_out_too_far(const TraceStep& step, const Wanted& wanted) co
 }
 
 /// How far and how fast the step goes at most, and whether it leaves what it begins inside of as it must.
-void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted,
+void Judge::judge_legs(const TraceStep& step, const WhatTurns& turns, const Wanted& wanted,
                        const detail::LaterParts& later, StepJudgement& judgement) const {
   const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
-  const detail::LegJudge legs(header_, scenery_, step, wanted, others, later, held);
+  const detail::LegJudge legs(header_, scenery_, step, wanted, turns, later, held);
   const bool is_known = legs.knows_speeds();
   judgement.unsure = judgement.unsure || !is_known;
   const double way = is_known ? legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0) : 0;
   const double speed = is_known ? legs.speed_gained() : 0;
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
-  const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
-  const auto is_inside_another = [&] {
-    if (!others.near) return false;
-    const bool at_end = step.turn && others.near_at_end;
-    const std::vector<NearPart> parts = at_end ? others.near_at_end(0) : others.near(step.path.back(), 0);
-    return std::any_of(parts.begin(), parts.end(), overlaps);
-  };
-  const bool stays =
-      (held && !judgement.end_overlap.empty()) || (!step.start_overlap_characters.empty() && is_inside_another());
+  const bool stays = held && !judgement.end_overlap.empty();
   judgement.start_mishandled = leaving_.longer || (stays && !says_so) || (held && (way > 0 || speed > 0));
   if (held) return;
   judgement.way_gained = leaving_.turning ? turned_out_too_far(step, wanted) : way;
@@ -654,22 +634,22 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
 }
 
 /// Takes back what all parts of the step together did not want, or what something that turns may have taken.
-void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
+void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const WhatTurns& turns,
                               StepJudgement& judgement) const {
   const auto any_lost = [&] { return judgement.motion_lost > 0 || judgement.ghost_speed_loss > 0; };
-  if (!any_lost() || !(later.any() || others.runs_into)) return;
+  if (!any_lost() || !(later.any() || turns.runs_into)) return;
   const Vec2d up = up_in(step, header_);
   const Vec2d right = right_of(up);
   const double wanted = step.requested.dot(right);
   const double ahead = std::copysign(1.0, wanted);
   const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };
   const double steered = ahead > 0 ? -later.slower : later.faster;
-  const double carried = others.runs_into ? turning_->carries_otherwise(step) : 0;
+  const double carried = turns.runs_into ? turning_->carries_otherwise(step) : 0;
   judgement.motion_lost -= slowed(later.way, later.steered_way(steered)) + carried;
   judgement.ghost_speed_loss -= (slowed(later.velocity, steered) * dt_ + carried) / std::abs(wanted);
   if (!(judgement.motion_lost > rounding_of_loss * std::abs(wanted))) judgement.motion_lost = 0;
   if (!(judgement.ghost_speed_loss > rounding_of_loss)) judgement.ghost_speed_loss = 0;
-  if (!others.runs_into || !any_lost()) return;
+  if (!turns.runs_into || !any_lost()) return;
   using Opposition = detail::TurningJudge::Opposition;
   const double beyond = ahead * (promises_ ? detail::contact_reach : own_reach(header_));
   const double rise = (step.path.back().position - step.path.front().position).dot(up);
@@ -710,17 +690,17 @@ bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
 }
 
 /// Asked once for each place: it costs much, and whoever is stuck mostly stays.
-bool Judge::has_way_out(const Place& at, const Others& others) {
+bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
   if (asked_way_out_) {
     const Kept& asked = asked_way_out_->first;
     const bool same =
-        asked.position == at.position && asked.fraction == at.fraction && !others.left_free &&
+        asked.position == at.position && asked.fraction == at.fraction && !turns.left_free &&
         std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
     if (same) return asked_way_out_->second;
   }
   const std::optional<Vec2d> out = scenery_.way_out(at, detail::farthest_way_out);
   const bool found = out && !ends_on_another_side(at, *out) &&
-                     (!others.left_free || others.left_free(std::vector<PathPoint>{{at.position, 0}, {*out, 1}}));
+                     (!turns.left_free || turns.left_free(std::vector<PathPoint>{{at.position, 0}, {*out, 1}}));
   asked_way_out_.emplace(Kept(at), found);
   return found;
 }

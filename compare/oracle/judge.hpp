@@ -22,7 +22,6 @@ struct ExactContact {
   Side side = Side::bottom;
   Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the octagon.
   double fraction = 0;          ///< Of the step.
-  double touched = 0;           ///< When what was requested, going on from there, touches it [steps].
   /// Met by the requested motion from the start of the step alone: what turns the motion before may prevent it.
   bool foreseen = false;
   bool first = false;  ///< Of those that the requested motion of the step meets before all others, at one time.
@@ -49,7 +48,7 @@ struct StepJudgement {
   std::vector<ColliderIndex> one_way_broken;
   std::vector<ColliderIndex> crushed;            ///< Reported as crushing, and there was no room: see `Judge`.
   std::vector<ColliderIndex> crushed_with_room;  ///< Reported as crushing, although there was room.
-  bool excused_crush = false;                    ///< Some of `crushed` had room, and touched another character.
+  bool excused_crush = false;                    ///< Some of `crushed` had room, beside another character.
   std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
   /// Over the reported contacts: the smallest exact separation at any corner of the way [m].
@@ -63,10 +62,6 @@ struct StepJudgement {
   std::vector<std::pair<ColliderIndex, Side>> deflected;
   /// Reported contacts that are no farther than 1e-6 m, and met by the requested motion only after this step.
   std::vector<std::pair<ColliderIndex, Side>> ahead;
-  /// Reported contacts along whose normal a face is there to be touched; asked among several characters.
-  std::vector<std::pair<ColliderIndex, Side>> faced;
-  /// Not confirmed because another character was touched.
-  std::vector<ColliderIndex> excused_by_company;
   std::optional<double> normal_error;  ///< Largest over the reported contacts that are exact [degrees].
   /// Reported contacts with a don't-care collider on a side where no face stands out: wrong all the same.
   std::vector<std::pair<ColliderIndex, Side>> ghosts;
@@ -124,7 +119,7 @@ struct StepJudgement {
   std::vector<ColliderIndex> methods_disagree{};
   /// Of a contact with what turns, where it began: how far the reported fraction is from the first touch [steps].
   std::optional<double> turning_toi_error{};
-  std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
+  bool beside_another = false;  ///< Another that goes at the same time is near: see `Judge`.
 
   /// The step entered a solid or another character, passed one, or passed a one-way chain against its normal.
   [[nodiscard]] bool broke() const {
@@ -162,9 +157,7 @@ struct StepJudgement {
 ///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
 ///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side
 ///   there is no room;
-/// - and, among several characters, whose whole way meets none of the others on theirs, nor ends within 1e-7 m of one.
-/// Who touched another during the step may be excused with room, too (exempted): what one does to the other is handled
-/// impact by impact, and may hide room that is there for both together. `room` says where it was.
+/// Who is beside another that goes at the same time may have no room (exempted). `room` says where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
 /// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
@@ -210,15 +203,15 @@ struct StepJudgement {
 /// has who gives way to a mover from the start of the step, or who goes in parts of the step, as what turns does.
 ///
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
-/// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the
+/// enter no solid that is within 1e-6 m (separation along the best axis) of a corner of the
 /// travelled way: of each convex part, those against none of the normals of one face that separates it there, relative
 /// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it, from there or from
 /// where the leg began that ended there.) The projection of
 /// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
-/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers and other
-/// characters two more things must hold, as what moves may touch for a part of the step only:
-/// - Leg by leg it could have fallen twice as far, too. Where another character turns a leg begins as well. The rate of
-///   a leg is that of the projection onto C of its first corner, of its last, or of both, whichever falls least, and no
+/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers two more
+/// things must hold, as what moves may touch for a part of the step only:
+/// - Leg by leg it could have fallen twice as far, too. The rate of a leg is that of the projection onto C of its first
+/// corner, of its last, or of both, whichever falls least, and no
 ///   more than that of the leg before: what takes momentum takes it for the rest of the step.
 /// - No mover that does not touch the octagon at a corner runs into it from there, whether it stays or goes on as
 ///   requested: a character may give way instead.
@@ -239,21 +232,19 @@ struct StepJudgement {
 ///
 /// **Start inside.** A step that begins inside of solids leaves them at once, in its first leg, which takes no time. No
 /// straight way out is shorter by more than 1e-6 m, ends with a gap of 1e-6 m to everything, passes no rim of what it
-/// leaves nearer than 2e-7 m, leaves the other
-/// characters free, and keeps to the side of the last free place. Else the step is held: it ends free of them, or says
-/// that it is stuck or crushed, and neither its way nor its velocity at the end is more than what moves near by gives
-/// it (`detail::LegJudge`). Of what turns only the latter is asked of a step that says it is stuck. Of other
-/// characters: it ends free of them, or says so.
+/// leaves nearer than 2e-7 m, and keeps to the side of the last free place. Else the step is held: it ends free of
+/// them, or says that it is stuck or crushed, and neither its way nor its velocity at the end is more than what moves
+/// near by gives it (`detail::LegJudge`). Of what turns only the latter is asked of a step that says it is stuck.
 ///
 /// **Stuck, refuted.** A step that says it is stuck is refuted if it begins and ends free, or if the shortest straight
-/// way out (`ExactScenery::way_out`) leaves the other characters free and ends on the side of the last place that was
-/// free of what it is inside of. The way is asked for where the step begins, as things are then: what moves may open
-/// one later. Of a step that begins free and ends inside it is asked for where it ends.
+/// way out (`ExactScenery::way_out`) ends on the side of the last place that was free of what it is inside of. The way
+/// is asked for where the step begins, as things are then: what moves may open one later. Of a step that begins free
+/// and ends inside it is asked for where it ends.
 ///
-/// **Ground, refuted.** A step that says it is grounded is refuted if at its end it overlaps nothing, and no solid and
-/// no other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises
-/// nothing: and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
-/// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
+/// **Ground, refuted.** A step that says it is grounded is refuted if at its end it overlaps nothing, and no solid has
+/// a face that looks upwards within the contender's reach (`detail::reach_of`; who promises nothing: and rounding).
+/// Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D reads its contacts before
+/// it moves the bodies, and the article's techniques go on after they have met the ground.
 ///
 /// **In parts.** A step that goes in parts, as what turns near it does, wants another motion in each: see `LaterParts`.
 /// What is asked of its progress is asked for all of them together. What was requested is what the first of them wants:
@@ -270,17 +261,21 @@ struct StepJudgement {
 /// double: 1e-6 m; Box2D: 20 mm), from any corner of the path. No more is lost than steering in the slowest way leaves
 /// of a step in parts. What is lost where something that turns may oppose the motion (`TurningJudge::opposes`), or no
 /// more than by what a touched one may come farther than its nearest point, is `unsure` (exempted).
+///
+/// **Beside another** character that goes at the same time: that one may have turned the motion aside, held or pushed
+/// it. Contacts that are only reported, or only exact, count neither way (exempted). Nor do the first impact, lost way
+/// and speed, falls, ground, room and ways out.
 class Judge {
  public:
   /// @param like of another character of the same run: both ask the same exact sceneries.
   explicit Judge(const TraceHeader& header, const Judge* like = nullptr);
   ~Judge();
   Judge(Judge&&) = delete;
-  /// @param others of a run with several characters: nobody has room where they are or go through.
   /// @param wanted what the step was asked for, as `requested` of the step has it: then what the step says of its end
   /// is
   ///   judged, too.
-  [[nodiscard]] StepJudgement judge(const TraceStep& step, const Others& others = {}, const Wanted* wanted = nullptr);
+  /// @param beside_another see `CompanyJudge::is_beside_another`.
+  [[nodiscard]] StepJudgement judge(const TraceStep& step, const Wanted* wanted = nullptr, bool beside_another = false);
   /// The solids that the octagon overlaps where a step begins, in order.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
   /// What turns is no solid there.
@@ -318,19 +313,18 @@ class Judge {
   /// A step of a run in which something turns.
   struct AmongTurning {
     const TraceStep& step;
-    const Others& characters;
     bool begins_inside = false;  ///< Of something that turns.
   };
-  /// @param step,others if something turns: without contacts and the like of that, and with what it means.
-  [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
-                                         const AmongTurning* turning = nullptr);
+  /// @param step if something turns: without contacts and the like of that. @param turns what it means.
+  [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted,
+                                         bool beside_another, const AmongTurning* turning = nullptr);
   [[nodiscard]] double turned_out_too_far(const TraceStep& step, const Wanted& wanted) const;
-  [[nodiscard]] Others with_turning(const TraceStep& step, const Others& characters) const;
-  [[nodiscard]] bool is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning,
+  [[nodiscard]] WhatTurns what_turns(const TraceStep& step) const;
+  [[nodiscard]] bool is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning,
                                       bool in_turning);
   void leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const;
   void add_deflected(const TraceStep& step, StepJudgement& judgement) const;
-  void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
+  void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const WhatTurns& turns,
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
@@ -339,11 +333,10 @@ class Judge {
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
   void begin_episodes(const Place& start);
   void begin_with_bodies(const Place& start);
-  [[nodiscard]] bool is_body(ColliderIndex collider) const;
   void leave_bodies_out(StepJudgement& judgement) const;
   /// Whether no solid is near enough to matter.
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
-  void judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement);
+  void judge_way(const Path& path, const TraceStep& step, const WhatTurns& turns, StepJudgement& judgement);
   void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
   [[nodiscard]] bool is_said_as_crush(const Place& end, ColliderIndex collider, const StepJudgement& judgement) const;
   [[nodiscard]] bool went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const;
@@ -351,14 +344,14 @@ class Judge {
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
   [[nodiscard]] double way_past(const Path& path, ColliderIndex collider) const;
-  void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
+  void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const WhatTurns& turns,
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
   void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
+  void judge_progress(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted, bool starts_free,
                       StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
-  void judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted, const detail::LaterParts& later,
+  void judge_legs(const TraceStep& step, const WhatTurns& turns, const Wanted& wanted, const detail::LaterParts& later,
                   StepJudgement& judgement) const;
   /// How a step that begins inside of solids leaves them.
   struct Leaving {
@@ -368,9 +361,9 @@ class Judge {
     bool longer = false;   ///< And there is a shorter way.
     bool turning = false;  ///< Something that turns is among them.
   };
-  [[nodiscard]] Leaving leaving_of(const Path& path, const Others& others, bool from_turning);
+  [[nodiscard]] Leaving leaving_of(const Path& path, const WhatTurns& turns, bool from_turning);
   [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
-  [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
+  [[nodiscard]] bool has_way_out(const Place& at, const WhatTurns& turns);
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;

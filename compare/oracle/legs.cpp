@@ -35,11 +35,11 @@ bool comes_against(const MetSurface& at) { return at.velocity.dot(at.normal) + a
 
 }  // namespace
 
-std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
+std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const WhatTurns& turns,
                                  std::size_t corner, double within) {
   std::vector<NearPart> parts = scenery.near_parts(Place(step.path[corner], step.movers), within);
-  if (others.near)
-    for (NearPart& other : others.near(step.path[corner], within)) parts.push_back(std::move(other));
+  if (turns.near)
+    for (NearPart& part : turns.near(step.path[corner], within)) parts.push_back(std::move(part));
   return parts;
 }
 
@@ -49,8 +49,8 @@ double depth_in(std::span<const NearPart> parts) {
   return depth;
 }
 
-int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
-                   const Wanted& wanted) {
+int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
+                   const WhatTurns& turns, const Wanted& wanted) {
   const double highest = header.character.step_height + contact_reach;
   if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped || !step.grounded) return 0;
   const Vec2d up = up_in(step, header);
@@ -59,7 +59,7 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
     return face.normal.dot(walk - part.moved) < 0 && !is_walked_on(face.normal, header, up);
   };
   const auto is_stopped = [&](std::size_t corner) {
-    const std::vector<NearPart> parts = parts_near(scenery, step, others, corner, contact_reach);
+    const std::vector<NearPart> parts = parts_near(scenery, step, turns, corner, contact_reach);
     return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
       return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) { return stops(part, face); });
     });
@@ -79,19 +79,19 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
 }
 
 LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
-                   const Others& others, const LaterParts& later, bool held)
+                   const WhatTurns& turns, const LaterParts& later, bool held)
     : header_(header),
       scenery_(scenery),
       step_(step),
       first_(wanted),
       wanted_(later.whole(wanted)),
-      others_(others),
+      turns_(turns),
       later_(later),
       up_(up_in(step, header)),
       right_(right_of(up_)),
       dt_(length_of(step, header)),
       held_(held),
-      stairs_(stairs_climbed(header, scenery, step, others, wanted)),
+      stairs_(stairs_climbed(header, scenery, step, turns, wanted)),
       surfaces_(near_surfaces()),
       speeds_(velocities(surfaces_, Vec2d::Zero())) {}
 
@@ -130,38 +130,25 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
     if (!is_known) surfaces.push_back(at);
   };
   const auto mover_of = [this](ColliderIndex collider) { return header_.scenery.colliders[collider].mover; };
-  std::optional<double> handed_on;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {
-      const bool is_character = part.collider == no_collider;
-      const bool goes_along = !is_character && first_.ridden && mover_of(*first_.ridden) != no_mover &&
-                              mover_of(part.collider) == mover_of(*first_.ridden);
-      if (is_character && !handed_on) handed_on = others_.handed_on ? others_.handed_on() : HUGE_VAL;
-      for (const NearFace& face : part.faces)
-        for (const std::optional<Vec2d>& way : {std::optional(part.moved), part.comes, part.goes}) {
-          if (!way) continue;
-          const Vec2d normal = seen(face.normal, up_);
-          Vec2d velocity = seen(*way, up_) / dt_;
-          // Two that say that they push each other do not vouch for each other.
-          if (is_character && way->norm() > *handed_on) velocity *= *handed_on / way->norm();
-          if (!is_character) velocity += conveyed(header_.scenery.colliders[part.collider], normal);
-          velocity += part.rim / dt_ * Vec2d(-normal.y(), normal.x());
-          const bool is_ground = is_walked_on(face.normal, header_, up_);
-          for (const bool walkable : {true, false}) {
-            // What slopes of a character is ground and wall.
-            if (walkable != is_ground && (walkable || !is_character)) continue;
-            const bool is_overlapped = face.separation < 0;
-            MetSurface at = face_of(part, normal, dt_);
-            at.velocity = is_overlapped || goes_along ? velocity : imparted(velocity, normal, walkable);
-            at.walkable = walkable;
-            at.is_overlapped = is_overlapped;
-            if (!is_character && find_way(step_.vertex_ways, part.collider) != nullptr) {
-              at.turning = header_.scenery.colliders[part.collider].mover;
-              at.stands_at = step_.path[corner].fraction;
-            }
-            add(at);
-          }
+      const bool goes_along =
+          first_.ridden && mover_of(*first_.ridden) != no_mover && mover_of(part.collider) == mover_of(*first_.ridden);
+      for (const NearFace& face : part.faces) {
+        const Vec2d normal = seen(face.normal, up_);
+        Vec2d velocity = seen(part.moved, up_) / dt_;
+        velocity += conveyed(header_.scenery.colliders[part.collider], normal);
+        velocity += part.rim / dt_ * Vec2d(-normal.y(), normal.x());
+        MetSurface at = face_of(part, normal, dt_);
+        at.walkable = is_walked_on(face.normal, header_, up_);
+        at.is_overlapped = face.separation < 0;
+        at.velocity = at.is_overlapped || goes_along ? velocity : imparted(velocity, normal, at.walkable);
+        if (find_way(step_.vertex_ways, part.collider) != nullptr) {
+          at.turning = mover_of(part.collider);
+          at.stands_at = step_.path[corner].fraction;
         }
+        add(at);
+      }
     }
   return surfaces;
 }
@@ -203,43 +190,16 @@ Box2 LegJudge::asked(std::span<const MetSurface> surfaces) const {
   return all;
 }
 
-/// How far all goes in the step that touches the character and moves.
-LegJudge::Pushes LegJudge::pushes() const {
-  std::map<ColliderIndex, double> solids;
-  Pushes pushes;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
-    Box2 of_characters;  // these push along their normals
-    for (const NearPart& part : near(corner, contact_reach)) {
-      double way = part.moved.norm();
-      // One that is pushed itself, late in the step, goes fast for a part of it.
-      for (const std::optional<Vec2d>& own : {part.comes, part.goes})
-        if (own) way = std::max(way, own->norm());
-      if (part.collider != no_collider) {
-        solids[part.collider] =
-            std::max(solids[part.collider], way + part.unsure + std::abs(part.rim) + part.rim_unsure);
-        continue;
-      }
-      Box2 along;
-      for (const NearFace& face : part.faces) {
-        const Vec2d push = way * seen(face.normal, up_);
-        along = along.merged({push, push});
-      }
-      of_characters = {of_characters.lower + along.lower, of_characters.upper + along.upper};
-    }
-    pushes.of_characters = pushes.of_characters.merged(of_characters);
-  }
-  for (const auto& [collider, way] : solids) pushes.of_solids += way;
-  if (others_.handed_on) {
-    const Vec2d most = Vec2d::Constant(others_.handed_on());
-    pushes.of_characters = {pushes.of_characters.lower.cwiseMax(-most), pushes.of_characters.upper.cwiseMin(most)};
-  }
-  return pushes;
-}
-
-/// How far a character may be put aside that begins inside of others [m].
-double LegJudge::thrown() const {
-  if (step_.start_overlap_characters.empty() || !others_.near) return 0;
-  return std::min(push_beyond_motion, most_of_depth * depth_in(others_.near(step_.path.front(), 0)));
+/// How far all goes in the step that touches the character and moves [m].
+double LegJudge::pushes() const {
+  std::map<ColliderIndex, double> ways;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    for (const NearPart& part : near(corner, contact_reach))
+      ways[part.collider] =
+          std::max(ways[part.collider], part.moved.norm() + part.unsure + std::abs(part.rim) + part.rim_unsure);
+  double all = 0;
+  for (const auto& [collider, way] : ways) all += way;
+  return all;
 }
 
 double LegJudge::rounding() const {
@@ -287,9 +247,8 @@ double LegJudge::snapped() const {
 /// How fast what pushes it at once has carried it already [m/s].
 Vec2d LegJudge::own_carrier() const {
   const std::vector<NearPart> parts = near(0, contact_reach);
-  const bool is_there = std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.collider != no_collider && part.moved == first_.carried;
-  });
+  const bool is_there =
+      std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) { return part.moved == first_.carried; });
   return is_there ? Vec2d(first_.carried / dt_) : Vec2d(Vec2d::Zero());
 }
 
@@ -302,14 +261,12 @@ double LegJudge::way_gained(std::size_t first) const {
   const double gained = farther(first, speeds_, {});
   if (!(gained > 0) || !is_pushed()) return gained;
   // Pushed at once, it goes on as if all rested: each motion counts once.
-  const Pushes ways = pushes();
   const Box2 pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
-  const Vec2d most = Vec2d::Constant(ways.of_solids + push_beyond_motion);
+  const Vec2d most = Vec2d::Constant(pushes() + push_beyond_motion);
   const Box2 push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
   std::vector<MetSurface> resting = surfaces_;
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable, .is_overlapped = at.is_overlapped};
-  const Box2 all{push.lower + ways.of_characters.lower, push.upper + ways.of_characters.upper};
-  return farther(first, velocities(resting, own_carrier()), all.inflated(thrown()));
+  return farther(first, velocities(resting, own_carrier()), push);
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push of what comes against it,
@@ -359,20 +316,20 @@ double LegJudge::speed_gained() const {
   return gained <= relative_rounding * (1 + largest) ? 0 : gained;
 }
 
-/// Whether something touches it that comes against it, turns, or is another character: it may move it at once.
+/// Whether something touches it that comes against it, or turns: it may move it at once.
 bool LegJudge::is_moved_at_once() const {
   const auto turns = [](const MetSurface& at) { return at.spread > 0; };
   if (is_pushed() || std::any_of(surfaces_.begin(), surfaces_.end(), turns)) return true;
-  if (!others_.near) return false;
+  if (!turns_.near) return false;
   return std::any_of(step_.path.begin(), step_.path.end(),
-                     [this](const PathPoint& corner) { return !others_.near(corner, contact_reach).empty(); });
+                     [this](const PathPoint& corner) { return !turns_.near(corner, contact_reach).empty(); });
 }
 
 /// Whether nothing but the law of response moves it: it goes in one part, and nothing moves it at once, but for gaps
 /// that are restored, and seams and ground that are followed.
 bool LegJudge::goes_by_law() const {
   const bool in_parts = first_.parts > 1 || later_.any();
-  return !step_.dropped && !in_parts && step_.met.empty() && stairs_ == 0 && !is_moved_at_once();
+  return !step_.dropped && !in_parts && stairs_ == 0 && !is_moved_at_once();
 }
 
 Vec2d LegJudge::crept() const {
@@ -402,9 +359,8 @@ double LegJudge::end_error() const {
   const PathPoint& from = path[end - 1];
   const PathPoint& to = path[end];
   // A contact that is met where the leg ends changes the velocity there. It tells of a moment just after its corner.
-  const auto follows = [&](const auto& met) { return met.fraction - from.fraction > to.fraction - met.fraction; };
+  const auto follows = [&](const Contact& met) { return met.fraction - from.fraction > to.fraction - met.fraction; };
   if (std::any_of(step_.contacts.begin(), step_.contacts.end(), follows)) return 0;
-  if (std::any_of(step_.met.begin(), step_.met.end(), follows)) return 0;
   const Vec2d way = to.position - from.position;
   const double time = (to.fraction - from.fraction) * dt_;
   const double off = (way - step_.velocity * time).norm();

@@ -7,21 +7,21 @@
 
 namespace paperproof::compare::detail {
 
-/// The parts of solids and of other characters within so many metres of a corner of the way.
-[[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
-                                               std::size_t corner, double within);
+/// The parts of solids within so many metres of a corner of the way.
+[[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step,
+                                               const WhatTurns& turns, std::size_t corner, double within);
 
 /// How deep the character is in parts, together [m].
 [[nodiscard]] double depth_in(std::span<const NearPart> parts);
 
-/// Who begins inside of characters, or of what turns, is put aside by at most so many times the depth.
+/// Who begins inside of what turns is put aside by at most so many times the depth.
 inline constexpr double most_of_depth = 4;
 
 /// How many stairs a walk climbs, at most 4: beside a face that stops it, too steep to walk on, a leg goes straight up
 /// by no more than `step_height`, the next one takes no time, and after a third it is farther and higher than it was;
 /// and the step ends on ground.
 [[nodiscard]] int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                                 const Others& others, const Wanted& wanted);
+                                 const WhatTurns& turns, const Wanted& wanted);
 
 /// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
 /// step.
@@ -34,9 +34,7 @@ inline constexpr double most_of_depth = 4;
 /// - Ground that hardly bends is followed by 2.8e-6 m, straight down. A walk follows ground by `snap`.
 /// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
 /// - What moves and touches the character pushes it as far as the law of response has it pushed that wants nothing;
-///   where two surfaces hold it, at most `push_beyond_motion` farther than they go. Other characters push no farther
-///   than they want to go, or hand on (`Others`); who begins inside of some is put aside by no more than 4 times the
-///   depth.
+///   where two surfaces hold it, at most `push_beyond_motion` farther than they go.
 ///
 /// **Direction.** While nothing near comes against it, or turns, each leg leads along the wanted motion, or what the
 /// law of response makes of it at the contacts that the way has come to by then: what is steered into a wall goes
@@ -45,7 +43,7 @@ class LegJudge {
  public:
   /// @param held it is stuck in what it begins inside of, so that it wants to go nowhere.
   LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
-           const Others& others, const LaterParts& later, bool held);
+           const WhatTurns& turns, const LaterParts& later, bool held);
 
   /// Whether it is known how fast all goes that is near: how a disc turns that is no scene's is not in a trace.
   [[nodiscard]] bool knows_speeds() const;
@@ -61,26 +59,21 @@ class LegJudge {
   /// turns there may take it elsewhere by as much as its velocity is not known. Zero where something is met after the
   /// leg has begun, of a stair, a snap, a crush, and a step that drops motion or goes in parts.
   [[nodiscard]] double end_error() const;
-  /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion, climbs a
-  /// stair or meets another character, and beside what pushes or turns.
+  /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion or climbs a
+  /// stair, and beside what pushes or turns.
   [[nodiscard]] double leg_error() const;
 
  private:
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
-    return parts_near(scenery_, step_, others_, corner, within);
+    return parts_near(scenery_, step_, turns_, corner, within);
   }
   [[nodiscard]] ControlledRange wanted_velocities(const Vec2d& carried) const;
   [[nodiscard]] std::vector<MetSurface> near_surfaces() const;
   [[nodiscard]] Box2 velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const;
   [[nodiscard]] Box2 asked(std::span<const MetSurface> surfaces) const;
   [[nodiscard]] double farther(std::size_t first, const Box2& speeds, const Box2& push) const;
-  struct Pushes {
-    double of_solids = 0;  ///< [m]
-    Box2 of_characters{};  ///< Across and along up [m].
-  };
   [[nodiscard]] Vec2d own_carrier() const;
-  [[nodiscard]] Pushes pushes() const;
-  [[nodiscard]] double thrown() const;
+  [[nodiscard]] double pushes() const;
   [[nodiscard]] bool is_moved_at_once() const;
   [[nodiscard]] bool goes_by_law() const;
   [[nodiscard]] double room_at(std::size_t surfaces) const;
@@ -94,7 +87,7 @@ class LegJudge {
   const TraceStep& step_;
   const Wanted& first_;  ///< By the first part of the step.
   const Wanted wanted_;  ///< By all parts of the step, but for what later ones steer.
-  const Others& others_;
+  const WhatTurns& turns_;
   const LaterParts& later_;
   Vec2d up_;
   Vec2d right_;

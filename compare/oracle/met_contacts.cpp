@@ -13,11 +13,9 @@ namespace {
 /// Of one collider and side there may be several normals: two slopes of one polygon.
 void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudgement& judgement,
                  bool foreseen = false) {
-  const double touched = foreseen ? fraction : fraction + static_cast<double>(impact.fraction);
   for (ExactContact& known : judgement.contacts) {
     if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
     known.fraction = std::min(known.fraction, fraction);
-    known.touched = std::min(known.touched, touched);
     known.first = known.first || foreseen;
     known.foreseen = known.foreseen && foreseen;
     return;
@@ -26,7 +24,6 @@ void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudg
                                 .side = side,
                                 .normal = impact.normal,
                                 .fraction = fraction,
-                                .touched = touched,
                                 .foreseen = foreseen,
                                 .first = foreseen});
 }
@@ -50,19 +47,17 @@ std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
   return impacts;
 }
 
-std::vector<Vec2d> ways_left(const Vec2d& motion, const Vec2d& own, double steered, const Vec2d& normal,
-                             const TraceHeader& header, const Vec2d& up) {
-  const Vec2d right = right_of(up);
-  const auto slid = [&](const Vec2d& d) { return Vec2d(d - normal * std::min(0.0, (d - own).dot(normal))); };
-  if (is_walkable(normal, header, up)) {
-    const double across = (motion - own).dot(right);
-    return {slid(motion), own + in_world({across, -across * normal.dot(right) / normal.dot(up)}, up)};
-  }
-  return {slid(motion), slid(motion - steered * right), slid(up * motion.dot(up))};
-}
-
+/// What a contact may leave of the requested motion, by the laws that there are: it slides, without steering or
+/// momentum across up or with it; on ground its part across up goes on along it.
 std::vector<Vec2d> ContactJudge::left_by(ColliderIndex collider, const Vec2d& n) const {
-  return ways_left(step_.requested, step_.requested - wanted(collider), step_.steered, n, header_, up_);
+  const Vec2d& motion = step_.requested;
+  const Vec2d own = motion - wanted(collider);
+  const auto slid = [&](const Vec2d& d) { return Vec2d(d - n * std::min(0.0, (d - own).dot(n))); };
+  if (is_walkable(n, header_, up_)) {
+    const double along = across(motion - own);
+    return {slid(motion), own + in_world({along, -along * n.dot(right_) / n.dot(up_)}, up_)};
+  }
+  return {slid(motion), slid(motion - step_.steered * right_), slid(up_ * motion.dot(up_))};
 }
 
 /// Whether each of some motions from a place enters a collider on the side of a contact.

@@ -98,8 +98,8 @@ bool ExactPair::surely_apart(const Part& one, const Part& other) const {
 
 /// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
 /// point, or the way is a single point that is inside.
-std::optional<PairImpact> ExactPair::inside_on(const Point& start, const Point& end) const {
-  PairImpact first{.fraction = 0};
+bool ExactPair::leads_inside(const Point& start, const Point& end) const {
+  Rational entry = 0;
   Rational exit = 1;
   const bool still = start.x == end.x && start.y == end.y;
   for (const Side& side : sides_) {
@@ -109,22 +109,17 @@ std::optional<PairImpact> ExactPair::inside_on(const Point& start, const Point& 
       // Inside where above zero. What is right of the edge is beyond it.
       const Rational before = start_off * sign + side.reach;
       const Rational after = end_off * sign + side.reach;
-      if (before <= 0 && after <= 0) return std::nullopt;
+      if (before <= 0 && after <= 0) return false;
       if (still) continue;
-      if (before <= 0) {
-        const Rational crossing = before / (before - after);
-        if (first.normal == Vec2d::Zero() || crossing > first.fraction) first = {crossing, sign * side.normal};
-      }
+      if (before <= 0) entry = std::max(entry, Rational(before / (before - after)));
       if (after <= 0) exit = std::min(exit, Rational(before / (before - after)));
     }
   }
-  if (!still && first.fraction >= exit) return std::nullopt;
-  return first;
+  return still || entry < exit;
 }
 
 bool ExactPair::meet_on(const Part& one, const Part& other) const {
-  if (surely_apart(one, other)) return false;
-  return inside_on(one.first() - other.first(), one.last() - other.last()).has_value();
+  return !surely_apart(one, other) && leads_inside(one.first() - other.first(), one.last() - other.last());
 }
 
 bool ExactPair::overlap(const Vec2d& one, const Vec2d& other) const { return meet_between(one, other, one, other); }
@@ -138,18 +133,6 @@ bool ExactPair::meet(Way one, Way other) const {
   return any_part(one, other, [this](const Part& a, const Part& b) { return meet_on(a, b); });
 }
 
-std::optional<PairImpact> ExactPair::first_impact(const Vec2d& one, const Vec2d& one_by, const Vec2d& other,
-                                                  const Vec2d& other_by) const {
-  const Vec2d one_end = one + one_by;
-  const Vec2d other_end = other + other_by;
-  if (surely_apart({{one, 0}, {one_end, 1}, 0, 1}, {{other, 0}, {other_end, 1}, 0, 1})) return std::nullopt;
-  const Point start = exact(one) - exact(other);
-  const Point by = exact(one_by) - exact(other_by);
-  std::optional<PairImpact> impact = inside_on(start, start + by);
-  if (impact && impact->normal == Vec2d::Zero()) return std::nullopt;  // they overlap already
-  return impact;
-}
-
 double ExactPair::separation_of(const Vec2d& difference) const {
   double best = -std::numeric_limits<double>::infinity();
   for (const Side& side : sides_) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
@@ -157,19 +140,6 @@ double ExactPair::separation_of(const Vec2d& difference) const {
 }
 
 double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return separation_of(one - other); }
-
-std::vector<NearFace> ExactPair::near_faces(const Vec2d& one, const Vec2d& other, double within) const {
-  std::vector<NearFace> faces;
-  for (const Side& side : sides_)
-    for (const double sign : {1.0, -1.0})
-      faces.push_back({sign * side.normal.dot(one - other) - side.width, sign * side.normal});
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const NearFace& a, const NearFace& b) { return a.separation > b.separation; });
-  if (faces.front().separation > within) return {};
-  faces.erase(std::find_if(faces.begin() + 1, faces.end(), [](const NearFace& face) { return face.separation < 0; }),
-              faces.end());
-  return faces;
-}
 
 /// On a straight way the separation is convex: there is one deepest place, closed in on by thirds.
 double ExactPair::deepest(Way one, Way other) const {

@@ -16,12 +16,6 @@ namespace paperproof::compare {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// When and where one of two moving characters first touches the other on its way to overlapping it.
-struct PairImpact {
-  Rational fraction;            ///< Of the motion, in [0, 1).
-  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the other towards the one, rounded.
-};
-
 /// Two open convex shapes overlap where no edge of either has the other wholly outside: with one shape twice these are
 /// its edges, looked at from both sides. Every double is the rational it is, places between two corners of a way are
 /// exact, and nothing is shared with the controller. What doubles show to be far apart is decided there, with a margin
@@ -42,15 +36,8 @@ class ExactPair {
   /// @param one,other from fraction 0 to 1.
   [[nodiscard]] bool meet(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 
-  /// The first touch of two straight motions that take the whole step; none where they do not come to overlap, or do
-  /// already.
-  [[nodiscard]] std::optional<PairImpact> first_impact(const Vec2d& one, const Vec2d& one_by, const Vec2d& other,
-                                                       const Vec2d& other_by) const;
-
   /// Along the best axis, rounded [m]; negative: how deep they overlap.
   [[nodiscard]] double separation(const Vec2d& one, const Vec2d& other) const;
-  /// The sides along which `one` is apart from `other`, as of a `NearPart`; none where they are farther than `within`.
-  [[nodiscard]] std::vector<NearFace> near_faces(const Vec2d& one, const Vec2d& other, double within) const;
 
   /// The largest depth at any moment of two ways, rounded [m]; 0 where they do not overlap.
   [[nodiscard]] double deepest(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
@@ -86,9 +73,8 @@ class ExactPair {
   [[nodiscard]] static Point exact(const Vec2d& v) { return {Rational(v.x()), Rational(v.y())}; }
   [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const;
   [[nodiscard]] bool meet_on(const Part& one, const Part& other) const;
-  /// The way of the difference of the two, from start to end. None where it never leads inside; the normal and the
-  /// fraction of an entry that is no start.
-  [[nodiscard]] std::optional<PairImpact> inside_on(const Point& start, const Point& end) const;
+  /// Whether the way of the difference of the two, from start to end, leads inside.
+  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const;
   [[nodiscard]] double separation_of(const Vec2d& difference) const;
 
   std::vector<Side> sides_;

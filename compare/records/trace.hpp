@@ -110,6 +110,7 @@ struct TraceHeader {
   /// So many of the last colliders are the bodies of characters, and as many of the last movers theirs: only where a
   /// turn of one of them is judged.
   std::size_t bodies = 0;
+  [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider + bodies >= scenery.colliders.size(); }
   std::vector<std::string> ids;        ///< One per collider.
   std::vector<bool> turning;           ///< By mover; empty where none turns.
   std::string box2d;                   ///< Version of the Box2D in use.

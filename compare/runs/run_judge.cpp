@@ -26,8 +26,6 @@ constexpr double rounding_of_normal = 1e-3;
 constexpr double rounding_of_unit = 1e-6;
 /// Cosine of the angle between two normals of one face that is round.
 constexpr double same_face = 0.9;
-/// What two records of one normal may be apart.
-constexpr double same_normal = 1e-6;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
@@ -66,11 +64,9 @@ bool is_point_of(const TraceStep& record, const Contact& contact, std::span<cons
 
 /// Whether it says that it has met two surfaces that face different ways.
 bool is_between(const TraceStep& record) {
-  std::vector<Vec2d> normals;
-  for (const Contact& contact : record.contacts) normals.push_back(contact.normal);
-  for (const CrowdContact& met : record.met) normals.push_back(met.normal);
-  return std::any_of(normals.begin(), normals.end(),
-                     [&](const Vec2d& normal) { return normal.dot(normals.front()) < same_face; });
+  return std::any_of(record.contacts.begin(), record.contacts.end(), [&](const Contact& contact) {
+    return contact.normal.dot(record.contacts.front().normal) < same_face;
+  });
 }
 
 /// How many corners its way has that are not where the one before is.
@@ -87,18 +83,6 @@ bool has_face(std::span<const NearPart> parts, const Contact& contact) {
            std::any_of(part.faces.begin(), part.faces.end(),
                        [&](const NearFace& face) { return face.normal.dot(contact.normal) > same_face; });
   });
-}
-
-/// Where it is at a fraction of the step.
-PathPoint place_at(const TraceStep& record, double fraction) {
-  if (record.path.size() == 1) return {record.path.front().position, fraction};
-  std::size_t next = 1;
-  while (next + 1 < record.path.size() && record.path[next].fraction < fraction) ++next;
-  const PathPoint& from = record.path[next - 1];
-  const PathPoint& to = record.path[next];
-  const double length = to.fraction - from.fraction;
-  const double share = length > 0 ? std::clamp((fraction - from.fraction) / length, 0.0, 1.0) : 1;
-  return {from.position + share * (to.position - from.position), fraction};
 }
 
 bool moves(const MoverMotion& motion) { return motion.from != motion.to; }
@@ -127,20 +111,14 @@ bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) 
   return !company_ || company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
 }
 
-/// Whether no other character is within so many metres at a corner of the way.
-bool RunJudge::is_apart(const TraceStep& record, const Others& others, double within) {
-  return !others.near || std::all_of(record.path.begin(), record.path.end(),
-                                     [&](const PathPoint& at) { return others.near(at, within).empty(); });
-}
-
 /// Whether another character is near that goes in its turn, or went since the one before.
 bool RunJudge::is_beside_another(const TraceStep& turn, const Follower& follower) const {
   const std::vector<ColliderIndex> near =
       scenery().near(Place(turn.path.front(), turn.movers), Place(turn.path.back(), turn.movers), beside);
   return std::any_of(near.begin(), near.end(), [&](ColliderIndex collider) {
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
-    return in_turns_->is_body(collider) && (moves(turn.movers[mover]) || follower.last.empty() ||
-                                            turn.movers[mover].from != follower.last.back().movers[mover].to);
+    return header_.is_body(collider) && (moves(turn.movers[mover]) || follower.last.empty() ||
+                                         turn.movers[mover].from != follower.last.back().movers[mover].to);
   });
 }
 
@@ -184,7 +162,7 @@ void RunJudge::add(std::span<TraceStep> all) {
     record.start_overlap = all[k].start_overlap = follower.inside;
     if (in_turns_)
       for (const ColliderIndex collider : scenery().overlapped({record.path.front(), record.movers}))
-        if (in_turns_->is_body(collider)) record.start_overlap.push_back(collider);
+        if (header_.is_body(collider)) record.start_overlap.push_back(collider);
     if (company_)
       all[k].start_overlap_characters = record.start_overlap_characters =
           company_->overlapped(starts, record.character);
@@ -208,12 +186,10 @@ void RunJudge::add(std::span<TraceStep> all) {
     asked[k].dropped = record.dropped && gives_up;
   }
   for (std::size_t k = 0; k < records.size(); ++k) {
-    const Others others = company_ && !in_turns_ ? company_->others_of(asked[k].character, asked) : Others{};
-    const bool is_alone = in_turns_ ? !is_beside_another(asked[k], followers_[k])
-                                    : is_apart(asked[k], others, beside + others.longest_way);
+    const bool beside_another = company_ && company_->is_beside_another(asked[k], asked);
+    const bool is_alone = in_turns_ ? !is_beside_another(asked[k], followers_[k]) : !beside_another;
     followers_[k].steps_alone = is_alone ? followers_[k].steps_alone + 1 : 0;
-    followers_[k].touches_nobody = is_alone || is_apart(asked[k], others, guaranteed_gap);
-    judgements_[k] = followers_[k].judge->judge(asked[k], others, &followers_[k].wanted);
+    judgements_[k] = followers_[k].judge->judge(asked[k], &followers_[k].wanted, beside_another);
   }
   if (steps_ == 0) note_begin(asked);
   if (company_) company_->judge(in_turns_ ? all : std::span<TraceStep>(asked), judgements_);
@@ -230,14 +206,14 @@ void RunJudge::add(std::span<TraceStep> all) {
     } else {
       const SolidsInStep there(header_, scenery(), asked[k]);
       judge_velocity(there, judgements_[k], follower);  // says more than that a bound is broken
-      judge_clauses(asked[k], judgements_[k], asked);
+      judge_clauses(asked[k], judgements_[k]);
       judge_drops(records[k]);
-      judge_met(asked[k], asked);
+      judge_met(all[k]);
       judge_rest(asked[k], follower);
       judge_standing(asked[k], follower);
       judge_creeping(asked[k], judgements_[k], follower);
-      judge_ride(asked[k], follower);
-      judge_carrier(there, follower);
+      if (!judgements_[k].beside_another) judge_ride(asked[k], follower);
+      if (!judgements_[k].beside_another) judge_carrier(there, follower);
     }
     if (in_turns_) leave_bodies_out(judgements_[k]);
     follower.inside = judgements_[k].end_overlap;
@@ -273,12 +249,11 @@ void RunJudge::judge_carrying(std::span<const TraceStep> records) {
 
 /// Others ask of what the scene has.
 void RunJudge::leave_bodies_out(StepJudgement& judgement) const {
-  const auto is_body = [this](ColliderIndex collider) { return in_turns_->is_body(collider); };
+  const auto is_body = [this](ColliderIndex collider) { return header_.is_body(collider); };
   const auto of_body = [&](const auto& touch) { return is_body(touch.first); };
   for (std::vector<ColliderIndex>* found : {&judgement.end_overlap, &judgement.dont_care, &judgement.contact_band})
     std::erase_if(*found, is_body);
-  for (std::vector<std::pair<ColliderIndex, Side>>* found :
-       {&judgement.deflected, &judgement.ahead, &judgement.faced, &judgement.ghosts})
+  for (std::vector<std::pair<ColliderIndex, Side>>* found : {&judgement.deflected, &judgement.ahead, &judgement.ghosts})
     std::erase_if(*found, of_body);
   std::erase_if(judgement.contacts, [&](const ExactContact& contact) { return is_body(contact.collider); });
 }
@@ -447,9 +422,7 @@ void RunJudge::judge_creeping(const TraceStep& record, const StepJudgement& judg
 bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const {
   const bool is_kept =
       !follower.last.empty() && !record.grounded && follower.last.back().ground_velocity == record.ground_velocity;
-  if (record.ground_velocity.isZero(0) || is_kept || !follower.touches_nobody || record.respawn ||
-      is_beside_what_turns(record))
-    return false;
+  if (record.ground_velocity.isZero(0) || is_kept || record.respawn || is_beside_what_turns(record)) return false;
   return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint& at) {
     const std::vector<NearPart> parts = scenery().near_parts(Place(at, record.movers), guaranteed_gap);
     return std::any_of(parts.begin(), parts.end(), [this](const NearPart& part) { return moves_or_conveys(part); });
@@ -463,9 +436,9 @@ bool RunJudge::moves_or_conveys(const NearPart& part) const {
 /// Whether the step goes on ground that moves or conveys, and on no other, all along, and is held there by gravity.
 bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follower) const {
   const bool goes_on = !follower.last.empty() && !record.respawn && !record.from && follower.last.back().grounded;
-  const bool plain = record.grounded && record.met.empty() && record.start_overlap.empty() && record.crushed.empty() &&
-                     !record.stuck && !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
-                     !is_beside_what_turns(record) && header_.substeps == 1 && follower.touches_nobody;
+  const bool plain = record.grounded && record.start_overlap.empty() && record.crushed.empty() && !record.stuck &&
+                     !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
+                     !is_beside_what_turns(record) && header_.substeps == 1;
   if (!goes_on || !plain) return false;
   const Vec2d up = up_in(record, header_);
   if (!(gravity_in(record, header_).dot(up) < 0)) return false;
@@ -528,7 +501,7 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
   const MoverMotion& motion = record.movers[ground.mover];
   const Vec2d up = up_in(record, header_);
   const Vec2d own = follower.wanted.displacement - (motion.to - motion.from);
-  const bool stays = std::abs(own.dot(right_of(up))) == 0 && own.dot(up) <= 0 && record.met.empty() &&
+  const bool stays = std::abs(own.dot(right_of(up))) == 0 && own.dot(up) <= 0 &&
                      std::all_of(record.contacts.begin(), record.contacts.end(),
                                  [&](const Contact& contact) { return contact.collider == record.ride->collider; });
   if (!stays || follower.last.size() < 2) return;
@@ -564,15 +537,15 @@ void RunJudge::judge_movers(std::span<TraceStep> records) {
 
 /// Whether a contact was met when it says so: the first one where the exact motion meets it, and each where the way
 /// comes to it.
-void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records) {
-  if (record.contacts.empty() || !record.start_overlap.empty()) return;
+void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
+  if (judged.beside_another || record.contacts.empty() || !record.start_overlap.empty()) return;
   const auto check = [&](const Contact& contact, double off, double allowed) {
     if (off > allowed && off < std::numeric_limits<double>::infinity())
       note(Clause::time_of_impact, record,
            fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
                        header_.ids[contact.collider], contact.fraction, metres(off)));
   };
-  if (judged.first_impact && judged.first_approach && !judged.first_met && record.met.empty()) {
+  if (judged.first_impact && judged.first_approach) {
     const auto first = std::min_element(record.contacts.begin(), record.contacts.end(),
                                         [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
     const bool is_exact = std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
@@ -588,7 +561,7 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
   const bool in_parts = parts_of(record.vertex_ways) > 1;
   for (const Contact& contact : record.contacts) {
     if (in_parts || !turning.turns(contact.collider) || !judged.end_overlap.empty()) continue;
-    std::vector<PathPoint> then{place_at(record, contact.fraction)};
+    std::vector<PathPoint> then{{place_at(record.path, contact.fraction), contact.fraction}};
     std::copy_if(record.path.begin(), record.path.end(), std::back_inserter(then),
                  [&](const PathPoint& corner) { return corner.fraction == contact.fraction; });
     const bool is_there = std::any_of(then.begin(), then.end(), [&](const PathPoint& at) {
@@ -633,15 +606,9 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
       const PathPoint& begin = waited ? corner : record.path[i - 1];
       const Vec2d pace =
           waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
-      // A way that others leave, and that runs along the face, comes to it at no time.
-      const auto look = [&](const Vec2d& goes, double least) {
-        if (const double approach = (carried - goes).dot(contact.normal); approach > least * (carried - goes).norm())
-          off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
-      };
-      look(pace, same_speed);
-      if (company_ && !in_turns_)
-        for (const Vec2d& goes : company_->ways_at(record, records, corner.fraction))
-          look(goes, detail::least_approach);
+      const double approach = (carried - pace).dot(contact.normal);
+      if (approach > same_speed * (carried - pace).norm())
+        off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
       // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
       // reports.
       const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
@@ -682,41 +649,11 @@ void RunJudge::judge_drops(const TraceStep& record) {
   }
 }
 
-/// Two that met were there at that time, with a face of that normal, and each says the same of it; in turns the other
-/// need not. Who must have met another says so.
-void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
-  for (const CrowdContact& met : record.met) {
-    if (met.other >= records.size() || met.other == record.character) {
+/// Who is met is another one. In turns the rest is asked of the contact with its body: see `InTurns`.
+void RunJudge::judge_met(const TraceStep& record) {
+  for (const CrowdContact& met : record.met)
+    if (met.other >= followers_.size() || met.other == record.character)
       note(Clause::contact_invented, record, fmt::format("met character {}, which is no other one", met.other));
-      continue;
-    }
-    const TraceStep& other = records[met.other];
-    const bool agreed = record.turn || std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact& its) {
-                          return its.other == record.character && its.fraction == met.fraction &&
-                                 (its.normal + met.normal).norm() <= same_normal;
-                        });
-    if (!agreed)
-      note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
-    if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
-      note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
-    const double nearest = company_->nearest(record, other);
-    const double off = company_->off_at(record, other, met, records);
-    if (nearest > guaranteed_gap)
-      note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(nearest)));
-    else if (off > 2 * guaranteed_gap)
-      note(Clause::time_of_impact, record,
-           fmt::format("says it met character {} at {:.6g} of the step, and that is {} off along the normal", met.other,
-                       met.fraction, metres(off)));
-    else if (!company_->has_face(record, other, met.normal))
-      note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
-  }
-  if (!company_ || in_turns_) return;
-  for (const TraceStep& other : records) {
-    const bool says = std::any_of(record.met.begin(), record.met.end(),
-                                  [&](const CrowdContact& met) { return met.other == other.character; });
-    if (!says && other.character != record.character && company_->must_meet(record, other))
-      note(Clause::contact_missed, record, fmt::format("met character {}, and does not say so", other.character));
-  }
 }
 
 void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
@@ -725,7 +662,7 @@ void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
     note(Clause::start_inside, judged, "says that it begins inside of other things than it does");
 }
 
-void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records) {
+void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged) {
   const auto name = [&](const std::vector<ColliderIndex>& colliders) {
     return colliders.empty() ? std::string("another character") : "`" + header_.ids[colliders.front()] + "`";
   };
@@ -787,7 +724,7 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
-  judge_times(record, judged, records);
+  judge_times(record, judged);
   judge_places(record, judged);
 }
 
@@ -807,7 +744,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
              "has a contact with `" + header_.ids[contact.collider] + "` in a point that it does not come to");
       continue;
     }
-    if (in_turns_ && in_turns_->is_body(contact.collider)) continue;  // a meeting has no point
+    if (header_.is_body(contact.collider)) continue;  // a meeting has no point
     if (const std::optional<PlaceFault> fault = place_fault(header_, record, contact))
       note(fault->clause, record, fault->words);
   }
@@ -815,7 +752,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
     const auto is_it = [&](const Contact& one) { return one.collider == exact.collider && one.side == exact.side; };
     const auto on_side = [&](const Contact& one) { return one.side == exact.side; };
     // Of a side where none is reported the metrics tell.
-    if (exact.first && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
+    if (exact.first && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
         std::none_of(record.contacts.begin(), record.contacts.end(), is_it))
       note(Clause::contact_missed, record,
            fmt::format("does not report a contact: `{}`, {}", header_.ids[exact.collider], name_of(exact.side)));
@@ -830,13 +767,12 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const bool crushed =
       !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
-                       record.dropped || header_.substeps > 1 || wanted.parts > 1;
+                       record.dropped || header_.substeps > 1 || wanted.parts > 1 || judged.beside_another;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
   if (detail::stairs_climbed(header_, scenery(), record, {}, wanted) > 0) {
     const double changed = (record.velocity - wanted.velocity).dot(right_of(up));
-    const bool is_pushed = !record.met.empty() || !stands(record);
-    if (!is_pushed && std::abs(changed) > same_speed * (1 + wanted.velocity.norm()))
+    if (stands(record) && std::abs(changed) > same_speed * (1 + wanted.velocity.norm()))
       note(Clause::velocity, record, fmt::format("climbs a stair, which changes its speed by {:.3g} m/s", changed));
     return;
   }
@@ -845,13 +781,13 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks, wanted.stays_on());
-  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step, nor has
-  // the ground that is left one velocity: there only its size is judged.
+  // What turns has no one normal in a step, nor has the ground that is left one velocity: there only its size is
+  // judged.
   const auto turns = [](const MetSurface& at) { return at.spread > hardly_turns; };
   const std::optional<TraceRide> carrier = record.from             ? record.from->ride
                                            : follower.last.empty() ? std::nullopt
                                                                    : follower.last.back().ride;
-  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(), turns) ||
+  const bool is_bounded_only = std::any_of(surfaces.begin(), surfaces.end(), turns) ||
                                (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
   if (is_bounded_only) return;
   if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);

@@ -54,13 +54,11 @@ class RunJudge {
     std::vector<TraceStep> last{};        ///< Two steps, the earlier one first; none before the first step.
     std::vector<Wanted> last_wanted{};
     bool begins = true;               ///< The next step does not continue one.
-    bool touches_nobody = true;       ///< Of the other characters, in the present step.
     int steps_alone = 0;              ///< So many in a row no other character has come near it.
     std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
     Vec2d crept{Vec2d::Zero()};       ///< Over its steps, less a share of its way: see `StepJudgement::crept` [m].
   };
 
-  [[nodiscard]] static bool is_apart(const TraceStep& record, const Others& others, double within);
   void note(Clause clause, const TraceStep& record, const std::string& what);
   void note_begin(const std::vector<TraceStep>& records);
   void judge_course(const TraceStep& record, Follower& follower);
@@ -73,13 +71,13 @@ class RunJudge {
   [[nodiscard]] bool is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const;
   [[nodiscard]] bool is_carried_unsaid(const TraceStep& record, const Follower& follower) const;
   [[nodiscard]] bool moves_or_conveys(const NearPart& part) const;
-  void judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
+  void judge_clauses(const TraceStep& record, const StepJudgement& judged);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(std::span<TraceStep> records);
-  void judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
+  void judge_times(const TraceStep& record, const StepJudgement& judged);
   void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
-  void judge_met(const TraceStep& record, std::span<const TraceStep> records);
+  void judge_met(const TraceStep& record);
   [[nodiscard]] bool is_beside_what_turns(const TraceStep& record) const;
   [[nodiscard]] bool stands(const TraceStep& record) const;
   [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;

@@ -1,5 +1,4 @@
 #include "compare/judge_steps.hpp"
-#include "oracle/company.hpp"
 
 #include <gtest/gtest.h>
 
@@ -232,29 +231,14 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   EXPECT_NEAR(with_room, 0.55 * rounds, 0.25 * rounds);
 }
 
-/// Pressed to the right by the face, with another character at some place all the time.
-StepJudgement pressed_beside(const Vec2d& other, bool promises = true) {
-  const TraceHeader two = promises ? promising({face()}) : header({face()});
-  std::vector<TraceStep> steps{step_of({{here, here}, {here, {0.4, 0}}, {0}}),
-                               step_of({{other, other}, {here, {0.4, 0}}, {}})};
-  steps[1].character = 1;
-  return Judge(two).judge(steps[0], CompanyJudge(two).others_of(0, steps));
-}
-
-TEST(JudgeCrush, where_another_character_is_there_is_no_room) {
-  for (const double more : {-0.1, -1e-3, 0.0, 1.9e-7, 2.1e-7, 1e-3, 0.1})
-    EXPECT_EQ(told(pressed_beside({-0.1 + 3 * half_width + more, 0})), more > 2e-7 ? refuted_0 : excused_0) << more;
-}
-
-TEST(JudgeCrush, who_touched_another_is_excused_with_room_unless_it_promises) {
-  const StepJudgement touched = pressed_beside({0, 1.25 + gap}, false);
-  EXPECT_EQ(told(touched), excused_0);
-  EXPECT_TRUE(touched.excused_crush);
-  EXPECT_TRUE(touched.room);
-  const StepJudgement alone = pressed_beside({0, 1.25 + 0.01}, false);
-  EXPECT_EQ(told(alone), refuted_0);
-  EXPECT_FALSE(alone.excused_crush);
-  EXPECT_EQ(told(pressed_beside({0, 1.25 + gap})), refuted_0);
+TEST(JudgeCrush, who_is_beside_another_is_excused_with_room) {
+  for (const bool beside : {false, true}) {
+    const StepJudgement one =
+        Judge(header({face()})).judge(step_of({{here, here}, {here, {0.4, 0}}, {0}}), nullptr, beside);
+    EXPECT_EQ(told(one), beside ? excused_0 : refuted_0);
+    EXPECT_EQ(one.excused_crush, beside);
+    EXPECT_TRUE(one.room);
+  }
 }
 
 }  // namespace

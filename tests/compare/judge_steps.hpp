@@ -66,7 +66,7 @@ inline Wanted wanting(const Vec2d& displacement) {
 
 inline StepJudgement judged(const TraceHeader& header, const TraceStep& step) { return Judge(header).judge(step); }
 inline StepJudgement judged(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
-  return Judge(header).judge(step, {}, &wanted);
+  return Judge(header).judge(step, &wanted);
 }
 
 /// What became of all solids: "inside 0 1, entered 1, tunnelled 2".

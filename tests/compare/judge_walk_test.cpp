@@ -36,7 +36,7 @@ StepJudgement judged(TraceHeader header, TraceStep step, Wanted wanted, double t
     for (Vec2d* v : {&step.velocity, &wanted.displacement, &wanted.velocity}) turn(*v);
   }
   step.requested = wanted.displacement;
-  return Judge(header).judge(step, {}, &wanted);
+  return Judge(header).judge(step, &wanted);
 }
 
 /// A walk off a ledge: where it ends, `drop` is between its foot and the lower floor.

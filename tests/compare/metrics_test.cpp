@@ -83,9 +83,9 @@ TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
   run[3].judged.excused_crush = run[3].judged.ground_late = true;
   run[3].judged.end_overlap = run[3].judged.drawn = {1};
   run[4].step.contacts = {bottom};
-  run[4].judged.excused_by_company = run[4].judged.dont_care = {0};
-  const std::map<std::string, int> expected{{"company", 1}, {"corner_cut", 1},  {"drawn", 1},
-                                            {"hover", 2},   {"late_ground", 1}, {"touched_crush", 1}};
+  run[4].judged.beside_another = true;
+  const std::map<std::string, int> expected{
+      {"company", 2}, {"corner_cut", 1}, {"drawn", 1}, {"hover", 2}, {"late_ground", 1}};
   EXPECT_EQ(row_of(run).exempted, expected);
   EXPECT_EQ(row_of(run).steps_ending_inside, 0);
 }
@@ -129,17 +129,18 @@ TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
   run[2].step.contacts = {contact(0, Side::bottom, 0.75)};
   run[2].judged.contacts = {floor_below};
   run[3].step.met = {{.other = 0, .fraction = 0.5, .side = Side::left}};
-  run[3].judged.first_met = CharacterIndex{0};
-  run[3].judged.first_impact = 0.5 + 0x1p-20;
-  run[3].judged.first_impact_comparable = true;
+  run[3].judged.beside_another = true;
+  run[2].judged.first_impact = 0.75;
+  run[2].judged.first_impact_comparable = true;
   const Row row = row_of(run, of_two);
   EXPECT_EQ(row.contact_steps, 2);
   EXPECT_EQ(row.first_contact_step, 1);
   EXPECT_EQ(row.first_contact_fraction, 0.5);
-  EXPECT_EQ(row.toi_error_max, 0x1p-20);
+  EXPECT_EQ(row.toi_error_max, 0);
   EXPECT_EQ(row.contact_precision, 1);
-  run[3].judged.first_met = CharacterIndex{1};
-  EXPECT_FALSE(row_of(run, of_two).toi_error_max) << "with somebody else";
+  EXPECT_EQ(row.exact_first_impact_fraction, 0.75);
+  run[1].judged.beside_another = true;
+  EXPECT_FALSE(row_of(run, of_two).exact_first_impact_fraction) << "another may have been met before";
 }
 
 TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
