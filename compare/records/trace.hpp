@@ -6,10 +6,10 @@
 #include "records/vertex_way.hpp"
 
 #include <paperproof/character.hpp>
-#include <paperproof/together.hpp>
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/step_context.hpp>
+#include <paperproof/together.hpp>
 
 #include <optional>
 #include <string>

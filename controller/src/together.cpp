@@ -37,15 +37,11 @@ Passing pass(std::span<const Vec2d> first, std::span<const Vec2d> second, const 
   for (const bool of_first : {true, false}) {
     const std::span<const Vec2d> outline = of_first ? first : second;
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2d edge = outline[(i + 1) % outline.size()] - outline[i];
-      // From the second towards the first.
-      const Vec2d normal = Vec2d(edge.y(), -edge.x()) / (of_first ? -edge.norm() : edge.norm());
-      double least = std::numeric_limits<double>::infinity();
-      double most = -least;
-      for (const Vec2d& p : first) least = std::min(least, dot(p, normal));
-      for (const Vec2d& p : second) most = std::max(most, dot(p, normal));
-      const double begin = least - most + dot(from, normal);
-      const double end = least - most + dot(to, normal);
+      const Vec2d left = geometry::normal_of(outline[(i + 1) % outline.size()] - outline[i]);
+      const Vec2d normal = of_first ? left : Vec2d(-left);  // from the second towards the first
+      const double apart = geometry::least_along(first, normal) + geometry::least_along(second, -normal);
+      const double begin = apart + dot(from, normal);
+      const double end = apart + dot(to, normal);
       passing.gap = std::max(passing.gap, begin);
       if (begin >= within)
         passing.enters = end < within ? std::max(passing.enters, (begin - within) / (begin - end)) : 2;
@@ -79,9 +75,6 @@ struct Member {
 
   [[nodiscard]] const Vec2d& from() const { return before.position; }
 };
-
-const Box2 nowhere{Vec2d::Constant(std::numeric_limits<double>::infinity()),
-                   Vec2d::Constant(-std::numeric_limits<double>::infinity())};
 
 }  // namespace
 
@@ -145,7 +138,8 @@ class OfController final : public TurnTaker {
 struct TogetherScratch::Turns {
   void make_step(std::span<TurnTaker* const> all, const Vec2d& with_up);
 
-  std::vector<std::size_t> turn_of;  ///< Of each, its place in the order.
+  std::vector<std::size_t> turn_of;    ///< Of each, its place in the order.
+  std::vector<Companion*> companions;  ///< By the ids of their bodies.
   std::vector<OfController> takers;
   std::vector<TurnTaker*> pointers;
 
@@ -257,11 +251,10 @@ bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, doubl
   return true;
 }
 
-/// Whether the way that one went leads past all others as they stand.
+/// Whether the way that one went in its last attempt leads past those as they stand that moved in it.
 bool TogetherScratch::Turns::is_clear(std::size_t i) const {
-  return std::all_of(members[i].near.begin(), members[i].near.end(), [&](std::size_t other) {
-    const MoverMotion motion = motion_of(other, i, Try::its_step);
-    return motion.from == motion.to || is_clear_of(i, other, Tolerances{}.certain);
+  return std::all_of(others.begin(), others.end(), [&](const TurnTaker::Other& other) {
+    return other.motion.from == other.motion.to || is_clear_of(i, other.who, Tolerances{}.certain);
   });
 }
 
@@ -471,7 +464,7 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     Member& member = members[i];
     member.before = all[i]->state();
     member.reach = all[i]->reach();
-    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = nowhere;  // it is refused
+    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();  // it is refused
     member.to = member.from();
     member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
     member.carrier = nobody;
@@ -501,17 +494,17 @@ std::span<const std::size_t> take_turns(std::span<TurnTaker* const> all, const V
 }
 
 void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch) {
-  std::vector<OfController>& takers = scratch.own->takers;
-  std::vector<TurnTaker*>& pointers = scratch.own->pointers;
-  std::vector<Companion*> order;
-  takers.clear();
-  pointers.clear();
-  for (Companion& companion : companions) order.push_back(&companion);
-  std::sort(order.begin(), order.end(), [](const Companion* a, const Companion* b) { return a->body < b->body; });
-  for (Companion* companion : order) takers.emplace_back(*companion, order, context);
-  for (OfController& taker : takers) pointers.push_back(&taker);
-  const std::span<const std::size_t> turns = take_turns(pointers, context.up, scratch);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i]->turn = turns[i];
+  TogetherScratch::Turns& turns = *scratch.own;
+  turns.companions.clear();
+  turns.takers.clear();
+  turns.pointers.clear();
+  for (Companion& companion : companions) turns.companions.push_back(&companion);
+  std::sort(turns.companions.begin(), turns.companions.end(),
+            [](const Companion* a, const Companion* b) { return a->body < b->body; });
+  for (Companion* companion : turns.companions) turns.takers.emplace_back(*companion, turns.companions, context);
+  for (OfController& taker : turns.takers) turns.pointers.push_back(&taker);
+  turns.make_step(turns.pointers, context.up);
+  for (std::size_t i = 0; i < turns.companions.size(); ++i) turns.companions[i]->turn = turns.turn_of[i];
 }
 
 }  // namespace paperproof

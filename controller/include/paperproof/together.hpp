@@ -70,27 +70,24 @@ class TogetherScratch {
   std::unique_ptr<Turns> own;
 };
 
-/// One step of several characters that block, carry and push each other. Each makes the step that `Controller` makes;
-/// they take turns:
+/// One step of several characters that block, carry and push each other. Each makes the step that `Controller` makes.
+/// They take turns:
 ///
 /// 1. While one goes the others stand: those that went before it where they ended, those that go after it where they
 ///    began. So two that do not overlap at the beginning of a step do not overlap at its end, and do not pass through
 ///    each other.
-/// 2. They go in the order of their bodies' ids, but whoever is in the way of one goes before it, and whoever carries
-///    one as well. Of several that wait for each other the last one goes first, and stops at the others.
-/// 3. To a character that it carries, another is a mover that goes straight from where it began to where it ended. So
-/// is
-///    one that went before and did not come nearer, nor past it. Both carry and give way as movers do, at their speed.
-/// 4. A rider that is in the way of its carrier goes first, carried by the way that its carrier would go without it.
-/// One
-///    that a mover presses pushes whoever is in its way likewise: they go as far as it would. If they have no room, the
-///    mover crushes the one that it presses. No character crushes another, and none that walks or falls pushes one.
+/// 2. They go in the order of their bodies' ids. But whoever is in the way of one goes before it, and so does whoever
+///    carries it. Of several that wait for each other the last one goes first, and stops at the others.
+/// 3. To its rider a character is a mover, which goes straight from where it began to where it ended. So is any that
+///    went before and came no nearer, nor flew past. Such movers carry and push at their speed.
+/// 4. A rider in the way of its carrier goes first: carried by the way that its carrier would go without it. One that a
+///    mover presses pushes whoever is in its way likewise: they go as far as it would. Where they have no room, the
+///    mover crushes the one that it presses. No character crushes another. None that walks or falls pushes one.
 ///
 /// A character that meets no other makes the same step as alone, bit for bit. One whose step is refused stands where it
 /// is, and its report says why. The order of `companions` does not matter, only that of the ids.
 ///
-/// Cost: each looks at those that are near it, which one sorting finds. A step is made anew where another is in the
-/// way.
+/// Cost: one sorting finds who is near whom. A step is made again where another is in the way.
 /// @param companions each with its own state, body and report.
 /// @param context the filter of each; its movers are those of the level.
 void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch);
