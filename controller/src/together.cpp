@@ -464,7 +464,8 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     Member& member = members[i];
     member.before = all[i]->state();
     member.reach = all[i]->reach();
-    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();  // it is refused
+    // It is refused.
+    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();
     member.to = member.from();
     member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
     member.carrier = nobody;
