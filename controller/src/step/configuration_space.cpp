@@ -240,6 +240,8 @@ void ConfigurationSpace::find_seams(PieceIndex piece) {
   const double angle = info(piece).angle;
   const MoverIndex mover = scenery().pieces()[info(piece).piece].mover;
   solids_.find(mover, angle == 0 ? around : geometry::Turn(-angle)(around), neighbours_);
+  // A circle covers nothing, and may go by itself: at another angle.
+  std::erase_if(neighbours_, [&](PieceIndex other) { return scenery().pieces()[other].is_circle(); });
   for (PieceIndex& other : neighbours_) other = make(other, angle);
   std::erase_if(neighbours_, [&](PieceIndex other) { return other == piece || !may_cover(other, piece, noise); });
   if (neighbours_.empty()) return;
@@ -284,7 +286,6 @@ bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece, double
 bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner) const {
   const Vec2d n = normal(piece, corner.axis).cast<double>();
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](PieceIndex other) {
-    if (is_circle(other)) return false;
     for (std::size_t k = 0; k < axis_count(other); ++k) {
       if (is_unused(k)) continue;
       const double out = normal(other, k).cast<double>().dot(corner.from) - static_cast<double>(offset(other, k));
@@ -298,7 +299,6 @@ bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner
 double ConfigurationSpace::open_part(const Facet& facet) {
   inside_.clear();
   for (const PieceIndex other : neighbours_) {
-    if (is_circle(other)) continue;
     const Interval part = inside(facet, other);
     if (part.from < part.to) inside_.push_back(part);
   }
