@@ -120,9 +120,16 @@ std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by) {
   return corners;
 }
 
+double pushed_by(const TraceStep& step) {
+  const auto later =
+      std::find_if(step.path.begin(), step.path.end(), [](const PathPoint& corner) { return corner.fraction > 0; });
+  if (later == step.path.begin() || later == step.path.end()) return 0;
+  return std::max(0.0, (step.path.back().position - std::prev(later)->position).norm() - step.requested.norm());
+}
+
 std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
                                std::span<const Place> path, std::span<const ColliderIndex> crushed,
-                               const Meetings& meetings, const WhatTurns& turns) {
+                               const Meetings& meetings, double pushed, const WhatTurns& turns) {
   const Place& end = path.back();
   double motion = 0;
   std::vector<MoverIndex> movers;
@@ -137,7 +144,7 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
     const auto first = meetings.within_step.find(collider);
     if (first != meetings.within_step.end()) last = std::min(last, first->second);
   }
-  const double reach = motion + push_beyond_motion;
+  const double reach = motion + push_beyond_motion - pushed;
   std::vector<Place> way;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
     way.push_back(path[corner]);

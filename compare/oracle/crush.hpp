@@ -2,6 +2,7 @@
 #pragma once
 
 #include "oracle/exact.hpp"
+#include "records/trace.hpp"
 
 #include <functional>
 #include <map>
@@ -51,9 +52,12 @@ inline constexpr double push_beyond_motion = 0.25;
 /// A free position at the end of the step, or none. `Judge` states what counts as room.
 /// @param scenery for the octagon, and @param grown_scenery for one that is grown by `least_clearance`.
 /// @param path the way of the step, corner by corner, up to its end.
-/// @param crushed the colliders of movers that are said to crush.
+/// @param crushed the colliders of movers that are said to crush. @param pushed see `pushed_by`.
 [[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
                                              std::span<const Place> path, std::span<const ColliderIndex> crushed,
-                                             const Meetings& meetings, const WhatTurns& turns = {});
+                                             const Meetings& meetings, double pushed, const WhatTurns& turns = {});
+
+/// How much farther the octagon is from where it began, and was free, than it wanted to go [m].
+[[nodiscard]] double pushed_by(const TraceStep& step);
 
 }  // namespace paperproof::compare::detail

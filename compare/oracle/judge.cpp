@@ -226,7 +226,10 @@ void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const
 /// @param in_turning something that turns is overlapped there.
 bool Judge::is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning, bool in_turning) {
   if (!in_turning) return has_way_out(at, turns);
-  const auto accept = [&](const Vec2d& out) { return !ends_on_another_side(at, out); };
+  const auto accept = [&](const Vec2d& out) {
+    const double farthest = turning_->has_crushed() ? detail::push_beyond_motion : farthest_out(at);
+    return (out - at.position).norm() <= farthest && !ends_on_another_side(at, out);
+  };
   return at.fraction == 1 ? turning_->frees_at_end(turning->step, accept) : turning_->frees(turning->step, accept);
 }
 
@@ -503,7 +506,8 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, turns);
+  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings,
+                                     detail::pushed_by(step), turns);
   const bool has_room = judgement.room && !judgement.beside_another;
   // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
   const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
@@ -577,7 +581,8 @@ Judge::Leaving Judge::leaving_of(const Path& path, const WhatTurns& turns, bool 
   leaving.at_once = std::any_of(inside.begin(), inside.end(), is_left);
   leaving.free = std::all_of(inside.begin(), inside.end(), is_left);
   const Vec2d way = out.position - start.position;
-  if (!leaving.free || !(way.norm() > around_way_out)) return leaving;
+  leaving.longer = leaving.free && way.norm() > farthest_out(start) + around_way_out;
+  if (leaving.longer || !leaving.free || !(way.norm() > around_way_out)) return leaving;
   const auto open = [&](const Vec2d& end) {
     const std::vector<ColliderIndex> met = scenery_.met(start, Place(end, start.movers, 0));
     return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
@@ -689,6 +694,18 @@ bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
   });
 }
 
+/// How far the way out of what the octagon is inside of may be [m]: whom movers have crushed leaves no farther than
+/// they push.
+double Judge::farthest_out(const Place& at) const {
+  std::optional<double> motion;
+  for (const auto& [collider, episode] : inside_) {
+    const MoverIndex mover = header_.scenery.colliders[collider].mover;
+    if (mover == no_mover || !episode.free_from) continue;
+    motion = std::max(motion.value_or(0), (at.movers[mover].to - at.movers[mover].from).norm());
+  }
+  return motion ? *motion + detail::push_beyond_motion : detail::farthest_way_out;
+}
+
 /// Asked once for each place: it costs much, and whoever is stuck mostly stays.
 bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
   if (asked_way_out_) {
@@ -698,8 +715,9 @@ bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
         std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
     if (same) return asked_way_out_->second;
   }
-  const std::optional<Vec2d> out = scenery_.way_out(at, detail::farthest_way_out);
-  const bool found = out && !ends_on_another_side(at, *out) &&
+  const double farthest = farthest_out(at);
+  const std::optional<Vec2d> out = scenery_.way_out(at, farthest);
+  const bool found = out && (*out - at.position).norm() <= farthest && !ends_on_another_side(at, *out) &&
                      (!turns.left_free || turns.left_free(std::vector<PathPoint>{{at.position, 0}, {*out, 1}}));
   asked_way_out_.emplace(Kept(at), found);
   return found;

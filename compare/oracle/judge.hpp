@@ -148,7 +148,8 @@ struct StepJudgement {
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
 /// - not farther than the longest motion of the movers that are named, and 0.25 m (`detail::push_beyond_motion`), from
-///   where the way to it begins, and from the octagon's: how far it went by itself is no push;
+///   where the way to it begins, and from the octagon's. How far it went by itself is no push; how much farther it was
+///   pushed already is left out of these;
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
 ///   those named, or from where that leg touches it (no way that leaves later undoes what has been pressed in), by a
@@ -363,6 +364,7 @@ class Judge {
   };
   [[nodiscard]] Leaving leaving_of(const Path& path, const WhatTurns& turns, bool from_turning);
   [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
+  [[nodiscard]] double farthest_out(const Place& at) const;
   [[nodiscard]] bool has_way_out(const Place& at, const WhatTurns& turns);
 
   const TraceHeader header_;

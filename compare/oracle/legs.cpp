@@ -363,7 +363,10 @@ double LegJudge::end_error() const {
   if (std::any_of(step_.contacts.begin(), step_.contacts.end(), follows)) return 0;
   const Vec2d way = to.position - from.position;
   const double time = (to.fraction - from.fraction) * dt_;
-  const double off = (way - step_.velocity * time).norm();
+  double off = (way - step_.velocity * time).norm();
+  // Two surfaces that press it out take it farther than the speed that they give it, or to a place where it rests.
+  const bool is_limited = is_pushed() && surfaces_.size() > 1 && way.norm() > step_.velocity.norm() * time;
+  if (is_limited) off = std::abs(way.dot(right_of(step_.velocity.normalized())));
   double unsure = 0;
   for (const MetSurface& at : surfaces_) unsure = std::max(unsure, std::hypot(at.spread, at.spread_along));
   const double room = unsure * time + room_at(surfaces_.size());
@@ -373,7 +376,7 @@ double LegJudge::end_error() const {
 double LegJudge::leg_error() const {
   if (!goes_by_law()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
-  ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
+  ControlledStep law{.wanted = first_.displacement / dt_, .up = up_, .most_pressed_out = push_beyond_motion / dt_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
   const SolidsInStep solids(header_, scenery_, step_);
   const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);

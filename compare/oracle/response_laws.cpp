@@ -121,8 +121,23 @@ struct Holding {
   Steered came;
 };
 
+/// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, which is along
+/// its ground if it walks, or twice that of the fastest of them. So fast a wall pushes up a slope of 60 degrees.
+double most_pressed(const Vec2d& came, double steering, std::span<const Holding> held) {
+  const auto pushes = [](const Holding& one) { return one.at.velocity.dot(one.at.normal) > 0; };
+  if (std::none_of(held.begin(), held.end(), pushes)) return std::numeric_limits<double>::infinity();
+  double most = came.norm();
+  for (const Holding& one : held) {
+    if (one.at.walkable) most = std::max(most, std::abs(came.x()) / one.at.normal.y());
+    most = std::max(most, 2 * one.at.velocity.norm());
+  }
+  return most + std::abs(steering);
+}
+
 /// As an upright character sees it.
-Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
+/// @param fastest set to the speed at which surfaces press it out, where that is larger [m/s].
+Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown,
+                 double& fastest) {
   Steered now = velocity;
   double steering = (velocity.wanted - velocity.unsteered).x();
   std::vector<Holding> held;
@@ -162,7 +177,10 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
           stop && std::any_of(all.begin(), all.end(), [&](const MetSurface& one) { return enters(*stop, one); });
       if (is_in_another) stop = nearest_allowed(velocity.wanted, all);
     }
-    const Vec2d end = stop.value_or(carried);
+    Vec2d end = stop.value_or(carried);
+    fastest = std::max(fastest, end.norm());
+    if (const double most = most_pressed(held.back().came.wanted, steering, held); end.norm() > most)
+      end *= most / end.norm();
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;
@@ -219,14 +237,18 @@ void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
 }
 
 /// All that the law can make, as an upright character sees it.
-std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces) {
+/// @param most_pressed_out see `ControlledStep`.
+std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces,
+                                    double most_pressed_out) {
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
   const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
   std::vector<Vec2d> outcomes;
   for (const bool met_at_end : {false, true})
     for (const bool carried : {false, true}) {
       if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
-      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
+      double fastest = 0;
+      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}, fastest));
+      if (fastest > most_pressed_out) outcomes.emplace_back(0, 0);
       for (const MetSurface& at : surfaces)
         if (at.walkable && (is_at_end(at) || at.returned))
           outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
@@ -289,7 +311,8 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   }
   const bool ends_rise = step.side_hit_ends_rise &&
                          std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
-  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright);
+  std::vector<Vec2d> outcomes =
+      upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright, step.most_pressed_out);
   for (Vec2d& outcome : outcomes) {
     if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
     outcome = in_world(outcome, step.up);
@@ -352,8 +375,11 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
         for (const Vec2d& other : velocities_of(with)) {
           auto held = held_by({.normal = at.normal, .velocity = velocity}, {.normal = with.normal, .velocity = other});
           if (!held) continue;
-          if (held->norm() > most) *held *= most / held->norm();
-          unsteered = unsteered.merged({*held, *held});
+          const double limited = 2 * std::max(fastest(at), fastest(with));
+          for (const double speed : {most, limited}) {
+            if (held->norm() > speed) *held *= speed / held->norm();
+            unsteered = unsteered.merged({*held, *held});
+          }
         }
     }
   }

@@ -68,11 +68,14 @@ struct ControlledStep {
   Vec2d unsteered{Vec2d::Zero()};   ///< The part of it that is there without this step's steering [m/s].
   Vec2d up{Vec2d::UnitY()};         ///< Unit vector.
   bool side_hit_ends_rise = false;  ///< See `CharacterDef::side_hit_ends_rise`.
+  /// A character that two surfaces press out faster may go to a free place instead, and rest there [m/s].
+  double most_pressed_out = std::numeric_limits<double>::infinity();
 };
 
 /// The velocities that the law of octagon_sweep (§4 of the design) can make in a step at the surfaces, met in their
 /// order. Walkable ground keeps the part across up, steering holds no fall, a ceiling ends a rise; two surfaces that
-/// both hold the motion end it, unless the fall of the unsteered velocity goes on between them.
+/// both hold the motion end it, unless the fall of the unsteered velocity goes on between them. Two that press it out
+/// give it a limited speed.
 ///
 /// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was
 /// met by rounding, was ground that is followed, also to where it was left, or takes nothing; and of ground that moves,

@@ -58,6 +58,8 @@ class TurningJudge {
   [[nodiscard]] bool frees(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {
     return has_way_out(header_, step, sides_, accept);
   }
+  /// Whether something that turns came over the octagon, and still overlaps it.
+  [[nodiscard]] bool has_crushed() const noexcept { return !sides_.empty(); }
   /// Whether something that turns is within so many metres at a corner of the way.
   [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.

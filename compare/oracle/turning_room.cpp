@@ -22,8 +22,11 @@ double largest_motion(const VertexWay& way) {
   double largest = 0;
   for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
     double length = 0;
-    for (std::size_t k = 1; k < way.vertices.size(); ++k)
-      length += (way.vertices[k][i] - way.vertices[k - 1][i]).norm();
+    for (std::size_t k = 1, last = 0; k < way.vertices.size(); ++k) {
+      if (turns_at_once(way, k)) continue;
+      length += (way.vertices[k][i] - way.vertices[last][i]).norm();
+      last = k;
+    }
     largest = std::max(largest, length);
   }
   return largest;
@@ -118,7 +121,7 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
                                  const std::function<bool(std::span<const PathPoint>)>& left_free) {
   const ExactScenery end(standing_at(header.scenery, step, 1), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
-  const double reach = largest_motion(crusher) + push_beyond_motion;
+  const double reach = largest_motion(crusher) + push_beyond_motion - pushed_by(step);
   std::vector<PathPoint> way;
   for (const PathPoint& corner : step.path) {
     if (corner.fraction == 1) break;

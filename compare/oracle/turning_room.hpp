@@ -34,7 +34,7 @@ class RigidMotion {
 [[nodiscard]] ColliderDef standing_at(ColliderDef def, const VertexWay& way, double fraction);
 /// The scenery in which what turns stands where it is at a fraction of the step; the rest goes as it does.
 [[nodiscard]] SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction);
-/// The longest way of a vertex in the step [m].
+/// The longest way of a vertex in the step [m]. A turn at once and what follows are one stretch of it.
 [[nodiscard]] double largest_motion(const VertexWay& way);
 /// Whether any vertex does not stay where it is.
 [[nodiscard]] bool goes(const VertexWay& way);
