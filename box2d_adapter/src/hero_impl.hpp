@@ -62,16 +62,9 @@ struct Hero::Impl {
   }
   void read_near(const Box2& needed);
   StepStatus step_as_far_as_read(StepContext& context, const Go& go);
-  std::optional<double> limit_squeeze(const StepContext& context);
-  /// For questions: movers are where the step begins, or where it ends.
-  [[nodiscard]] StepContext here(bool at_end) const {
-    return {.dt = 1, .movers = at_end ? fixtures.ends() : fixtures.motions()};
-  }
-  std::pair<double, bool> limit_speed(double dt);
-  [[nodiscard]] bool is_freed();
-  std::optional<double> end_sooner(double least, double most);
+  void limit_speed(double dt);
   void note_step();
-  void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
+  void note_sensors_at_begin();
   void note_sensors();
   void note_contacts();
 
@@ -97,7 +90,6 @@ struct Hero::Impl {
     Vec2d own_velocity{Vec2d::Zero()};   ///< With the impacts on its body [m/s].
     Vec2d body_velocity{Vec2d::Zero()};  ///< [m/s]
   } begun;
-  std::optional<double> cut;    ///< When the step was stopped: see `limit_squeeze`.
   Vec2d struck{Vec2d::Zero()};  ///< See `strike`.
   StepReport report;
   std::vector<HeroContact> contacts;

@@ -10,9 +10,6 @@
 namespace paperproof::box2d {
 namespace {
 
-/// How much farther than they go bodies may squeeze the hero in a step [m].
-constexpr double most_squeezed = 0.25;
-
 /// Fixtures are read in squares of this size, and one more around what a step needs [m]. Zero: each step reads other
 /// ones. Large: each change costs more.
 constexpr double read_ahead = 1;
@@ -63,16 +60,15 @@ bool Hero::Impl::begin(double dt) {
 StepStatus Hero::Impl::attempt(const StepContext& context, const Go& go) {
   StepContext read = context;
   const StepStatus status = step_as_far_as_read(read, go);
-  cut = is_refused(status) ? std::nullopt : limit_squeeze(read);
+  if (!is_refused(status)) limit_speed(read.dt);
   return status;
 }
 
 /// Ends a step that was made.
 void Hero::Impl::end(double dt) {
   sensors.clear();
-  note_sensors_at(begun.state.position, false, 0);
+  note_sensors_at_begin();
   note_step();
-  if (cut) note_sensors_at(state.position, true, *cut);
   fixtures.note_poses();
   struck = strike(dt);
   lead_body(dt);
@@ -106,8 +102,7 @@ StepStatus Hero::Impl::step_as_far_as_read(StepContext& context, const Go& go) {
 
 /// Moving bodies take the hero along, but give it no more than their own speed, or that to which Box2D brought the
 /// hero's body.
-/// @return the largest speed that the hero may have [m/s], and whether such a body pushed it.
-std::pair<double, bool> Hero::Impl::limit_speed(double dt) {
+void Hero::Impl::limit_speed(double dt) {
   double most = std::max((report.requested / dt + begun.state.ride.velocity).norm(), state.ride.velocity.norm());
   const Vec2d middle = begun.state.position + def.character.shape.box().middle();
   bool is_pushed = begun.state.crushed;
@@ -130,71 +125,6 @@ std::pair<double, bool> Hero::Impl::limit_speed(double dt) {
   const double speed = state.velocity.norm();
   if (is_pushed && speed > most) state.velocity *= most / speed;
   report.move.velocity = state.velocity;
-  return {most, is_pushed};
-}
-
-/// Moving bodies squeeze the hero out hardly faster than they go: between two surfaces of nearly one direction, or from
-/// under a press that is hardly in it, it would leave at any speed. It then ends where it is free first on its way. If
-/// that is far away, it waits, and they crush it.
-/// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
-std::optional<double> Hero::Impl::limit_squeeze(const StepContext& context) {
-  const auto [speed, is_pushed] = limit_speed(context.dt);
-  double most = speed * context.dt + most_squeezed;
-  if (!is_pushed) most += def.character.step_height + def.character.snap;
-  if ((state.position - begun.state.position).norm() <= most || !(is_pushed || is_freed())) return std::nullopt;
-  if (const std::optional<double> when = end_sooner(speed * context.dt, most)) return when;
-  state = begun.state;
-  controller.wait(state, context, scratch, report);
-  return std::nullopt;
-}
-
-/// Whether the step may have freed the hero from bodies that move: where it began, or where they turned. Out of what
-/// stands it goes, however far that is; so it does out of bodies in which it was placed.
-bool Hero::Impl::is_freed() {
-  if (!begun.state.has_last_free) return false;
-  std::array<ColliderIndex, 16> found{};
-  const std::size_t count = controller.overlaps(begun.state.position, here(false), scratch, found).value_or(0);
-  const std::span<const ColliderIndex> holding(found.data(), std::min(count, found.size()));
-  const auto stands = [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() == b2_staticBody; };
-  if (holding.empty()) return fixtures.any_turns();
-  return std::none_of(holding.begin(), holding.end(), stands);
-}
-
-/// Ends the step in the air, at a free place on its way.
-/// @param least and @param most how far from the beginning [m].
-/// @return when it is there, as a fraction of the step; nothing if no place was found.
-std::optional<double> Hero::Impl::end_sooner(double least, double most) {
-  constexpr int places = 8;
-  MoveResult& move = report.move;
-  for (int i = 0; i <= places; ++i) {
-    double reach = least + (most - least) * i / places;
-    std::size_t corner = 1;
-    double length = 0;
-    for (; corner < move.path.size(); ++corner, reach -= length) {
-      length = (move.path[corner].position - move.path[corner - 1].position).norm();
-      if (reach < length) break;
-    }
-    if (corner == move.path.size()) return std::nullopt;
-    const auto [from, before] = move.path[corner - 1];
-    const double share = reach / length;
-    const Vec2d there = from + (move.path[corner].position - from) * share;
-    if (controller.overlaps(there, here(true), scratch) != 0U) continue;
-    const double when = before + share * (move.path[corner].fraction - before);
-    teleport(state, there);
-    state.last_free = there;
-    state.has_last_free = true;
-    move.path.resize(corner);
-    move.path.push_back({there, 1});
-    while (!move.contacts.empty() && move.contacts.back().fraction > when) move.contacts.pop_back();
-    while (!report.sensors.empty() && report.sensors.back().fraction > when) report.sensors.pop_back();
-    move.position = there;
-    move.velocity = state.velocity;
-    move.grounded = false;
-    move.ground = {};
-    move.ride = {};
-    return when;
-  }
-  return std::nullopt;
 }
 
 void Hero::Impl::note_step() {
@@ -205,22 +135,21 @@ void Hero::Impl::note_step() {
   note_contacts();
 }
 
-/// Sensors that the hero came to overlap, or ceased to, although its way does not show it: it was placed, or the sensor
-/// was, or the way was cut.
-/// @param at_end the position and the sensors are those of the end of the step, else of its beginning.
-/// @param fraction of the events.
-void Hero::Impl::note_sensors_at(const Vec2d& position, bool at_end, double fraction) {
+/// Sensors that the hero came to overlap, or ceased to, since the last step: it was placed, or the sensor was.
+void Hero::Impl::note_sensors_at_begin() {
   std::vector<b2Fixture*> now;
   if (fixtures.any_sensor()) {
     std::vector<ColliderIndex> found(16);
     std::size_t count = 0;
-    while ((count = controller.sensors_at(position, here(at_end), scratch, found)) > found.size()) found.resize(count);
+    const StepContext here{.dt = 1, .movers = fixtures.motions()};
+    while ((count = controller.sensors_at(begun.state.position, here, scratch, found)) > found.size())
+      found.resize(count);
     for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }
   const auto report_missing = [&](const auto& from, const auto& in, SensorEvent::Change change) {
     for (b2Fixture* sensor : from)
       if (std::find(in.begin(), in.end(), sensor) == in.end() && (fixtures.is_near(sensor) || exists(*world, sensor)))
-        sensors.push_back({sensor, change, fraction});
+        sensors.push_back({sensor, change, 0});
   };
   report_missing(inside, now, SensorEvent::Change::exit);
   report_missing(now, inside, SensorEvent::Change::enter);

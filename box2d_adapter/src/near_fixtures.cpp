@@ -331,17 +331,11 @@ void NearFixtures::read(const Box2& box) {
   motions_.assign(std::max(level_.mover_count(), 2 * (movers_.size() + free_movers_.size())), {});
   for (const Near& near : near_)
     if (near.known->seen.moves) motions_[mover_of(*near.fixture)] = motion_of(*near.fixture);
-  ends_.clear();
-  for (const MoverMotion& motion : motions_) ends_.push_back({motion.to, motion.to, motion.to_angle, motion.to_angle});
 }
 
 bool NearFixtures::is_there(ColliderIndex id) const {
   const b2Body* body = body_of(id);
   return shown_.contains(body) || std::find(party_.begin(), party_.end(), body) == party_.end();
-}
-
-bool NearFixtures::any_turns() const noexcept {
-  return std::any_of(motions_.begin(), motions_.end(), [](const MoverMotion& motion) { return motion.turn() != 0; });
 }
 
 std::vector<b2Fixture*> NearFixtures::unusable() const {

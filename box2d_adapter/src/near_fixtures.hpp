@@ -61,8 +61,6 @@ class NearFixtures {
   /// Of its movers.
   [[nodiscard]] std::span<const MoverMotion> motions() const noexcept { return motions_; }
   /// The movers stand where their motions end.
-  [[nodiscard]] std::span<const MoverMotion> ends() const noexcept { return ends_; }
-  [[nodiscard]] bool any_turns() const noexcept;
   /// Those that no collider can be made of: see `InvalidScenery`.
   [[nodiscard]] std::vector<b2Fixture*> unusable() const;
   /// The bodies are where they are when the next step begins.
@@ -146,7 +144,6 @@ class NearFixtures {
   std::map<const b2Body*, MoverIndex> movers_;  ///< The first of two: wheels are movers of their own.
   std::vector<MoverIndex> free_movers_;
   std::vector<MoverMotion> motions_;
-  std::vector<MoverMotion> ends_;
 };
 
 }  // namespace paperproof::box2d

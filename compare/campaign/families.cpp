@@ -72,7 +72,7 @@ std::vector<Family> turning() {
     return {.kind = "turning",
             .draw = [family](std::uint64_t seed) { return draw_among_turning(family, seed); },
             .first_seed = 3000017 * number,
-            .share = 1.0 / 3,
+            .share = family == Turning::balls ? 1 : 1.0 / 3,  // a ball seldom carries anyone
             .covers = {{"turning", 0.2}, {"moving", 0.02, 0.9}, {"riding", ever}, {"crushed", least_crushed, 0.2}}};
   });
 }

@@ -78,9 +78,9 @@ PAPERPROOF_NOT_INLINE bool Controller::has_wall_ahead(const CharacterState& stat
 }
 
 PAPERPROOF_INLINE octagon_sweep::Around Controller::around(const StepContext& context, const Scratch& scratch) const {
-  const std::vector<PieceIndex>& apart = turning::memory_of(scratch).apart;
-  const Moving moving{context.movers.first(scenery_->mover_count() + apart.size()), apart};
-  return {moving, filter_of(context), context.up};
+  const turning::Memory& memory = turning::memory_of(scratch);
+  const Moving moving{context.movers.first(scenery_->mover_count() + memory.apart.size()), memory.apart};
+  return {moving, filter_of(context), context.up, memory.limits};
 }
 
 PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input& input, const StepContext& context,

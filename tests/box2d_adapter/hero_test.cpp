@@ -381,7 +381,7 @@ TEST(HeroListener, hears_once_of_a_saw_blade_that_comes_and_of_a_coin_that_is_pa
 /// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
 /// moved by 120 km in a frame. A wide one moved it to its edge. A press whose way was a whole number of steps
 /// overlapped the hero by rounding alone, and in the next step the hero came out from under it to its edge.
-TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
+TEST(Hero, is_squeezed_out_at_most_twice_as_fast_as_a_press_moves_or_crushed) {
   int crushed = 0;
   int squeezed = 0;
   const auto press_down = [&](b2BodyType type, float spin, float half_of_width, float speed, float from) {
@@ -399,7 +399,7 @@ TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
       const Vec2d before = game.hero.position();
       const StepStatus status = game.go();
       ASSERT_LE((game.hero.position() - before).norm(), fastest * frame + 0.25) << "frame " << i;
-      ASSERT_LE(game.hero.velocity().norm(), fastest + 0.1) << "frame " << i;
+      ASSERT_LE(game.hero.velocity().norm(), 2 * fastest + 0.1) << "frame " << i;
       ASSERT_TRUE(status != StepStatus::crushed || game.hero.crushed_by()[0] == press.GetFixtureList());
       was_crushed = was_crushed || status == StepStatus::crushed;
       ASSERT_TRUE(!is_door || !was_crushed || status == StepStatus::crushed || status == StepStatus::stuck);
@@ -434,8 +434,9 @@ TEST(Hero, is_not_thrown_out_between_a_lift_and_a_ceiling) {
         lift.SetLinearVelocity({0, lift.GetPosition().y > 7.6F ? 0 : speed});
         const Vec2d before = game.hero.position();
         game.go();
-        ASSERT_LE((game.hero.position() - before).norm(), 0.3) << degrees << " degrees, frame " << i;
-        ASSERT_LE(std::abs(game.hero.velocity().x()), 3) << degrees << " degrees, frame " << i;
+        ASSERT_LE((game.hero.position() - before).norm(), 2 * speed * frame + 0.25)
+            << degrees << " degrees, frame " << i;
+        ASSERT_LE(std::abs(game.hero.velocity().x()), 2 * speed + 0.1) << degrees << " degrees, frame " << i;
       }
     }
   }

@@ -41,6 +41,9 @@ struct Tolerances {
   double restore = 2e-7;
   /// Positions and steps beyond this are refused: rounding would reach `certain` at twice as much.
   double range = 2e6;
+  /// In one step, what moves pushes the character at most so much farther than it goes itself [m]; beyond that it
+  /// crushes. Zero: a wall crushes whoever it pushes up a slope. Large: a press flings.
+  double push = 0.25;
   /// Not a length: ground that is this much steeper than the climb limit is still walkable [rad]. Zero: the rounding of
   /// its normal decides whether a slope of exactly the limit is climbed. Large: the limit is not the requested one.
   double climb = 1e-8;
@@ -55,6 +58,7 @@ inline constexpr Tolerances tolerances_in_float{.hit = 1e-4,
                                                 .certain = 1e-5,
                                                 .restore = 2e-4,
                                                 .range = 2e6,
+                                                .push = 0.25,
                                                 .climb = 1e-5};
 
 }  // namespace paperproof

@@ -3,21 +3,30 @@
 
 #include <paperproof/report.hpp>
 #include <paperproof/step_context.hpp>
+#include <paperproof/tolerances.hpp>
 #include <paperproof/up_frame.hpp>
 
 #include "piece_finder.hpp"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 
 namespace paperproof::octagon_sweep {
 
+/// How far a step takes a character that did not want to go [m].
+struct Limits {
+  double push = Tolerances{}.push;                       ///< So much farther than what pushes it, or crushed it before.
+  double out = std::numeric_limits<double>::infinity();  ///< Out of anything else that it begins in.
+};
+
 /// What is around a character in a step or a question.
 struct Around {
   Moving moving{};                         ///< With a motion for each mover of the scenery.
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   UpFrame up{};                            ///< See `StepContext::up`.
+  Limits limits{};
 };
 
 /// What a step wants, and what it knows of the steps before.

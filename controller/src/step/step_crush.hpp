@@ -19,72 +19,71 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// yet. After a crush `undo_crushes` does that at the end of the step.
 [[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
   if (!step.result.crushed.empty()) return false;
-  Real reach = 0;
+  Real way = 0;
   for (const TouchedSurface& surface : step.memory.surfaces)
-    reach = std::max(reach, length_of(step.movers.displacement(surface.mover)));
-  if (!move_to_free_position(step, reach, {0, step.result.path.size()})) return false;
+    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
+  if (!move_to_free_position(step, push_left(step, way), {0, step.result.path.size()})) return false;
   step.memory.surfaces.clear();
   return true;
 }
 
-/// Whether a circle would drive the character farther than both go: where it squeezes the character out along its
-/// tangent, it leaves the character sooner.
-[[nodiscard]] inline bool circle_flings(const Step& step, const Vec2& wanted, const Vec2& allowed) {
-  const Real own = length_of(wanted) + std::abs(step.steered) * step.movers.dt + tolerances.touch;
+/// Whether the touched surfaces are not all of one direction.
+[[nodiscard]] inline bool are_a_wedge(const Step& step) {
+  const Vec2 first = step.memory.surfaces[0].normal;
   return std::any_of(step.memory.surfaces.begin(), step.memory.surfaces.end(), [&](const TouchedSurface& surface) {
-    return step.space.is_circle(surface.piece) && moves_in(step, surface) &&
-           length_of(allowed) > own + length_of(remaining_of(step, surface));
+    return length_of(Vec2(surface.normal - first)) > same_plane;
   });
 }
 
-/// Movers squeeze the character out as a wedge does. A blunt one would fling it: the speed that they give it is
-/// limited.
+/// How fast a surface goes [m/s]: ground that may carry as a whole, with its belt; any other along its normal.
+[[nodiscard]] inline Real speed_of(const Step& step, const TouchedSurface& surface) {
+  const Vec2 velocity = step.movers.velocity(surface.mover);
+  if (!walkable(step, surface.normal)) return std::abs(dot(velocity, surface.normal));
+  return length_of(velocity) + std::abs(surface_speed(step, surface.piece));
+}
+
+/// A mover and another surface squeeze the character out as a wedge does: the blunter it is, the farther and the
+/// faster.
+///
+/// - In the step it goes no farther than it wanted to, and they go, and `Tolerances::push`.
+/// - It gets no faster than twice the fastest of them: so fast a wall pushes up a slope of 60 degrees. What it had it
+///   keeps; of a walk that is its speed along the ground.
+///
 /// @param wanted before the response. @param allowed by the response.
-/// @return false if they would squeeze it out too far in this step: then it goes to a free position, or is crushed.
-[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_squeeze(const Step& step, const DesiredMotion& wanted,
-                                                              DesiredMotion& allowed) {
-  constexpr Real farthest = 32;  // times as far as they go
-  constexpr Real fastest = 8;    // times as fast as they are
+/// @return false if they would push it too far: then it goes to a free position, or is crushed.
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_push(const Step& step, const DesiredMotion& wanted,
+                                                           DesiredMotion& allowed) {
+  const std::vector<TouchedSurface>& surfaces = step.memory.surfaces;
+  const auto pushes = [&](const TouchedSurface& surface) { return moves_in(step, surface); };
+  if (!are_a_wedge(step) || std::none_of(surfaces.begin(), surfaces.end(), pushes)) return true;
+  const Vec2 wants = wanted.velocity.wanted;
+  Real own = length_of(wants);
   Real way = 0;
   Real speed = 0;
-  for (const TouchedSurface& surface : step.memory.surfaces) {
-    if (!moves_in(step, surface)) continue;
-    if (step.space.is_circle(surface.piece)) return true;
-    way = std::max(way, length_of(remaining_of(step, surface)));
-    speed = std::max(speed, length_of(step.movers.velocity(surface.mover)));
+  for (const TouchedSurface& surface : surfaces) {
+    if (walkable(step, surface.normal))
+      own = std::max<Real>(own, std::abs(step.up.across_of(wants)) / step.up.up_of(surface.normal));
+    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
+    speed = std::max(speed, speed_of(step, surface));
   }
-  if (way == 0) return true;
-  const Real own_way = length_of(wanted.displacement.wanted) + std::abs(step.steered) * step.movers.dt;
-  if (length_of(allowed.displacement.wanted) > own_way + way * farthest + tolerances.touch) return false;
-  const Real most = std::max(length_of(wanted.velocity.wanted), speed * fastest) + std::abs(step.steered);
+  const Vec2 whole = step.position + allowed.displacement.wanted - step.start;
+  const Real farthest = length_of(step.wanted) + way + static_cast<Real>(step.request.around.limits.push);
+  if (length_of(whole) > farthest) return false;
+  const Real most = std::max(own, 2 * speed) + std::abs(step.steered);
   const Real now = length_of(allowed.velocity.wanted);
   if (now > most) allowed.velocity.wanted *= most / now;
   return true;
 }
 
-/// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
-/// A way out of what the step began inside of is kept.
-/// @param allowed the response to what the last sweep met.
-[[nodiscard]] PAPERPROOF_COLD inline bool goes_beside_circle(Step& step, const Vec2& allowed) {
-  if (is_passed_through(step) || !circle_flings(step, Vec2(step.motion.displacement * (1 - step.found.stop)), allowed))
-    return false;
-  const bool has_left = std::any_of(step.memory.marked.begin(), step.memory.marked.end(),
-                                    [&](ColliderIndex collider) { return step.memory.is(collider, leaving); });
-  if (!move_to_free_position(step, length_of(allowed), {has_left ? std::size_t{1} : 0, step.result.path.size()}))
-    return false;
-  step.memory.surfaces.clear();
-  return true;
-}
-
 /// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
-/// movers that crushed, no further away than one of them moves; then nothing was crushed.
+/// movers that crushed, no farther away than they may push; then nothing was crushed.
 PAPERPROOF_COLD inline void undo_crushes(Step& step) {
   step.moving.ignored &= static_cast<std::uint8_t>(~crushes);
-  Real reach = 0;
+  Real way = 0;
   for (const ColliderIndex collider : step.result.crushed)
-    reach = std::max(reach, length_of(displacement_of(step, collider)));
+    way = std::max(way, length_of(displacement_of(step, collider)));
   step.memory.surfaces.clear();
-  if (move_to_free_position(step, reach, {0, step.moving.corners_before_crush})) {
+  if (move_to_free_position(step, push_left(step, way), {0, step.moving.corners_before_crush})) {
     for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
     step.result.crushed.clear();
     step.result.status =

@@ -97,11 +97,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
   bool may_aim = true;
   int impacts = 0;
   for (std::size_t sweeps = 0; sweeps < most_sweeps && step.result.path.size() < most_corners; ++sweeps) {
-    if (step.movers.active) {
-      if (sweeps > 0 && goes_beside_circle(step, desired.displacement.wanted)) return;
-    } else if (displacement.x() == 0 && displacement.y() == 0) {
-      return;
-    }
+    if (!step.movers.active && displacement.x() == 0 && displacement.y() == 0) return;
     if (sweeps > 0) sweep_along(step, displacement);
     if (step.found.hit && step.found.stop == 0 && displacement != desired.displacement.wanted) {
       // The gap cannot be restored here: give that up for this step.
@@ -129,7 +125,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
     }
     const DesiredMotion wanted = desired;
     const bool is_answered = !is_passed_through(step) && respond_to_surfaces(step, desired);
-    if (!is_answered || (step.movers.active && !limit_squeeze(step, wanted, desired))) {
+    if (!is_answered || (step.movers.active && !limit_push(step, wanted, desired))) {
       if (goes_to_free_position(step)) return;
       if (!note_crushers(step)) return wait(step, true);
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());

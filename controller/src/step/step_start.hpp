@@ -139,8 +139,9 @@ template <class MayPass>
 
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
-[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step) {
-  const Real whole = reach_of_solids_inside(step);
+/// @param farthest it is no farther away [m].
+[[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, Real farthest) {
+  const Real whole = std::min(reach_of_solids_inside(step), farthest);
   FreePositionQuery query = query_here(step);
   const CharacterState& before = step.request.state;
   if (before.has_last_free) query.last_free = before.last_free;
@@ -153,9 +154,25 @@ template <class MayPass>
   return std::nullopt;
 }
 
+/// How much farther movers that go so far may push the character [m].
+[[nodiscard]] inline Real push_left(const Step& step, Real way) {
+  const Real pushed = length_of(Vec2(step.position - step.start)) - length_of(step.wanted);
+  return way + static_cast<Real>(step.request.around.limits.push) - std::max(Real(0), pushed);
+}
+
+/// How far the character may leave what overlaps it, if some of that crushed it [m].
+[[nodiscard]] inline Real most_left(const Step& step) {
+  if (step.memory.crushers.empty()) return static_cast<Real>(step.request.around.limits.out);
+  Real way = 0;
+  for (const Crusher& crusher : step.memory.crushers)
+    way = std::max(way, length_of(displacement_of(step, crusher.collider)));
+  return push_left(step, way);
+}
+
 /// Leaves what overlaps the character. False if there is no way out.
-[[nodiscard]] inline bool leave(Step& step) {
-  const std::optional<Vec2> out = find_way_out(step);
+/// @param farthest the way out is no longer [m].
+[[nodiscard]] inline bool leave(Step& step, Real farthest) {
+  const std::optional<Vec2> out = find_way_out(step, farthest);
   if (!out) return false;
   if (step.movers.active) note_colliders_left(step);
   step.start = step.position = *out;
@@ -235,16 +252,16 @@ inline void restore_gaps_to_movers(Step& step) {
   const CharacterState& state = step.request.state;
   if (state.has_last_free) step.moving.last_free = state.last_free;
   if (state.crushed && ignore_overlapping_movers(step) && !step.moving.side_lost) {
-    // They are left as any solid, to the side from which the character came.
+    // They are left as any solid, to the side from which the character came, but no farther than they may push.
     step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
-    const bool is_out = leave(step);
+    const bool is_out = leave(step, most_left(step));
     step.moving.ignored = passes_through;
     if (is_out) return true;
   }
   while (overlaps(step, step.position)) {  // each round ignores one more collider that moves
     // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!step.memory.crushers.empty()) return false;
-    if (leave(step)) return true;
+    if (leave(step, static_cast<Real>(step.request.around.limits.out))) return true;
     // There is no free position beside the movers. Without those that overlap there may be one.
     if (!ignore_overlapping_movers(step)) return false;
   }

@@ -183,19 +183,20 @@ std::optional<StepStatus> TurningStep::step_in_parts(int parts, CharacterState& 
   StepReport& of_part = memory_.of_part;
   report_.clear();
   const CharacterState before = state;
-  const double dt = context_.dt / parts;
+  double push = Tolerances{}.push;  // what is left of it
   note_begin();
   for (int i = 0; i < parts; ++i) {
     Part part = turn(double(i) / parts, double(i + 1) / parts, state.position);
     begin_part(part, state);
     const Vec2d from = state.position;
-    const Vec2d carried = state.ride.velocity;
+    memory_.limits = limits_of(push, parts, state);
+    const Vec2d carried = state.ride.velocity * context_.dt / parts;
     const StepStatus status = go(state, wish, 1.0 / parts, of_part);
     if (status == StepStatus::invalid_input) return report_.status = status;
     if (is_refused(status)) return refuse(of_part.move.status, before);
     if (!find_way(part, of_part.move)) return std::nullopt;
     note_pushes(part);
-    limit_speed(part, (of_part.requested / dt + carried).norm(), dt, of_part.move, state);
+    push = std::max(0.0, push - pushed_in(part, of_part.move, (of_part.requested + carried).norm()));
     note_turned_sensors(part, from, of_part);
     note_vertices(part.turned(), &part);
     note_vertices(part.end);

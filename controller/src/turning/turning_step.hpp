@@ -62,6 +62,7 @@ struct Memory final : OwnMemory {
   std::vector<PieceIndex> bodies;  ///< Of other characters, while one takes its turn. Else none.
   std::vector<PieceIndex> apart;   ///< These, then circles that go by themselves in a part. See `Moving::apart`.
   bool is_in_part = false;         ///< The controller makes a shorter step.
+  octagon_sweep::Limits limits;    ///< Of that.
   std::vector<MoverMotion> motions_of_all;  ///< While one takes its turn: of movers, then of `bodies`.
   /// Of the present part, once everything has turned: of movers, then of what goes by itself.
   std::vector<MoverMotion> motions;
@@ -84,6 +85,7 @@ class TurningStep {
   ~TurningStep() {
     memory_.apart = memory_.bodies;
     memory_.is_in_part = false;
+    memory_.limits = {};
   }
   TurningStep(const TurningStep&) = delete;
   TurningStep& operator=(const TurningStep&) = delete;
@@ -114,11 +116,14 @@ class TurningStep {
   void begin_part(const Part& part, CharacterState& state) const;
 
   // turns.cpp
+  [[nodiscard]] double most_turned() const;
   [[nodiscard]] int parts_wanted() const;
   [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
   [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const;
   [[nodiscard]] bool find_way(Part& part, const MoveResult& move);
-  void limit_speed(const Part& part, double wanted, double dt, MoveResult& move, CharacterState& state) const;
+  [[nodiscard]] octagon_sweep::Limits limits_of(double push, int parts, const CharacterState& state) const;
+  [[nodiscard]] double pushed_in(const Part& part, const MoveResult& move, double own) const;
+  [[nodiscard]] static double way_of(const MovingCollider& collider, const Part& part, const Vec2d& place);
   [[nodiscard]] std::span<const Contact> contacts_at(const Vec2d& position, std::span<Contact> room);
   [[nodiscard]] bool is_proved(const Part& part, const MoveResult& move, bool of_all);
   [[nodiscard]] geometry::Pose turned_pose(const MovingCollider& collider, const Part& part) const;

@@ -27,12 +27,17 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
 
 }  // namespace
 
-/// Into how many shorter steps a step must be divided.
-int TurningStep::parts_wanted() const {
-  const double size = character().shape.box().size().norm();
+/// How far a point of the character's size would go with what turns in the step [m].
+double TurningStep::most_turned() const {
   double most = 0;
   for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover)
-    if (memory_.turns[mover]) most = std::max(most, std::abs(context_.movers[mover].turn()) * size);
+    if (memory_.turns[mover]) most = std::max(most, std::abs(context_.movers[mover].turn()));
+  return most * character().shape.box().size().norm();
+}
+
+/// Into how many shorter steps a step must be divided.
+int TurningStep::parts_wanted() const {
+  const double most = most_turned();
   int parts = 1;
   while (parts < most_parts && most > Controller::most_turned * parts) parts *= 2;
   return parts;
@@ -189,26 +194,30 @@ std::set<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) con
   return found;
 }
 
-/// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
-/// leave at any speed.
-/// @param move in the part. @param wanted speed [m/s].
-void TurningStep::limit_speed(const Part& part, double wanted, double dt, MoveResult& move,
-                              CharacterState& state) const {
-  double most = wanted;
-  bool is_pushed = false;
-  for (const Contact& contact : move.contacts) {
-    const MovingCollider* collider = find_moving(contact.collider);
-    if (collider == nullptr) continue;
-    const Pose from = pose_at(collider->motion, part.begin);
-    const Pose to = pose_at(collider->motion, part.end);
-    const Vec2d before = from.position + geometry::Turn(from.angle - to.angle)(Vec2d(contact.point - to.position));
-    most = std::max(most, (contact.point - before).norm() / dt);
-    is_pushed = true;
-  }
-  const double speed = state.velocity.norm();
-  if (!is_pushed || !(speed > most)) return;
-  state.velocity *= most / speed;
-  move.velocity = state.velocity;
+/// Of one of so many parts. What turns comes to overlap a character that was free no deeper than it goes.
+/// @param push what is left of it [m].
+octagon_sweep::Limits TurningStep::limits_of(double push, int parts, const CharacterState& state) const {
+  octagon_sweep::Limits limits{push};
+  const bool was_free = state.has_last_free && state.last_free == state.position;
+  if (was_free) limits.out = push + most_turned() / parts;
+  return limits;
+}
+
+/// How far a place goes in a part with a collider that is there at its end [m].
+double TurningStep::way_of(const MovingCollider& collider, const Part& part, const Vec2d& place) {
+  const Pose from = pose_at(collider.motion, part.begin);
+  const Pose to = pose_at(collider.motion, part.end);
+  return (place - from.position - geometry::Turn(from.angle - to.angle)(Vec2d(place - to.position))).norm();
+}
+
+/// How much farther a character went in a part than it wanted to, and than what it touched [m].
+/// @param own how far it wanted to go [m].
+double TurningStep::pushed_in(const Part& part, const MoveResult& move, double own) const {
+  double way = 0;
+  for (const Contact& contact : move.contacts)
+    if (const MovingCollider* collider = find_moving(contact.collider))
+      way = std::max(way, way_of(*collider, part, contact.point));
+  return std::max(0.0, (move.position - move.path.front().position).norm() - own - way);
 }
 
 }  // namespace paperproof::turning

@@ -92,6 +92,12 @@ std::optional<Vec2d> TurningStep::way_out_at_end(CharacterState state) {
   for (Crusher& crusher : state.crushers)
     if (const MovingCollider* collider = find_moving(crusher.collider))
       carry(crusher, pose_at(collider->motion, 0), pose_at(collider->motion, 1));
+  double way = 0;
+  for (const MovingCollider& collider : memory_.moving)
+    if (blocks(collider.id) && overlaps(collider.id, pose_at(collider.motion, 1), state.position))
+      way = std::max(way, way_of(collider, {0, 1}, state.position + character().shape.box().middle()));
+  memory_.limits = limits_of(Tolerances{}.push + way, 1, state);
+  memory_.limits.push += most_turned();
   const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.of_part);
   if (status != StepStatus::moved) return std::nullopt;
   return memory_.of_part.move.position;
