@@ -1,8 +1,9 @@
 /// A free position for a character that movers press.
 ///
-/// It is free at the end of the step, no farther away than the movers may push, and reached by one straight uniform motion
-/// from a corner of the path. Two kinds of colliders may be passed, but only to the side from which the character came:
-/// those that the step began inside of, in a motion from its start; and movers that overlap since an earlier step.
+/// It is free at the end of the step, no farther away than the movers may push, and reached by one straight uniform
+/// motion from a corner of the path. Two kinds of colliders may be passed, but only to the side from which the
+/// character came: those that the step began inside of, in a motion from its start; and movers that overlap since an
+/// earlier step.
 #pragma once
 
 #include "step/contact_geometry.hpp"
