@@ -60,7 +60,6 @@ class NearFixtures {
   [[nodiscard]] bool is_there(ColliderIndex id) const;
   /// Of its movers.
   [[nodiscard]] std::span<const MoverMotion> motions() const noexcept { return motions_; }
-  /// The movers stand where their motions end.
   /// Those that no collider can be made of: see `InvalidScenery`.
   [[nodiscard]] std::vector<b2Fixture*> unusable() const;
   /// The bodies are where they are when the next step begins.

@@ -12,10 +12,10 @@ namespace paperproof::compare::detail {
 /// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
 /// for one step.
 ///
-/// **Grounded** is right where a solid has a walkable face within `guaranteed_touch` that the
-/// velocity does not lead into by more than that in one step (not asked of what turns), or where the unsteered motion
-/// points down and all that is within it leaves no way down (a wedge). It hovers where no walkable face is met by an
-/// exact motion straight down by the gap: the octagon only touches beside the face.
+/// **Grounded** is right where a solid has a walkable face within `guaranteed_touch` that the velocity does not lead
+/// into by more than that in one step (not asked of what turns), or where the unsteered motion points down and all that
+/// is within it leaves no way down (a wedge). It hovers where no walkable face is met by an exact motion straight down
+/// by the gap: the octagon only touches beside the face.
 ///
 /// **Ground missed.** The octagon is met by a walkable face on a motion by `guaranteed_touch` against the face's
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in

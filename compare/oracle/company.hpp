@@ -22,8 +22,8 @@ namespace paperproof::compare {
 /// Whether they come to overlap is asked, and whether one passes the other. Their contacts are counted as they are
 /// reported, and not judged: nothing is promised of them. Another that is near may have turned the motion aside, held
 /// or pushed it. Then contacts with scenery, lost way and speed, the first impact, falls, ground and room count neither
-/// way (exempted): see `Judge`. It is near where, at a corner of either's way, the two are within what the contender
-/// calls touching (`own_reach`), or what was requested leads from there into the other.
+/// way (exempted): see `Judge`. Two are near where, at a corner of either's way, they touch (within `own_reach`),
+/// or the motion that was requested leads from there into the other.
 ///
 /// **Inside.** Their open interiors overlap at the end of the step. It is new where they did not at its beginning.
 ///

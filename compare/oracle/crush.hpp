@@ -9,10 +9,10 @@
 
 namespace paperproof::compare {
 
-/// What turns is no solid of the exact scenery. What it means for a character: where that has room, and what holds it.
+/// What turns near a character: the exact scenery does not have it. It answers what is near, and where there is room.
 /// All empty where nothing turns near by, but for `left_free`, which is empty where nothing turns at all.
 struct WhatTurns {
-  /// What is within so many metres when the step has come to a corner of the way.
+  /// The parts within so many metres of a corner of the way, at that moment.
   std::function<std::vector<NearPart>(const PathPoint& corner, double within)> near{};
   /// The same where the step ends, `moved` as what turns goes then.
   std::function<std::vector<NearPart>(double within)> near_at_end{};

@@ -227,6 +227,7 @@ void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const
 bool Judge::is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning, bool in_turning) {
   if (!in_turning) return has_way_out(at, turns);
   const auto accept = [&](const Vec2d& out) {
+    // How far what turns went on in a part is not known: no way is asked for that this may have taken.
     const double farthest = turning_->has_crushed() ? detail::push_beyond_motion : farthest_out(at);
     return (out - at.position).norm() <= farthest && !ends_on_another_side(at, out);
   };
@@ -694,8 +695,7 @@ bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
   });
 }
 
-/// How far the way out of what the octagon is inside of may be [m]: whom movers have crushed leaves no farther than
-/// they push.
+/// The length up to which a way out is asked for [m]. Whom movers crushed goes no farther than they may push.
 double Judge::farthest_out(const Place& at) const {
   std::optional<double> motion;
   for (const auto& [collider, episode] : inside_) {

@@ -148,8 +148,8 @@ struct StepJudgement {
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
 /// - not farther than the longest motion of the movers that are named, and 0.25 m (`detail::push_beyond_motion`), from
-///   where the way to it begins, and from the octagon's. How far it went by itself is no push; how much farther it was
-///   pushed already is left out of these;
+///   where the way to it begins, and from the octagon's. How far it went by itself is no push. What it was pushed
+///   already is taken off;
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
 ///   those named, or from where that leg touches it (no way that leaves later undoes what has been pressed in), by a
@@ -157,8 +157,10 @@ struct StepJudgement {
 ///   of the step that meets no solid but what is overlapped at that corner, and comes no nearer than 1e-7 m (each side
 ///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
 ///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side
-///   there is no room;
-/// Who is beside another that goes at the same time may have no room (exempted). `room` says where it was.
+///   there is no room.
+///
+/// A crush with room counts as one without where another that goes at the same time is near (exempted). `room` says
+/// where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
 /// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
@@ -204,16 +206,15 @@ struct StepJudgement {
 /// has who gives way to a mover from the start of the step, or who goes in parts of the step, as what turns does.
 ///
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
-/// enter no solid that is within 1e-6 m (separation along the best axis) of a corner of the
-/// travelled way: of each convex part, those against none of the normals of one face that separates it there, relative
-/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it, from there or from
-/// where the leg began that ended there.) The projection of
-/// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
-/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers two more
-/// things must hold, as what moves may touch for a part of the step only:
+/// enter no solid that is within 1e-6 m (separation along the best axis) of a corner of the travelled way: of each
+/// convex part, those against none of the normals of one face that separates it there, relative to how far it moves in
+/// the step. (A one-way chain counts where it blocks the shortest way to it, from there or from where the leg began
+/// that ended there.) The projection of u onto C is the displacement of C that is nearest to u. A step hangs if the
+/// projection falls, u falls, each by more than 1e-9 m and an ulp of the largest coordinate, and the step falls less
+/// than half of both. Among movers two more things must hold, as what moves may touch for a part of the step only:
 /// - Leg by leg it could have fallen twice as far, too. The rate of a leg is that of the projection onto C of its first
-/// corner, of its last, or of both, whichever falls least, and no
-///   more than that of the leg before: what takes momentum takes it for the rest of the step.
+///   corner, of its last, or of both, whichever falls least, and no more than that of the leg before: what takes
+///   momentum takes it for the rest of the step.
 /// - No mover that does not touch the octagon at a corner runs into it from there, whether it stays or goes on as
 ///   requested: a character may give way instead.
 /// Excepted are
@@ -316,7 +317,7 @@ class Judge {
     const TraceStep& step;
     bool begins_inside = false;  ///< Of something that turns.
   };
-  /// @param step if something turns: without contacts and the like of that. @param turns what it means.
+  /// @param step without contacts with what turns, events of it, and crushes by it. @param turns what turns near by.
   [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted,
                                          bool beside_another, const AmongTurning* turning = nullptr);
   [[nodiscard]] double turned_out_too_far(const TraceStep& step, const Wanted& wanted) const;

@@ -649,7 +649,7 @@ void RunJudge::judge_drops(const TraceStep& record) {
   }
 }
 
-/// Who is met is another one. In turns the rest is asked of the contact with its body: see `InTurns`.
+/// A character meets others, and not itself. In turns its contact with their bodies is judged: see `InTurns`.
 void RunJudge::judge_met(const TraceStep& record) {
   for (const CrowdContact& met : record.met)
     if (met.other >= followers_.size() || met.other == record.character)

@@ -15,14 +15,19 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
+/// The longest way that a surface which is touched goes in the step [m].
+[[nodiscard]] inline Real longest_way(const Step& step) {
+  Real way = 0;
+  for (const TouchedSurface& surface : step.memory.surfaces)
+    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
+  return way;
+}
+
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
 [[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
   if (!step.result.crushed.empty()) return false;
-  Real way = 0;
-  for (const TouchedSurface& surface : step.memory.surfaces)
-    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
-  if (!move_to_free_position(step, push_left(step, way), {0, step.result.path.size()})) return false;
+  if (!move_to_free_position(step, push_left(step, longest_way(step)), {0, step.result.path.size()})) return false;
   step.memory.surfaces.clear();
   return true;
 }
@@ -58,16 +63,14 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   if (!are_a_wedge(step) || std::none_of(surfaces.begin(), surfaces.end(), pushes)) return true;
   const Vec2 wants = wanted.velocity.wanted;
   Real own = length_of(wants);
-  Real way = 0;
   Real speed = 0;
   for (const TouchedSurface& surface : surfaces) {
     if (walkable(step, surface.normal))
       own = std::max<Real>(own, std::abs(step.up.across_of(wants)) / step.up.up_of(surface.normal));
-    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
     speed = std::max(speed, speed_of(step, surface));
   }
   const Vec2 whole = step.position + allowed.displacement.wanted - step.start;
-  const Real farthest = length_of(step.wanted) + way + static_cast<Real>(step.request.around.limits.push);
+  const Real farthest = length_of(step.wanted) + longest_way(step) + static_cast<Real>(step.request.around.limits.push);
   if (length_of(whole) > farthest) return false;
   const Real most = std::max(own, 2 * speed) + std::abs(step.steered);
   const Real now = length_of(allowed.velocity.wanted);

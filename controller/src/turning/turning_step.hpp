@@ -116,7 +116,7 @@ class TurningStep {
   void begin_part(const Part& part, CharacterState& state) const;
 
   // turns.cpp
-  [[nodiscard]] double most_turned() const;
+  [[nodiscard]] double longest_turn() const;
   [[nodiscard]] int parts_wanted() const;
   [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
   [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position) const;

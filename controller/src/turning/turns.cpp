@@ -28,7 +28,7 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
 }  // namespace
 
 /// How far a point of the character's size would go with what turns in the step [m].
-double TurningStep::most_turned() const {
+double TurningStep::longest_turn() const {
   double most = 0;
   for (MoverIndex mover = 0; mover < context_.movers.size(); ++mover)
     if (memory_.turns[mover]) most = std::max(most, std::abs(context_.movers[mover].turn()));
@@ -37,7 +37,7 @@ double TurningStep::most_turned() const {
 
 /// Into how many shorter steps a step must be divided.
 int TurningStep::parts_wanted() const {
-  const double most = most_turned();
+  const double most = longest_turn();
   int parts = 1;
   while (parts < most_parts && most > Controller::most_turned * parts) parts *= 2;
   return parts;
@@ -199,7 +199,7 @@ std::set<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) con
 octagon_sweep::Limits TurningStep::limits_of(double push, int parts, const CharacterState& state) const {
   octagon_sweep::Limits limits{push};
   const bool was_free = state.has_last_free && state.last_free == state.position;
-  if (was_free) limits.out = push + most_turned() / parts;
+  if (was_free) limits.out = push + longest_turn() / parts;
   return limits;
 }
 

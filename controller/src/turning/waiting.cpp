@@ -97,7 +97,7 @@ std::optional<Vec2d> TurningStep::way_out_at_end(CharacterState state) {
     if (blocks(collider.id) && overlaps(collider.id, pose_at(collider.motion, 1), state.position))
       way = std::max(way, way_of(collider, {0, 1}, state.position + character().shape.box().middle()));
   memory_.limits = limits_of(Tolerances{}.push + way, 1, state);
-  memory_.limits.push += most_turned();
+  memory_.limits.push += longest_turn();
   const StepStatus status = go(state, {nullptr, {0, 0}}, 1, memory_.of_part);
   if (status != StepStatus::moved) return std::nullopt;
   return memory_.of_part.move.position;
