@@ -1,9 +1,9 @@
 /// A free position for a character that movers press.
 ///
 /// It is free at the end of the step, no farther away than the movers may push, and reached by one straight uniform
-/// motion from a corner of the path. Two kinds of colliders may be passed, but only to the side from which the
-/// character came: those that the step began inside of, in a motion from its start; and movers that overlap since an
-/// earlier step.
+/// motion from a corner of the path. Two kinds of colliders may be passed from a corner inside of them, but only to the
+/// side from which the character came: those that the step began inside of, and movers that overlap since an earlier
+/// step.
 #pragma once
 
 #include "step/contact_geometry.hpp"
@@ -28,9 +28,12 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return query;
 }
 
-/// Whether a motion from a corner may pass the collider of a piece.
+/// Whether a motion from a corner may pass the collider of a piece. One that has left the character by then is solid
+/// again.
 [[nodiscard]] inline bool may_pass(const Step& step, PieceIndex piece, std::size_t corner) {
-  return step.memory.is(collider_of(step, piece), corner == 0 ? leaving | overlaps_since_start : overlaps_since_start);
+  const PathPoint& at = step.result.path[corner];
+  return step.memory.is(collider_of(step, piece), leaving | overlaps_since_start) &&
+         overlaps_exactly(step.space, piece, step.movers.moving.motions, at.position, at.fraction);
 }
 
 /// The pieces for a search from a corner.
@@ -64,12 +67,13 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
   return std::nullopt;
 }
 
-/// Whether a piece pushes or comes nearer, and is as near as a contact then.
+/// Whether a piece pushes or comes nearer, and is as near as a contact then. A face that a neighbour covers is none, but
+/// for a character that passes through a mover: that may be the neighbour.
 [[nodiscard]] inline bool is_contact(const Step& step, const Nearest& near) {
   const Vec2 motion_of_mover = step.movers.displacement(mover_of(step, near.piece));
   const bool pushes = dot(motion_of_mover, step.space.normal(near.piece, near.axis)) > tolerances.certain;
   return (near.when > 0 || pushes) && near.separation <= 2 * tolerances.stop &&
-         !step.space.covered(near.piece, near.axis);
+         (step.moving.overlapping > 0 || !step.space.covered(near.piece, near.axis));
 }
 
 /// By bisection, the largest fraction of a way for which a condition holds, as it does at `low`.
@@ -197,9 +201,9 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
     // Mostly there is also one with the gap that is kept everywhere else.
     if (const auto ample = nearest_free_position(step, tolerances.stop, reach, corners)) found = ample;
   }
+  if (found) extend_until_contact(step, *found);
   step.moving.ignored = ignored_before;
   if (!found) return false;
-  extend_until_contact(step, *found);
   go_back_to(step, found->corner);
   go_to_free_position(step, found->corner, found->position);
   return true;
