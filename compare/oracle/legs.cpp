@@ -190,16 +190,25 @@ Box2 LegJudge::asked(std::span<const MetSurface> surfaces) const {
   return all;
 }
 
-/// How far all goes in the step that touches the character and moves [m].
-double LegJudge::pushes() const {
+/// How far each goes in the step that touches the character and moves [m].
+std::map<ColliderIndex, double> LegJudge::pushes() const {
   std::map<ColliderIndex, double> ways;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach))
       ways[part.collider] =
           std::max(ways[part.collider], part.moved.norm() + part.unsure + std::abs(part.rim) + part.rim_unsure);
-  double all = 0;
-  for (const auto& [collider, way] : ways) all += way;
-  return all;
+  return ways;
+}
+
+/// How much farther than the law of pushing says something pushes it out of what holds it [m].
+double LegJudge::pushed_out_too_far(std::size_t first) const {
+  std::map<ColliderIndex, double> ways = pushes();
+  for (const ColliderIndex inside : step_.start_overlap) ways.erase(inside);
+  double longest = 0;
+  for (const auto& [collider, way] : ways) longest = std::max(longest, way);
+  const double way = (step_.path.back().position - step_.path[first].position).norm();
+  const double most = longest > 0 ? longest + push_beyond_motion : 0;
+  return std::max(0.0, way - most - rounding());
 }
 
 double LegJudge::rounding() const {
@@ -260,9 +269,12 @@ bool LegJudge::knows_speeds() const {
 double LegJudge::way_gained(std::size_t first) const {
   const double gained = farther(first, speeds_, {});
   if (!(gained > 0) || !is_pushed()) return gained;
+  if (held_) return pushed_out_too_far(first);
   // Pushed at once, it goes on as if all rested: each motion counts once.
   const Box2 pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
-  const Vec2d most = Vec2d::Constant(pushes() + push_beyond_motion);
+  double way = 0;
+  for (const auto& [collider, its] : pushes()) way += its;
+  const Vec2d most = Vec2d::Constant(way + push_beyond_motion);
   const Box2 push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
   std::vector<MetSurface> resting = surfaces_;
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable, .is_overlapped = at.is_overlapped};

@@ -5,6 +5,8 @@
 #include "oracle/later_parts.hpp"
 #include "oracle/met_surfaces.hpp"
 
+#include <map>
+
 namespace paperproof::compare::detail {
 
 /// The parts of solids within so many metres of a corner of the way.
@@ -73,7 +75,8 @@ class LegJudge {
   [[nodiscard]] Box2 asked(std::span<const MetSurface> surfaces) const;
   [[nodiscard]] double farther(std::size_t first, const Box2& speeds, const Box2& push) const;
   [[nodiscard]] Vec2d own_carrier() const;
-  [[nodiscard]] double pushes() const;
+  [[nodiscard]] std::map<ColliderIndex, double> pushes() const;
+  [[nodiscard]] double pushed_out_too_far(std::size_t first) const;
   [[nodiscard]] bool is_moved_at_once() const;
   [[nodiscard]] bool goes_by_law() const;
   [[nodiscard]] double room_at(std::size_t surfaces) const;
