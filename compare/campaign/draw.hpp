@@ -48,7 +48,8 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 [[nodiscard]] RandomRun draw_among_turning(Turning family, std::uint64_t seed);
 
 /// A chamber about as large as the character; two to four presses go in and out of it and leave no room.
-[[nodiscard]] RandomRun draw_among_presses(std::uint64_t seed);
+/// @param rims each press has walls at its sides, and is a bucket.
+[[nodiscard]] RandomRun draw_among_presses(bool rims, std::uint64_t seed);
 
 /// Keys held and jumps at random, for ten seconds. @param rate steps per second.
 [[nodiscard]] RandomRun draw_play(PlayLevel level, int rate, std::uint64_t seed);

@@ -131,7 +131,7 @@ namespace {
 /// The walls of a chamber, and presses that begin beside it and go to some places in it.
 class Chamber {
  public:
-  Chamber(Random& random, RandomRun& run) : random_(random), scene_(run.scene) {
+  Chamber(Random& random, RandomRun& run, bool rims) : random_(random), scene_(run.scene), rims_(rims) {
     height_ = random_.between(1.4, 3);
     width_ = random_.between(0.8, 2.5);
     std::vector<ColliderDef>& walls = scene_.scenery.colliders;
@@ -158,6 +158,7 @@ class Chamber {
     ColliderDef def = box(at.x(), at.y(), at.x() + width, at.y() + height, mover);
     if (random_.chance(0.3)) def.points = {at, {at.x() + width, at.y()}, {at.x() + width / 2, at.y() + height}};
     scene_.scenery.colliders.push_back(def);
+    if (rims_) add_rims(at, width, mover);
     Shuttle shuttle{{Vec2d{0, 0}}, static_cast<double>(speeds[static_cast<std::size_t>(random_.integer(0, 3))])};
     for (int points = random_.integer(1, 4); points > 0; --points) {
       Vec2d to;
@@ -169,21 +170,30 @@ class Chamber {
     return shuttle;
   }
 
+  /// Walls on both sides of a press, flush with it: it becomes a bucket.
+  void add_rims(const Vec2d& at, double width, MoverIndex mover) {
+    constexpr double thick = 0.1;
+    const double height = random_.between(0.2, 1.2);
+    for (const double left : {at.x() - thick, at.x() + width})
+      scene_.scenery.colliders.push_back(box(left, at.y(), left + thick, at.y() + height, mover));
+  }
+
   Random& random_;
   Scene& scene_;
+  bool rims_;
   double height_ = 0;
   double width_ = 0;
 };
 
 }  // namespace
 
-RandomRun draw_among_presses(std::uint64_t seed) {
+RandomRun draw_among_presses(bool rims, std::uint64_t seed) {
   Random random(seed);
   RandomRun run;
   Scene& scene = run.scene;
   run.reach = 9;
   run.may_begin_inside = true;
-  const Chamber chamber(random, run);
+  const Chamber chamber(random, run, rims);
   scene.start.position = {random.between(-0.3, 0.3), half_height + 1e-5};
   constexpr std::array steps_a_second{60, 60, 30, 20};
   constexpr std::array pulls{0, -10, -30};

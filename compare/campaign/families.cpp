@@ -133,11 +133,15 @@ std::vector<Family> tight() {
 }
 
 std::vector<Family> rest() {
-  return {{.kind = "presses",
-           .name = "chambers",
-           .draw = draw_among_presses,
-           .share = 1.0 / 3,
-           .covers = {{"aside", 0.02}, {"crushed", 0.005}, {"again", 0.0005}, {"freed", 0.002}, {"unnamed", 0, 1e-4}}},
+  const auto presses = [](const char* name, bool rims) -> Family {
+    return {.kind = "presses",
+            .name = name,
+            .draw = [rims](std::uint64_t seed) { return draw_among_presses(rims, seed); },
+            .share = 1.0 / 3,
+            .covers = {{"aside", 0.02}, {"crushed", 0.005}, {"again", 0.0005}, {"freed", 0.002}, {"unnamed", 0, 1e-4}}};
+  };
+  return {presses("chambers", false),
+          presses("buckets", true),
           {.kind = "crowd",
            .name = "rooms",
            .draw = draw_crowd,

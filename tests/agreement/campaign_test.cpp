@@ -89,6 +89,8 @@ const std::vector<Found> all_found{
     {"presses/chambers", {135}, {Clause::start_inside}},
     {"presses/chambers", {310}, {Clause::time_of_impact}},
     {"presses/chambers", {409}, {Clause::contact_invented}},
+    {"presses/buckets", {765}, {Clause::overlap, Clause::passage}},
+    {"crowd_movers/rooms", {412}, {Clause::overlap, Clause::passage, Clause::start_inside}},
 };
 
 TEST(CampaignFound, what_broke_once_holds) {
