@@ -191,19 +191,6 @@ PAPERPROOF_COLD StepStatus Controller::step_in_parts(CharacterState& state, cons
   }
 }
 
-StepStatus Controller::wait(CharacterState& state, const StepContext& context, Scratch& scratch,
-                            StepReport& report) const noexcept {
-  if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context))
-    return report.status = StepStatus::invalid_input;
-  const CharacterState before = state;
-  try {
-    return turning::TurningStep(*this, context, scratch, report).wait(state);
-  } catch (const std::bad_alloc&) {
-    state = before;
-    return refuse_without_memory(intended(state), state, scratch, report);
-  }
-}
-
 std::span<const TurnedCollider> Controller::turned(const Scratch& scratch) noexcept {
   return scratch.turning == nullptr ? std::span<const TurnedCollider>{} : turning::memory_of(scratch).turned;
 }

@@ -501,17 +501,6 @@ TEST(LevelStep, reads_no_ground_of_a_state_that_stands_on_none) {
   EXPECT_EQ(played.step(), StepStatus::moved);
 }
 
-TEST(ControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
-  const auto wait = [](MoverIndex mover, const Vec2d& from) {
-    Played played({{box(-1, -1, 1, 1, mover)}}, {0, 0});
-    for (MoverMotion& motion : played.movers) motion.from = from;
-    return played.controller.wait(played.state, played.context(), played.scratch, played.report);
-  };
-  EXPECT_EQ(wait(no_mover, {0, 0}), StepStatus::stuck);
-  EXPECT_EQ(wait(0, {0, 9}), StepStatus::crushed);
-  EXPECT_EQ(wait(0, {0, 0}), StepStatus::stuck);
-}
-
 TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
   for (const bool move : {false, true}) {
     ColliderDef right = box(-10, -1, 10, 0);

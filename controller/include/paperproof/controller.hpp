@@ -92,12 +92,6 @@ class Controller {
   StepStatus move(CharacterState& state, const Vec2d& displacement, const StepContext& context, Scratch& scratch,
                   StepReport& report) const noexcept;
 
-  /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
-  /// @return `crushed` if something reached the character, else `stuck` if something overlaps it at the end, else
-  /// `moved`.
-  StepStatus wait(CharacterState& state, const StepContext& context, Scratch& scratch,
-                  StepReport& report) const noexcept;
-
   /// How what moves near the character went in the last step; empty where nothing near it has an angle. Only where
   /// `Scratch::notes_turned` is set.
   [[nodiscard]] static std::span<const TurnedCollider> turned(const Scratch& scratch) noexcept;

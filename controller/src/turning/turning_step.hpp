@@ -91,8 +91,6 @@ class TurningStep {
   TurningStep& operator=(const TurningStep&) = delete;
 
   StepStatus step(CharacterState& state, const Wish& wish);
-  /// See `Controller::wait`.
-  StepStatus wait(CharacterState& state);
   /// For a question: motions in which movers keep the angle with which they begin, and of the circles among them.
   /// @param around what is asked about. @return valid until the next step or question.
   [[nodiscard]] std::span<const MoverMotion> hold_angles(const Box2& around);

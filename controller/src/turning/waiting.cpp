@@ -131,12 +131,4 @@ StepStatus TurningStep::stay(CharacterState& state) {
   return end(state);
 }
 
-StepStatus TurningStep::wait(CharacterState& state) {
-  if (!step_parts::in_range(state.position)) return refuse(StepStatus::out_of_range, state);
-  memory_.turned.clear();
-  read(box_at({state.position, state.position}));
-  forget_gone(state);
-  return stay(state);
-}
-
 }  // namespace paperproof::turning
