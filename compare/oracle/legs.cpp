@@ -399,13 +399,13 @@ double LegJudge::leg_error() const {
   for (std::size_t leg = 0; leg + 1 < step_.path.size(); ++leg) {
     const PathPoint& from = step_.path[leg];
     const PathPoint& to = step_.path[leg + 1];
-    const auto is_there = [&](const Contact& contact) {
+    const auto is_there = [&](const MetSurface& at) {
       return std::any_of(step_.path.begin(), step_.path.begin() + static_cast<std::ptrdiff_t>(leg) + 1,
                          [&](const PathPoint& corner) {
-                           return scenery_.separation(Place(corner, step_.movers), contact.collider) <= contact_reach;
+                           return scenery_.separation(Place(corner, step_.movers), at.collider) <= contact_reach;
                          });
     };
-    for (; met < surfaces.size() && is_there(step_.contacts[met]); ++met) {
+    for (; met < surfaces.size() && is_there(surfaces[met]); ++met) {
       const std::vector<Vec2d> made = controlled_outcomes(law, std::span(surfaces).first(met + 1));
       outcomes.insert(outcomes.end(), made.begin(), made.end());
       if (met + 1 == surfaces.size()) outcomes.push_back(step_.velocity);  // judged for itself

@@ -39,9 +39,9 @@ bool leaves_past_rim(const SolidsInStep& solids, const PathPoint& from, const Pa
   if (!(way.dot(touch.normal) < -touched)) return false;
   const std::vector<NearPart> parts = solids.at(from.fraction).near_parts(Place(from, solids.step().movers), touched);
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.collider == touch.collider && std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
-             return face.separation >= 0 && way.dot(face.normal) >= -touched;
-           });
+    return part.collider == touch.collider &&
+           std::any_of(part.faces.begin(), part.faces.end(),
+                       [&](const NearFace& face) { return face.separation >= 0 && way.dot(face.normal) >= -touched; });
   });
 }
 
@@ -154,9 +154,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     const auto is_touched = [&](const PathPoint& at) {
       return is_touched_there(solids.at(at.fraction), Place(at, step.movers), touch);
     };
-    auto since = corner;
-    while (since != step.path.begin() && is_touched(*std::prev(since))) --since;
-    MetSurface one{.normal = touch.normal};
+    MetSurface one{.normal = touch.normal, .collider = touch.collider};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
     one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable || goes_along(touch.collider));
     one.ridden = ridden == touch.collider;
@@ -167,12 +165,17 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     if (leaves != step.path.end())
       one.left = (leaves_past_rim(solids, *std::prev(leaves), *leaves, touch) ? std::prev(leaves) : leaves)->fraction;
     one.returned = leaves != step.path.end() && is_touched(step.path.back());
-    one.touched_since = std::min(one.met, since->fraction);
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction),
                                detail::extent_of(solids.header().points));
     walks = walks || one.walkable;
     surfaces.push_back(one);
+    if (!one.returned) continue;
+    const auto back = std::find_if(leaves, step.path.end(), is_touched);  // it is reported once
+    one.met = back->fraction;
+    one.left = std::numeric_limits<double>::infinity();
+    surfaces.push_back(one);
   }
+  std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.met < b.met; });
   return surfaces;
 }
 

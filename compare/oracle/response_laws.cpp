@@ -21,6 +21,7 @@ constexpr double one_direction = 1e-9;
 constexpr double same_velocity = 1e-9;
 /// Share of a velocity that is rounding in Box2D.
 constexpr double in_float = 1e-5;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -67,121 +68,166 @@ std::optional<Vec2d> impulses_of(const Vec2d& change, const MetSurface& a, const
 
 Vec2d follow(double x, const Vec2d& n) { return {x, -x * n.x() / n.y()}; }
 
-/// At one surface that rests, without steering.
-Vec2d respond(Vec2d v, const MetSurface& at) {
-  const Vec2d& n = at.normal;
-  if (v.dot(n) >= 0) return v;
-  if (at.walkable) return follow(v.x(), n);
-  const auto slide = [&n](const Vec2d& w) { return Vec2d(w - w.dot(n) * n); };
-  if (n.y() < 0) {
-    if (v.y() > 0) return at.climbs ? Vec2d(Vec2d::Zero()) : slide(v);
-    return {-v.y() * n.y() / n.x(), v.y()};
-  }
-  if (v.x() * n.x() < 0) v = {0, at.climbs ? std::min(v.y(), 0.0) : v.y()};
-  return v.dot(n) < 0 ? slide(v) : v;
-}
-
 /// A velocity that is wanted, and the part of it that is there without this step's steering [m/s].
 struct Steered {
   Vec2d wanted;
   Vec2d unsteered;
 };
 
-/// At one surface that rests. @param steering what steering added, horizontally.
-Steered respond(const Steered& v, double steering, const MetSurface& at) {
-  const Vec2d& n = at.normal;
-  if (v.wanted.dot(n) >= 0) return v;
-  const Vec2d unsteered = respond(v.unsteered, at);
-  if (at.walkable) return {follow(v.unsteered.x() + steering, n), unsteered};
-  const bool presses = n.y() >= 0 && (v.wanted - v.unsteered).dot(n) < 0;
-  if (!presses) return {respond(v.wanted, at), unsteered};
-  if (v.unsteered.dot(n) < 0) return {unsteered, unsteered};
-  const double y = at.climbs ? std::min(unsteered.y(), 0.0) : unsteered.y();
-  return {Vec2d(-y * n.y() / n.x(), y), unsteered};
+/// How fast the ground rises for whom it carries across at `x`.
+double rise_at(double x, const MetSurface& ground) {
+  return ground.velocity.y() - (x - ground.velocity.x()) * ground.normal.x() / ground.normal.y();
 }
 
-/// At one surface that goes along.
-Steered at_surface(const Steered& v, double steering, const MetSurface& at) {
-  const Steered seen = respond({v.wanted - at.velocity, v.unsteered - at.velocity}, steering, at);
-  return {seen.wanted + at.velocity, seen.unsteered + at.velocity};
+/// Across at `x`, on the ground or above it at `y`; nothing where that enters a surface, or has no height.
+std::optional<Vec2d> walked_to(double x, double y, std::span<const MetSurface> surfaces) {
+  for (const MetSurface& at : surfaces)
+    if (at.walkable) y = std::max(y, rise_at(x, at));
+  const Vec2d v(x, y);
+  const auto is_in = [&](const MetSurface& at) { return !at.walkable && enters(v, at); };
+  if (!std::isfinite(y) || std::any_of(surfaces.begin(), surfaces.end(), is_in)) return std::nullopt;
+  return v;
+}
+
+/// The same, as near to `x` across as the surfaces allow between two ends.
+std::optional<Vec2d> walked_towards(double x, double y, double begin, double end,
+                                    std::span<const MetSurface> surfaces) {
+  std::vector<double> places{x};
+  for (const MetSurface& at : surfaces) {
+    if (at.walkable) continue;
+    const auto level = std::isfinite(y) ? held_by(at, {.normal = {0, 1}, .velocity = {0, y}}) : std::nullopt;
+    if (level) places.push_back(level->x());
+    for (const MetSurface& ground : surfaces)
+      if (const auto held = ground.walkable ? held_by(at, ground) : std::nullopt) places.push_back(held->x());
+  }
+  std::erase_if(places, [&](double place) { return place < std::min(begin, end) || place > std::max(begin, end); });
+  std::stable_sort(places.begin(), places.end(), [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
+  for (const double place : places)
+    if (const std::optional<Vec2d> v = walked_to(place, y, surfaces)) return v;
+  return std::nullopt;
+}
+
+/// Momentum that presses into a surface which nobody walks on ends, as in an impact; steering against it comes first.
+/// @return what is left of the velocity.
+Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> surfaces, double& steering) {
+  const Vec2d& n = at.normal;
+  const double towards = n.x() < 0 ? 1 : -1;  // across, into the surface
+  const bool slides = n.y() < 0 && u.y() > at.velocity.y();
+  if (!enters(u, at) || n.x() == 0 || slides || !(towards * (u.x() - at.velocity.x()) > 0)) return u;
+  if (towards * steering < 0) {
+    const double braked = std::min(towards * (u.x() - at.velocity.x()), -towards * steering);
+    u.x() -= towards * braked;
+    steering += towards * braked;
+  }
+  double end = towards * at.velocity.x();
+  if (n.y() < 0) end = std::max(end, towards * (at.velocity.dot(n) - n.y() * u.y()) / n.x());
+  for (const MetSurface& other : surfaces)
+    if (const auto held = other.normal.x() * n.x() < 0 && other.normal.y() > 0 ? held_by(at, other) : std::nullopt)
+      end = std::max(end, towards * held->x());
+  u.x() = towards * std::min(towards * u.x(), end);
+  return u;
+}
+
+/// What surfaces make of a velocity that are touched at once; nothing where they leave none.
+/// @param steering what steering added, horizontally; what brakes is spent. @param climbs a rise is the climb of a
+/// walk.
+std::optional<Steered> respond(const Steered& velocity, double& steering, bool climbs,
+                               std::span<const MetSurface> surfaces) {
+  Vec2d u = velocity.unsteered;
+  bool is_free = true;
+  for (const MetSurface& at : surfaces) {
+    if (!enters(velocity.wanted, at)) continue;
+    is_free = false;
+    if (climbs && !at.walkable) u.y() = std::min(u.y(), at.velocity.y());
+  }
+  if (is_free) return velocity;
+  for (const MetSurface& at : surfaces)
+    if (!at.walkable) u = after_impact(u, at, surfaces, steering);
+  const bool lands =
+      std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return at.walkable && enters(u, at); });
+  const auto walk = lands ? walked_towards(u.x(), -infinity, -infinity, infinity, surfaces) : std::nullopt;
+  const std::optional<Vec2d> base = walk ? walk : nearest_allowed(u, surfaces);
+  if (!base) return std::nullopt;
+  const double x = base->x() + steering;
+  const double y = walk ? std::min(u.y(), base->y()) : base->y();
+  const auto steered = steering != 0 ? walked_towards(x, y, base->x(), x, surfaces) : std::nullopt;
+  return Steered{steered.value_or(*base), *base};
 }
 
 /// What a trace does not say.
 struct Unknown {
   bool met_at_end = false;  ///< What is touched where the step ends was met, by rounding.
   bool carried = false;     ///< A landing without horizontal speed is carried at once.
+  bool one_by_one = false;  ///< What is met at one moment was met in turn, without a way between.
 };
 
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
 bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.velocity != Vec2d::Zero(); }
 
-/// A surface that holds, and the velocity that came to it.
-struct Holding {
-  MetSurface at;
-  Steered came;
-};
-
 /// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, which is along
 /// its ground if it walks, or twice that of the fastest of them. So fast a wall pushes up a slope of 60 degrees.
-double most_pressed(const Vec2d& came, double steering, std::span<const Holding> held) {
-  const auto pushes = [](const Holding& one) { return one.at.velocity.dot(one.at.normal) > 0; };
-  if (std::none_of(held.begin(), held.end(), pushes)) return std::numeric_limits<double>::infinity();
+double most_pressed(const Vec2d& came, double steering, std::span<const MetSurface> held) {
+  const auto pushes = [](const MetSurface& at) { return at.velocity.dot(at.normal) > 0; };
+  const auto is_other = [&](const MetSurface& at) {
+    return std::abs(cross(at.normal, held[0].normal)) > one_direction;
+  };
+  if (std::none_of(held.begin(), held.end(), pushes) || std::none_of(held.begin(), held.end(), is_other))
+    return infinity;
   double most = came.norm();
-  for (const Holding& one : held) {
-    if (one.at.walkable) most = std::max(most, std::abs(came.x()) / one.at.normal.y());
-    most = std::max(most, 2 * one.at.velocity.norm());
+  for (const MetSurface& at : held) {
+    if (at.walkable) most = std::max(most, std::abs(came.x()) / at.normal.y());
+    most = std::max(most, 2 * at.velocity.norm());
   }
   return most + std::abs(steering);
 }
 
-/// As an upright character sees it.
+/// Whether surfaces on both sides that nobody walks on, and that go almost alike, leave hardly anything of a fall.
+bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall) {
+  const MetSurface& first = *std::max_element(held.begin(), held.end(),
+                                              [](const auto& a, const auto& b) { return a.normal.y() < b.normal.y(); });
+  const double hardly = 0.1 * (first.velocity.y() - fall);
+  const auto goes_alike = [&](const MetSurface& at) {
+    return !at.walkable && (at.velocity - first.velocity).norm() <= hardly;
+  };
+  const auto is_at = [&](double side) {
+    return std::any_of(held.begin(), held.end(), [&](const auto& at) { return side * at.normal.x() > 0; });
+  };
+  return first.normal.y() > 0 && is_at(-1) && is_at(1) && (left - first.velocity).norm() <= hardly &&
+         std::all_of(held.begin(), held.end(), goes_alike);
+}
+
+/// As an upright character sees it. What is met at one moment is answered together with all that is still held.
 /// @param fastest set to the speed at which surfaces press it out, where that is larger [m/s].
 Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown,
                  double& fastest) {
   Steered now = velocity;
   double steering = (velocity.wanted - velocity.unsteered).x();
-  std::vector<Holding> held;
-  for (const MetSurface& at : surfaces) {
-    if (is_at_end(at) && !unknown.met_at_end) continue;
-    if (!enters(now.wanted, at)) {
-      // A flush neighbour of what holds goes on to hold where that ends.
-      for (Holding& one : held)
-        if (one.at.normal == at.normal && one.at.velocity == at.velocity) one.at.left = std::max(one.at.left, at.left);
-      continue;
-    }
-    std::erase_if(held, [&](const Holding& one) { return one.at.left <= at.met; });
-    // What each of two leaves that are touched at once enters the other.
-    const bool both_stop = !held.empty() && at.touched_since <= held.back().at.met &&
-                           enters(at_surface(held.back().came, steering, at).wanted, held.back().at);
-    held.push_back({at, now});
-    const Vec2d& carried = at.velocity;
-    if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
-      now = {carried, carried};
+  double fall = velocity.unsteered.y();
+  std::vector<MetSurface> held;
+  for (std::size_t k = 0; k < surfaces.size();) {
+    const MetSurface& at = surfaces[k];
+    const bool goes_on = k > 0 && surfaces[k - 1].met < at.met;
+    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
+    do {
+      if (!is_at_end(surfaces[k]) || unknown.met_at_end) held.push_back(surfaces[k]);
+      ++k;
+    } while (k < surfaces.size() && surfaces[k].met == at.met && !unknown.one_by_one);
+    if (held.empty()) continue;
+    if (goes_on) fall = now.unsteered.y();
+    const Vec2d came = now.wanted;
+    const auto carries = [&](const MetSurface& one) { return &one >= &held.back() && may_carry(one); };
+    if (unknown.carried && carries(held.back()) && enters(came, held.back()) &&
+        std::abs(came.x()) <= grazing * came.norm()) {
+      now = {held.back().velocity, held.back().velocity};
       steering = 0;
-    } else {
-      now = at_surface(now, steering, at);
     }
-    const auto is_entered = [&](const Holding& one) { return enters(now.wanted, one.at); };
-    if (!both_stop && std::none_of(held.begin(), held.end(), is_entered)) continue;
-    const bool all_left = std::all_of(held.begin(), held.end(), [](const Holding& one) { return one.at.left <= 1; });
-    std::vector<MetSurface> all;
-    for (const Holding& one : held) all.push_back(one.at);
-    const Vec2d fall = all_left ? Vec2d(carried.x(), held.back().came.unsteered.y())
-                                : nearest_allowed(velocity.unsteered, all).value_or(carried);
-    const bool walked = std::any_of(held.begin(), held.end(), [](const Holding& one) { return one.at.walkable; });
-    std::optional<Vec2d> stop;
-    if (held.size() > 1) {
-      const auto other = std::find_if(held.begin(), held.end() - 1, is_entered);
-      stop = held_by((other != held.end() - 1 ? *other : held[held.size() - 2]).at, at);
-      const bool is_in_another =
-          stop && std::any_of(all.begin(), all.end(), [&](const MetSurface& one) { return enters(*stop, one); });
-      if (is_in_another) stop = nearest_allowed(velocity.wanted, all);
-    }
-    Vec2d end = stop.value_or(carried);
-    fastest = std::max(fastest, end.norm());
-    if (const double most = most_pressed(held.back().came.wanted, steering, held); end.norm() > most)
-      end *= most / end.norm();
-    now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
+    const auto made = respond(now, steering, at.climbs, held);
+    now = made.value_or(Steered{Vec2d::Zero(), Vec2d::Zero()});
+    const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
+    if (all_left && hold_fall(held, now.unsteered, fall)) now = {Vec2d(0, fall), Vec2d(0, fall)};
+    const double most = most_pressed(came, steering, held);
+    fastest = std::max(fastest, most < infinity ? now.wanted.norm() : 0);
+    if (now.wanted.norm() > most) now.wanted *= most / now.wanted.norm();
   }
   return now.wanted;
 }
@@ -195,7 +241,6 @@ std::array<Vec2d, 4> velocities_of(const MetSurface& at) { return corners_of(at.
 
 double fastest(const MetSurface& at) { return at.velocity.norm() + std::hypot(at.spread, at.spread_along); }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Holds nothing.
 const Box2 no_box{Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
 
@@ -236,23 +281,35 @@ void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
   slide(v);
 }
 
+/// What the trace leaves open of these surfaces.
+std::vector<Unknown> ways(std::span<const MetSurface> surfaces) {
+  const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
+  const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
+  const bool any_at_once = std::adjacent_find(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) {
+                             return a.met == b.met;
+                           }) != surfaces.end();
+  std::vector<Unknown> all;
+  for (const bool met_at_end : {false, true})
+    for (const bool carried : {false, true})
+      for (const bool one_by_one : {false, true})
+        if (met_at_end <= any_at_end && carried <= any_carries && one_by_one <= any_at_once)
+          all.push_back({met_at_end, carried, one_by_one});
+  return all;
+}
+
 /// All that the law can make, as an upright character sees it.
 /// @param most_pressed_out see `ControlledStep`.
 std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces,
                                     double most_pressed_out) {
-  const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
-  const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
   std::vector<Vec2d> outcomes;
-  for (const bool met_at_end : {false, true})
-    for (const bool carried : {false, true}) {
-      if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
-      double fastest = 0;
-      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}, fastest));
-      if (fastest > most_pressed_out) outcomes.emplace_back(0, 0);
-      for (const MetSurface& at : surfaces)
-        if (at.walkable && (is_at_end(at) || at.returned))
-          outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
-    }
+  for (const Unknown unknown : ways(surfaces)) {
+    double fastest = 0;
+    const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, unknown, fastest));
+    if (fastest > most_pressed_out) outcomes.emplace_back(0, 0);
+    for (const MetSurface& at : surfaces)
+      if (at.walkable && (is_at_end(at) || at.returned))
+        outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
+  }
   return outcomes;
 }
 
@@ -320,6 +377,22 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   return outcomes;
 }
 
+namespace {
+
+/// Where the speed that a push gives is limited, all of it is slowed, by no more than the push gave.
+Box2 slowed_by_limit(Box2 box, std::span<const MetSurface> surfaces) {
+  double push = 0;
+  for (const MetSurface& at : surfaces)
+    if (surfaces.size() > 1 && at.velocity.dot(at.normal) + at.spread > 0) push = std::max(push, fastest(at));
+  for (const Eigen::Index i : {0, 1}) {
+    box.lower[i] = std::min(box.lower[i], std::max(box.lower[i] - push, 0.0));
+    box.upper[i] = std::max(box.upper[i], std::min(box.upper[i] + push, 0.0));
+  }
+  return box;
+}
+
+}  // namespace
+
 Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
   const Vec2d slower(range.least_steering, 0);
   const Vec2d faster(range.most_steering, 0);
@@ -357,7 +430,8 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
     unsteered = unsteered.merged(responses(before));
     made_by[i] = responses(wanted);
     wanted = wanted.merged(made_by[i]).merged(unsteered);
-    // A wall takes steering. On ground the whole of it is there again.
+    // What takes steering takes it for once.
+    wanted = wanted.merged({unsteered.lower + slower, unsteered.upper + faster});
     if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
     for (std::size_t k = 0; k < i; ++k) {
       const MetSurface& with = surfaces[k];
@@ -383,7 +457,7 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
         }
     }
   }
-  return wanted.merged(unsteered);
+  return slowed_by_limit(wanted.merged(unsteered), surfaces);
 }
 
 std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,

@@ -15,15 +15,15 @@ namespace paperproof::compare {
 struct MetSurface {
   Vec2d normal{Vec2d::Zero()};    ///< Unit, towards the character.
   Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
-  bool walkable = false;          ///< Within the climb limit of the character.
-  bool is_overlapped = false;     ///< For bounds alone: the character is inside of it, and may go along.
-  bool is_side = false;           ///< Touches the left or right side of the character.
-  bool ridden = false;            ///< The step begins on it, and goes along: nobody lands on it.
-  bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
-  double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
-  double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
-  double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
-  bool returned = false;  ///< It was left, and is touched again where the step ends.
+  ColliderIndex collider = no_collider;
+  bool walkable = false;       ///< Within the climb limit of the character.
+  bool is_overlapped = false;  ///< For bounds alone: the character is inside of it, and may go along.
+  bool is_side = false;        ///< Touches the left or right side of the character.
+  bool ridden = false;         ///< The step begins on it, and goes along: nobody lands on it.
+  bool climbs = false;         ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
+  double met = 0;              ///< When it was met, as a fraction of the step; 1: only touched where that ends.
+  double left = std::numeric_limits<double>::infinity();  ///< From then on it is touched no more.
+  bool returned = false;                                  ///< It was left, and is touched again where the step ends.
   /// Its velocity is known to within this, where it turns [m/s]: for bounds along its normal, else in any direction.
   double spread = 0;
   double spread_along = 0;  ///< The same along the face; for bounds alone.
@@ -72,14 +72,19 @@ struct ControlledStep {
   double most_pressed_out = std::numeric_limits<double>::infinity();
 };
 
-/// The velocities that the law of octagon_sweep (§4 of the design) can make in a step at the surfaces, met in their
-/// order. Walkable ground keeps the part across up, steering holds no fall, a ceiling ends a rise; two surfaces that
-/// both hold the motion end it, unless the fall of the unsteered velocity goes on between them. Two that press it out
-/// give it a limited speed.
+/// The velocities that the law of octagon_sweep (§4 of the design) can make in a step at the surfaces, in the order in
+/// which they are met; each time all that are touched are answered together.
+///
+/// - Momentum across up that presses into what nobody walks on ends; steering against it is spent on it.
+/// - Walkable ground keeps the part across up. Else the nearest velocity to what is left of the momentum is taken.
+/// - Steering moves it across, as far as the surfaces allow at that height, or on ground.
+/// - Surfaces on both sides that leave hardly anything of a fall hold it; rims that are left behind do not.
+/// - Those of which one pushes give a limited speed.
 ///
 /// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was
-/// met by rounding, was ground that is followed, also to where it was left, or takes nothing; and of ground that moves,
-/// whether a landing without speed across up is carried at once.
+/// met by rounding, was ground that is followed, also to where it was left, or takes nothing; of ground that moves,
+/// whether a landing without speed across up is carried at once; and of several that are met at one place, whether one
+/// came after another.
 [[nodiscard]] std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces);
 
 /// What a step may begin with where its parts are not told apart, as an upright character sees it: x across up, y along
