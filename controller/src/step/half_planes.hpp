@@ -14,10 +14,13 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// The motions w with n·w >= least: those that a surface with unit normal n allows.
+/// The motions w with n·w >= least: those that a touched surface with unit normal n allows, as the character sees it: x
+/// is across it, and y is up.
 struct HalfPlane {
   Vec2 normal;
   Real least = 0;
+  bool walkable = false;
+  Vec2 rest{Vec2::Zero()};  ///< The motion of who rests at the surface.
 
   /// How far `w` is on the allowed side.
   [[nodiscard]] Real margin(const Vec2& w) const { return normal.x() * w.x() + normal.y() * w.y() - least; }
@@ -26,16 +29,29 @@ struct HalfPlane {
     constexpr Real noise = std::numeric_limits<Real>::epsilon() * 16;
     return margin(w) >= -noise * (std::abs(w.x()) + std::abs(w.y()) + std::abs(least));
   }
+  /// The motion along the border that goes so far across. Only of ground. Adding zero turns a negative zero into a
+  /// positive one: rest has one pattern of bits.
+  [[nodiscard]] Vec2 along(Real across) const { return {across, (least - normal.x() * across) / normal.y() + Real(0)}; }
 };
 
 /// Of surfaces with one normal only the one that leaves least counts: a handful are left, however many are touched.
 inline void add_plane(const HalfPlane& plane, std::vector<HalfPlane>& planes) {
   for (HalfPlane& known : planes) {
     if (known.normal != plane.normal) continue;
-    known.least = std::max(known.least, plane.least);
+    if (known.least < plane.least) known = plane;
     return;
   }
   planes.push_back(plane);
+}
+
+/// Where the borders of two cross. Borders that are one line, or parallel, but for rounding would cross anywhere: they
+/// cross at NaN.
+[[nodiscard]] inline Vec2 crossing(const HalfPlane& a, const HalfPlane& b) {
+  constexpr Real parallel = std::numeric_limits<Real>::epsilon() * 64;
+  Real determinant = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
+  if (std::abs(determinant) < parallel) determinant = std::numeric_limits<Real>::quiet_NaN();
+  return {(a.least * b.normal.y() - b.least * a.normal.y()) / determinant + Real(0),
+          (b.least * a.normal.x() - a.least * b.normal.x()) / determinant + Real(0)};
 }
 
 /// The point of the intersection of half planes that is nearest to `wanted`; nothing where they have none in common.
@@ -59,19 +75,8 @@ inline void add_plane(const HalfPlane& plane, std::vector<HalfPlane>& planes) {
   };
   for (const HalfPlane& plane : planes)
     if (plane.margin(wanted) < 0) consider(wanted - plane.normal * plane.margin(wanted), &plane, nullptr);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec2& a = planes[i].normal;
-      const Vec2& b = planes[j].normal;
-      const Real determinant = a.x() * b.y() - a.y() * b.x();
-      // Borders that are one line but for rounding cross anywhere: they give no point of their own.
-      constexpr Real one_line = std::numeric_limits<Real>::epsilon() * 64;
-      if (std::abs(determinant) < one_line) continue;
-      const Real p = planes[i].least;
-      const Real q = planes[j].least;
-      consider({(p * b.y() - q * a.y()) / determinant, (q * a.x() - p * b.x()) / determinant}, &planes[i], &planes[j]);
-    }
-  }
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) consider(crossing(planes[i], planes[j]), &planes[i], &planes[j]);
   return nearest;
 }
 

@@ -1,41 +1,33 @@
-/// What becomes of a motion that met a surface.
+/// What becomes of a motion that meets surfaces.
 ///
 /// Let u be the motion that a character has without this step's steering (momentum and gravity), s the change that
-/// steering makes in this step, braking included, and w = u + s. A surface with unit normal n holds w where w·n < 0.
+/// steering makes in this step, braking included, and w = u + s. The surfaces that it touches, each with unit normal n,
+/// allow the motions K: all v with n·v >= least, where least is the motion of the surface along n. `rest` is the motion
+/// of who rests at a surface. All of this is as the character sees it, x across it and y up, and relative to the first
+/// surface. Where w enters no surface, it goes on as it is. Else:
 ///
-/// **Walkable ground** (n.y >= c): the horizontal part is kept by following the surface: (x, -x n.x / n.y). A fall
-/// ends. Steering that a steep surface took is there again: x = u.x + s.
+///  1. **The climb of a walk ends** where what is not walkable holds w: u rises no more than that surface. A character
+///     that walks up a slope into a wall would leave the ground with the speed of its climb otherwise, land, and hop
+///     again, for ever.
+///  2. **Momentum that presses is an impact.** Of u, the part across that presses into what is not walkable, and enters
+///     it, ends: it does not become a climb. It ends at `rest`; at an upward surface on the other side, if that comes
+///     first; and under a ceiling where it no longer presses. (A rise under a ceiling slides.) Steering against it is
+///     spent on it first: a character that turns around at a wall would be thrown back by its own momentum otherwise.
+///     Speed that was gained by sliding points outward and is not touched.
+///  3. **What is left of u** is, if it enters walkable ground, the walk along the ground with its x, or the nearest x
+///  that
+///     the others allow. Else, or if they allow none, it is the motion of K that is nearest to u. A fall stays a fall
+///     then. If K is empty, the surfaces leave no motion.
+///  4. **Steering** moves this across at its height, or along ground that is higher, as far as the others allow. So it
+///     never holds or slows a fall: y(t) on a steep slope is the same with the key uphill and without a key, at any dt.
+///     Steering that a surface took is there again at the next one; steering that was spent is not.
 ///
-/// **Steep ground and walls** (0 <= n.y < c): steering never holds or slows a fall.
-///  1. Of u, the horizontal part that presses in (x n.x < 0) is zero: an impact. It does not become a climb. Speed that
-///     was gained by sliding points outward (x n.x > 0) and is not touched: it is momentum.
-///  2. If it still enters, it is a fall: x n.x >= 0 and u·n < 0 give y < 0 (a wall, n.y = 0, is entered no more). It
-///     slides: u - (u·n) n. Its length does not grow, x stays outward, and it stays a fall: y' = y n.x² - (x n.x) n.y,
-///     where both terms are below zero.
-///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y
-///  of u,
-///     (-y n.y / n.x, y). Where u entered that is u itself, slid. So y(t) on a steep slope is the same with the key
-///     uphill and without a key, at any dt. (Had only the part of s along n gone, the rest would point up the slope,
-///     and hold the character on a platform's corner for good. Were all of it gone, a character that turns around at a
-///     wall would be thrown back by its own momentum, and tremble there.) Steering that does not press in is treated
-///     with u: 1 and 2 apply to w.
-/// A rise goes on: after 1 it does not enter. But a climb that came only from following walkable ground ends with the
-/// walk: where 1 or 3 takes the horizontal part, and the ground was followed, an upward y is zero, too. A character
-/// that walks up a slope into a wall would otherwise leave the ground with the speed of its climb, land, and hop again,
-/// for ever.
+/// **A wedge** holds a fall: surfaces on both sides, none of them walkable, that leave no more than a small share of
+/// it.
 ///
-/// **Ceilings** (n.y < 0): a rise slides, w - (w·n) n; the climb of a walk ends there, with the walk. A fall goes on: x
-/// shrinks to what follows the surface.
-///
-/// **Two surfaces** that both hold the motion: whether they are a wedge is decided by the fall of u alone. The nearest
-/// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there, as it does where one
-/// of them is walkable. So steering into one side of a funnel does not hold a character that would slip through it.
-///
-/// All of this is as the character sees it: x is across it, and y is up (see `UpFrame`).
-///
-/// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
-/// beside w. A falling motion comes to rise on nothing but walkable ground. The loop ends after a given number of
-/// impacts.
+/// Displacement and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every
+/// contact beside w. A falling motion comes to rise on nothing but walkable ground, and what moves. The loop ends after
+/// a given number of impacts.
 #pragma once
 
 #include "inlining.hpp"
@@ -46,6 +38,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
@@ -67,69 +61,12 @@ struct Desired {
   Vec2 unsteered;
 };
 
-/// A surface, and how the character comes to it.
-struct Surface {
-  Vec2 normal;
-  bool walkable;
-  bool after_walk;  ///< The character follows walkable ground that it touches: a rise is the climb of a walk.
-};
-
-/// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 follow(Real x, const Vec2& n) { return {x, -x * n.x() / n.y() + Real(0)}; }
-
-[[nodiscard]] PAPERPROOF_INLINE Vec2 slide(const Vec2& w, const Vec2& n) {
-  const Real into = dot(w, n);
-  return {w.x() - into * n.x() + Real(0), w.y() - into * n.y() + Real(0)};
-}
-
 /// A slide that enters its surface by rounding, along the surface. One that is nothing but rounding is no motion: it
 /// goes about as far into the surface as along it.
 [[nodiscard]] inline Vec2 rounded_slide(const Vec2& slide, const Vec2& n) {
   const Real along = slide.x() * n.y() - slide.y() * n.x();
   if (!(std::abs(along) > 1024 * std::abs(dot(slide, n)))) return Vec2::Zero();
   return {n.y() * along + Real(0), -n.x() * along + Real(0)};
-}
-
-/// The response on steep ground and walls, without steering: rules 1 and 2 above.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 impact(Vec2 w, const Surface& at) {
-  if (w.x() * at.normal.x() < 0) {
-    w.x() = 0;
-    if (at.after_walk) w.y() = std::min(w.y(), Real(0));
-  }
-  return dot(w, at.normal) < 0 ? slide(w, at.normal) : w;
-}
-
-/// Under a ceiling.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 bump(const Vec2& w, const Surface& at) {
-  const Vec2& n = at.normal;
-  if (w.y() > 0) return at.after_walk ? Vec2(Vec2::Zero()) : slide(w, n);
-  return {-w.y() * n.y() / n.x() + Real(0), w.y() + Real(0)};
-}
-
-/// The response without steering.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 respond(const Vec2& w, const Surface& at) {
-  if (dot(w, at.normal) >= 0) return w;
-  if (at.walkable) return follow(w.x(), at.normal);
-  return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
-}
-
-/// Rule 3: where steering presses in.
-/// @param unsteered the motion without steering, and @param result what became of it at this surface.
-[[nodiscard]] PAPERPROOF_INLINE Vec2 press(const Vec2& unsteered, const Vec2& result, const Surface& at) {
-  if (dot(unsteered, at.normal) < 0) return result;
-  const Real y = at.after_walk ? std::min(result.y(), Real(0)) : result.y();
-  return {-y * at.normal.y() / at.normal.x() + Real(0), y + Real(0)};
-}
-
-/// The response to a surface that is entered, of what is wanted and of what there is without steering.
-/// @param steered the horizontal part that this step's steering added to what was wanted.
-[[nodiscard]] PAPERPROOF_INLINE Desired respond(const Desired& desired, Real steered, const Surface& at) {
-  if (dot(desired.wanted, at.normal) >= 0) return desired;
-  const Vec2 unsteered = respond(desired.unsteered, at);
-  if (steered == 0) return {unsteered, unsteered};
-  if (at.walkable) return {follow(desired.unsteered.x() + steered, at.normal), unsteered};
-  const bool moves_in = at.normal.y() >= 0 && dot(Vec2(desired.wanted - desired.unsteered), at.normal) < 0;
-  return {moves_in ? press(desired.unsteered, unsteered, at) : respond(desired.wanted, at), unsteered};
 }
 
 /// A motion of the world that was seen along a surface, or not into it, by a character that is not upright. A motion
@@ -140,16 +77,97 @@ struct Surface {
   return Vec2{n.y(), -n.x()} * (w.x() * n.y() - w.y() * n.x());
 }
 
-/// The response of a character with any up. Motions and surface are those of the world.
-[[nodiscard]] PAPERPROOF_COLD inline Desired respond_turned(const UpFrame& up, const Desired& desired, Real steered,
-                                                            const Surface& at) {
-  const Surface seen{up.seen(at.normal), at.walkable, at.after_walk};
-  const Desired result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
-  return {in_world(up, result.wanted, at.normal), in_world(up, result.unsteered, at.normal)};
+/// The motion across to `x` at height `y`, or along walkable ground that is higher. Nothing else may block it.
+[[nodiscard]] inline std::optional<Vec2> walk_to(Real x, Real y, std::span<const HalfPlane> touched) {
+  Vec2 w{x + Real(0), y + Real(0)};
+  for (const HalfPlane& at : touched)
+    if (at.walkable) w.y() = std::max(w.y(), at.along(x).y());
+  for (const HalfPlane& at : touched)
+    if (!at.walkable && !at.allows(w)) return std::nullopt;
+  return w;
 }
-[[nodiscard]] PAPERPROOF_INLINE Desired respond(const UpFrame& up, const Desired& desired, Real steered,
-                                                const Surface& at) {
-  return up.is_turned() ? respond_turned(up, desired, steered, at) : respond(desired, steered, at);
+
+/// The nearest such motion to `x`, across no farther than from `from` to `to`; nothing where there is none.
+[[nodiscard]] inline std::optional<Vec2> walk(Real x, Real y, Real from, Real to, std::span<const HalfPlane> touched) {
+  std::optional<Vec2> best = walk_to(x, y, touched);
+  if (best) return best;
+  const auto consider = [&](Real across) {
+    if (!(across >= std::min(from, to) && across <= std::max(from, to))) return;
+    if (best && std::abs(best->x() - x) <= std::abs(across - x)) return;
+    if (const std::optional<Vec2> w = walk_to(across, y, touched)) best = w;
+  };
+  for (const HalfPlane& at : touched) {
+    if (at.walkable) continue;
+    if (std::isfinite(y)) consider(crossing(at, {{0, 1}, y}).x());
+    for (const HalfPlane& ground : touched)
+      if (ground.walkable) consider(crossing(at, ground).x());
+  }
+  return best;
+}
+
+/// Rule 2 at one surface.
+/// @param u is changed. @param steered what steering adds across; what brakes is taken from it.
+inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, Vec2& u, Real& steered) {
+  const Vec2& n = at.normal;
+  const Real pressing = u.x() - at.rest.x();
+  const bool is_ceiling = n.y() < 0;
+  if (at.margin(u) >= 0 || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
+  if (steered * n.x() > 0) {
+    const Real braked = std::abs(steered) < std::abs(pressing) ? steered : -pressing;
+    u.x() += braked;
+    steered -= braked;
+  }
+  // Of two places across the one that the pressing motion reaches first, and the other.
+  const auto sooner = [&](Real a, Real b) { return n.x() < 0 ? std::min(a, b) : std::max(a, b); };
+  const auto later = [&](Real a, Real b) { return n.x() < 0 ? std::max(a, b) : std::min(a, b); };
+  Real stop = at.rest.x();
+  if (is_ceiling) stop = later(stop, (at.least - n.y() * u.y()) / n.x());
+  for (const HalfPlane& other : touched)
+    if (other.normal.x() * n.x() < 0 && other.normal.y() > 0) stop = later(stop, crossing(at, other).x());
+  u.x() = sooner(u.x(), stop);
+}
+
+/// The response to all surfaces that are touched, as above; nothing where they leave no motion.
+/// @param steered what this step's steering added across to what is wanted; what brakes is spent, and taken from it.
+/// @param after_walk the character follows walkable ground that it touches: a rise is the climb of a walk.
+[[nodiscard]] inline std::optional<Desired> respond(const Desired& desired, Real& steered, bool after_walk,
+                                                    std::span<const HalfPlane> touched) {
+  constexpr Real infinite = std::numeric_limits<Real>::infinity();
+  Vec2 u = desired.unsteered;
+  bool is_free = true;
+  for (const HalfPlane& at : touched) {
+    if (at.margin(desired.wanted) >= 0) continue;
+    is_free = false;
+    if (after_walk && !at.walkable) u.y() = std::min(u.y(), at.rest.y());
+  }
+  if (is_free) return desired;
+  for (const HalfPlane& at : touched)
+    if (!at.walkable) end_pressing(at, touched, u, steered);
+  const bool lands =
+      std::any_of(touched.begin(), touched.end(), [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
+  std::optional<Vec2> base;
+  if (lands) base = walk(u.x(), -infinite, -infinite, infinite, touched);
+  const Real fall = base ? u.y() : infinite;
+  if (!base) base = nearest_allowed(u, touched);
+  if (!base) return std::nullopt;
+  Desired result{*base, *base};
+  if (steered == 0) return result;
+  const Real x = base->x() + steered;
+  if (const auto steers = walk(x, std::min(fall, base->y()), base->x(), x, touched)) result.wanted = *steers;
+  return result;
+}
+
+/// The same for one walkable plane alone that stands still: the usual case. Without steering the two parts of a motion
+/// are one, and `unsteered` is not read.
+PAPERPROOF_INLINE void follow(const HalfPlane& ground, Real steered, Desired& desired) {
+  if (ground.margin(desired.wanted) >= 0) return;
+  if (steered == 0) {
+    desired.wanted = ground.along(desired.wanted.x());
+    return;
+  }
+  Vec2& u = desired.unsteered;
+  desired.wanted = ground.along(u.x() + steered);
+  u.y() = std::max(u.y(), ground.along(u.x()).y());
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -144,7 +144,7 @@ struct Step {
   Real leaves_ground_above = 0;  ///< A motion leaves ground that it goes away from faster than this [m/s].
   bool certify = false;          ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs = false;           ///< The step began on ground, with no more upward speed than climbing gives.
-  bool after_walk = false;       ///< See `Surface`.
+  bool after_walk = false;       ///< See `respond`.
   bool wedged = false;           ///< A fall ended between surfaces that are touched together.
   bool met_ground = false;       ///< Walkable ground was hit in this step,
   bool on_ground = false;        ///< and the character has not moved since, nor hit anything else.

@@ -67,8 +67,8 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
   return std::nullopt;
 }
 
-/// Whether a piece pushes or comes nearer, and is as near as a contact then. A face that a neighbour covers is none, but
-/// for a character that passes through a mover: that may be the neighbour.
+/// Whether a piece pushes or comes nearer, and is as near as a contact then. A face that a neighbour covers is none,
+/// but for a character that passes through a mover: that may be the neighbour.
 [[nodiscard]] inline bool is_contact(const Step& step, const Nearest& near) {
   const Vec2 motion_of_mover = step.movers.displacement(mover_of(step, near.piece));
   const bool pushes = dot(motion_of_mover, step.space.normal(near.piece, near.axis)) > tolerances.certain;

@@ -82,8 +82,7 @@ struct StepMemory final : OwnMemory, PieceUser {
   void reserve() {
     for (std::vector<TouchedSurface>* touched : {&surfaces, &surfaces_before})
       touched->reserve(MoveResult::max_contacts);
-    for (std::vector<HalfPlane>* planes : {&displacement_planes, &velocity_planes})
-      planes->reserve(MoveResult::max_contacts);
+    planes.reserve(MoveResult::max_contacts);
     marked.reserve(roles.size());
     crushers.reserve(space.scenery().counts().moving_pieces);
   }
@@ -117,8 +116,7 @@ struct StepMemory final : OwnMemory, PieceUser {
   std::vector<ColliderIndex> marked;     ///< Colliders with a role, in the order in which they got one.
   std::vector<TouchedSurface> surfaces;  ///< Those that are touched now, one per piece,
   std::vector<TouchedSurface> surfaces_before;  ///< and before the last sweep.
-  std::vector<HalfPlane> displacement_planes;   ///< What the touched surfaces allow.
-  std::vector<HalfPlane> velocity_planes;
+  std::vector<HalfPlane> planes;                ///< What the touched surfaces allow.
   /// Movers that crushed, now or before, with their displacement at the end of the step.
   std::vector<Crusher> crushers;
 };

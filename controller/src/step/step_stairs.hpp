@@ -80,7 +80,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) {
   note_ground(step, GroundState::walkable, stop.piece, ground.normal);
   if (walkable(step, step.space.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion
     report_contact(step, stop.piece, stop.axes.normal, step.time, step.result.contacts.size());
-  const Vec2 followed = follow(speed - step.up.across_of(carried), step.up.seen(ground.normal));
+  const Vec2 followed = HalfPlane{step.up.seen(ground.normal)}.along(speed - step.up.across_of(carried));
   step.velocity = in_world(step.up, followed, ground.normal) + carried;
   return true;
 }

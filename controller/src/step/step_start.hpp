@@ -224,7 +224,7 @@ inline void restore_gap(Step& step) {
 /// Where not all gaps can be restored, restores those to moving pieces one by one. Each push must make no gap smaller
 /// that is below `hit`. Otherwise rounding could let a mover that carries the character overlap it.
 inline void restore_gaps_to_movers(Step& step) {
-  std::vector<HalfPlane>& pushes = step.memory.displacement_planes;
+  std::vector<HalfPlane>& pushes = step.memory.planes;
   pushes.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(step, piece);

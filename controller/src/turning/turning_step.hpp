@@ -4,6 +4,7 @@
 #pragma once
 
 #include "geometry/pose.hpp"
+#include "step/octagon_sweep.hpp"
 #include "step_parts.hpp"
 #include "turning/proof.hpp"
 
