@@ -1,5 +1,5 @@
-/// More of everything than a report or a state keeps inline: movers that crush, what lies on a character, contacts and
-/// corners of one step. No fixed number decides what is safe or what is named.
+/// More of everything than a report or a state keeps inline: movers that crush, what lies on a character. No fixed
+/// number decides what is safe or what is named. Contacts and corners of one step are in tests/situations.
 #include "campaign/shapes.hpp"
 #include "oracle/judge.hpp"
 #include "runs/technique_parts.hpp"
@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 
@@ -240,62 +241,28 @@ TEST(AnyNumber, with_more_on_it_than_is_remembered_it_gives_way_to_nothing_and_i
   }
 }
 
-TEST(AnyNumber, of_tiles_under_the_feet_are_contacts) {
-  constexpr double width = 0.001;
+/// Side by side under the feet, each faster than the one to its left.
+TEST(AnyNumber, of_pistons_lift_it_as_high_as_the_highest_and_crush_it_nowhere) {
+  constexpr int pistons = 60;
+  constexpr double foot = 5.0 / 32;  // from its middle to its end
+  const double width = 2 * foot / pistons;
   std::vector<ColliderDef> colliders;
-  for (int i = -400; i < 400; ++i) colliders.push_back(box(i * width, -1, (i + 1) * width, 0));
-  Judged run(colliders, {0, half_height + 0.1}, 1.0 / 60);
-  run.gravity = {0, -30};
-  run.looks_for_room = false;
-  while (!run.state.grounded) run.step();
-  Colliders touched;
-  for (const Contact& contact : run.report.move.contacts) {
-    EXPECT_EQ(contact.side, Side::bottom);
-    touched.insert(contact.collider);
+  for (int k = 0; k < pistons; ++k)
+    colliders.push_back(box(k * width - foot, -1, (k + 1) * width - foot, 0, static_cast<MoverIndex>(k)));
+  for (const double sign : {1.0, -1.0}) {
+    Judged run(colliders, {0, half_height + 5e-7}, 1.0 / 60);
+    run.looks_for_room = false;
+    double highest = 0;
+    for (std::size_t k = 0; k < run.motions.size(); ++k) {
+      run.motions[k].to = {0, 0.1 + sign * 1e-3 * static_cast<double>(k)};
+      highest = std::max(highest, run.motions[k].to.y());
+    }
+    run.step();
+    EXPECT_TRUE(run.crushed().empty());
+    const double above = run.state.position.y() - half_height - highest;
+    EXPECT_GT(above, 0);
+    EXPECT_LE(above, 2e-6);
   }
-  EXPECT_GT(touched.size(), 300U);  // its feet are 10 px = 0.3125 m wide
-  EXPECT_EQ(touched.size(), run.report.move.contacts.size());
-}
-
-/// Each comes a little later and goes a little faster than the one before it.
-TEST(AnyNumber, of_movers_that_push_one_after_the_other_push_it_all_the_way) {
-  constexpr int pushers = 80;
-  constexpr double at_once = 1.0 / (pushers + 10);  // of the step, between two impacts
-  std::vector<ColliderDef> colliders;
-  std::vector<MoverMotion> motions;
-  double reached = -half_width;  // pushed so far when the k-th one comes
-  for (int k = 0; k < pushers; ++k) {
-    const double way = 1 + 0.04 * k;
-    const double begins = reached - way * at_once * (k + 1);
-    colliders.push_back(box(begins - 0.5, -0.1, begins, 0.1, static_cast<MoverIndex>(k)));
-    motions.push_back({{0, 0}, {way, 0}});
-    reached += way * at_once;
-  }
-  Judged run(colliders, {0, 0}, 1);
-  run.motions = motions;
-  const StepJudgement judged = run.step();
-  EXPECT_TRUE(judged.tunnelled.empty() && judged.end_overlap.empty());
-  EXPECT_TRUE(run.crushed().empty());
-  EXPECT_EQ(run.report.status, StepStatus::dropped) << "more impacts than it may want anything itself for";
-  EXPECT_GT(run.report.move.path.size(), static_cast<std::size_t>(pushers));
-  const double rest_of_step = 1 - at_once * (pushers + 1);
-  EXPECT_NEAR(run.state.position.x(), reached + half_width + motions.back().to.x() * rest_of_step, 1e-3);
-}
-
-TEST(WayOutOfWhatCrushed, is_taken_to_the_side_it_came_from_once_there_is_one) {
-  // Pressed from the left by 0.2 m more than there is room up to a wall at the right, which then goes away.
-  const double gap = 0.05;
-  Judged run({box(-4, -4, -half_width - gap, 4, 0), box(half_width + gap, -4, 4, 4, 1)}, {0, 0}, 1);
-  run.motions[0] = {{0, 0}, {0.3, 0}};
-  EXPECT_TRUE(holds(run.step()));
-  EXPECT_EQ(run.report.status, StepStatus::crushed);
-  run.motions = {{{0.3, 0}, {0.3, 0}}, {{0, 0}, {9, 0}}};
-  EXPECT_FALSE(run.step().stuck_refuted);
-  EXPECT_EQ(run.report.status, StepStatus::stuck);
-  run.motions[1].from = run.motions[1].to;
-  EXPECT_TRUE(holds(run.step()));
-  EXPECT_EQ(run.report.status, StepStatus::moved);
-  EXPECT_NEAR(run.state.position.x(), 0.3 - gap, 1e-6) << "beside what pressed it";
 }
 
 }  // namespace
