@@ -137,45 +137,5 @@ TEST(ContinuousError, of_a_fall_is_that_of_the_formula) {
   EXPECT_FALSE(row_of(run_scene(built_in("conveyor"), options), "octagon_sweep").error_max_m) << "there is no law";
 }
 
-constexpr double unit = 1.0 / 32;
-
-std::vector<TraceStep> steps_of(const Scene& scene, const std::string& contender,
-                                const std::vector<KnobSetting>& knobs) {
-  RunOptions options = alone(contender, scene.steps);
-  options.knobs = knobs;
-  return run_scene(scene, options).runs.front().steps;
-}
-
-/// How far it goes to the left while it goes up, on the whole [m].
-double backwards_while_rising(const std::vector<TraceStep>& steps) {
-  double back = 0;
-  for (const TraceStep& step : steps) {
-    const Vec2d way = step.path.back().position - step.path.front().position;
-    if (way.y() > 0) back += std::max(0.0, -way.x());
-  }
-  return back;
-}
-
-/// A quarter of what it rises along the overhang goes back: of one step, and of all that were left without the rule.
-TEST(Overhang, springs_a_rising_character_back_unless_the_rule_ends_the_rise) {
-  const Scene scene = built_in("jump_into_overhang");
-  for (const char* contender : {"penetration_resolution", "speculative_march", "speculative"}) {
-    const std::vector<TraceStep> without = steps_of(scene, contender, {parse_knob("jump_rules=off")});
-    const double back_with = backwards_while_rising(steps_of(scene, contender, {}));
-    double rise = 0;  // from where it met the overhang
-    std::optional<double> met;
-    for (const TraceStep& step : without) {
-      const double height = step.path.back().position.y();
-      for (const Contact& contact : step.contacts)
-        if (contact.collider == 1 && !met) met = height;
-      rise = std::max(rise, height - met.value_or(height));
-    }
-    EXPECT_GT(rise, 0.5) << contender;
-    EXPECT_NEAR(backwards_while_rising(without), 0.25 * rise, 4 * unit) << contender;
-    EXPECT_LE(back_with, 0.25 * scene.character.jump_speed * scene.dt + unit) << contender;
-    EXPECT_GT(backwards_while_rising(without), back_with + 2 * unit) << contender;
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::compare
