@@ -1,4 +1,4 @@
-/// The article's techniques among movers: what pushes, what carries, what crushes.
+/// The article's techniques among movers: what carries, what crushes. tests/situations/techniques.json has what pushes.
 #include "controller/article_support.hpp"
 #include "support/allocations.hpp"
 #include "support/steps_wanted.hpp"
@@ -46,11 +46,6 @@ struct Passenger : Rig {
   }
 };
 
-const Contact& only_contact(const MoveResult& result) {
-  EXPECT_EQ(result.contacts.size(), 1U);
-  return result.contacts[0];
-}
-
 /// There and back, `reach` far, in 128 steps.
 Vec2d swing(const Vec2d& reach, int step) { return reach * (0.5 - 0.5 * std::cos(step * 2 * 3.14159265358979 / 128)); }
 
@@ -61,54 +56,6 @@ constexpr std::array carrying_kinds{"discrete", "speculative_march", "speculativ
 
 /// That a technique leaves to what stands still before it [m].
 double gap_of(std::string_view kind) { return kind == "discrete" ? gap : 0; }
-/// By how much more that may be: the march stops up to a unit short [m].
-double slack_of(std::string_view kind) { return kind == "speculative_march" ? px : rounding; }
-
-TEST(MovingPaper, that_sweeps_over_a_resting_character_pushes_it_from_the_time_of_impact_on) {
-  // From 2 m on the left by 5 m to the right; the arm is at -10 px. The march sees no paper that is thinner than a
-  // unit.
-  const ColliderDef line = compare::chain({{-2, -2}, {-2, 2}}, 0);
-  for (const std::string_view kind : {"speculative_march", "speculative"}) {
-    SCOPED_TRACE(kind);
-    const double thickness = kind == "speculative" ? 0.0001 : 1.5 * px;
-    for (const ColliderDef& mover : {compare::box(-2 - thickness, -2, -2, 2, 0), line}) {
-      Passenger passenger(kind, {mover});
-      const MoveResult& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {5, 0}}});
-      const double slack = slack_of(kind);
-      EXPECT_NEAR(result.position.x(), 3 + half_width, slack);
-      EXPECT_GE(result.position.x(), 3 + half_width) << "on the side that it was on";
-      EXPECT_EQ(result.position.y(), 0);
-      EXPECT_EQ(result.velocity, Vec2d(5, 0));
-      const Contact& contact = only_contact(result);
-      EXPECT_EQ(contact.side, Side::left);
-      EXPECT_NEAR(contact.fraction, (2 - half_width) / 5, slack / 4);
-      EXPECT_EQ(contact.normal, Vec2d(1, 0));
-      EXPECT_NEAR(contact.point.x(), -half_width, slack) << "where it was at that time";
-      EXPECT_NEAR(contact.separation, 0, slack);
-      ASSERT_EQ(result.path.size(), 3U);
-      EXPECT_EQ(result.path[1].position, Vec2d(0, 0)) << "it rests until then";
-      EXPECT_EQ(result.path[1].fraction, contact.fraction);
-    }
-  }
-}
-
-TEST(MovingBlock, that_arrives_over_a_resting_character_pushes_it_by_units_or_by_what_it_would_overlap) {
-  // Its right face arrives 4.5 px inside the left arm: five units, or 4.5 px and the gap.
-  const double by = 2 - half_width + 4.5 * px;
-  for (const std::string_view kind : {"discrete", "penetration_resolution"}) {
-    SCOPED_TRACE(kind);
-    const bool by_units = kind == "penetration_resolution";
-    Passenger passenger(kind, {compare::box(-6, -2, -2, 2, 0)});
-    const MoveResult& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {by, 0}}});
-    EXPECT_NEAR(result.position.x(), by_units ? 5 * px : 4.5 * px + gap, by_units ? 0 : rounding);
-    EXPECT_EQ(result.position.y(), 0);
-    EXPECT_EQ(result.velocity, Vec2d(by, 0));
-    EXPECT_EQ(result.status, StepStatus::moved);
-    EXPECT_EQ(only_contact(result).side, Side::left);
-    EXPECT_NEAR(only_contact(result).fraction, by_units ? 1 : (2 - half_width) / by, rounding);
-    EXPECT_NEAR(only_contact(result).separation, by_units ? px / 2 : gap, rounding);
-  }
-}
 
 TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on) {
   for (const Vec2d& reach : {Vec2d{0, 3}, Vec2d{5, 0}, Vec2d{-4, 2.5}}) {

@@ -1,4 +1,4 @@
-/// What several techniques do with the same situations.
+/// What several techniques do with the same situations. What they do at a chain is in tests/situations/techniques.json.
 #include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 namespace paperproof::article_tests {
 namespace {
 
-constexpr double gap = Tolerances{}.stop;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// How a technique that keeps the free component stops.
@@ -139,49 +138,6 @@ TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
     EXPECT_EQ(message({}), "");
     for (const auto& [bad, begins] : cases) EXPECT_EQ(message(bad).substr(0, begins.size()), begins);
   }
-}
-
-TEST(Chain, blocks_both_ways_or_only_against_its_normal_and_has_no_inside) {
-  struct Case {
-    const char* what;
-    bool one_way;
-    double start;   ///< Height of the feet above the chain [px].
-    double motion;  ///< [px]
-    double end;     ///< Where the feet end [px].
-  };
-  constexpr double head = -40;  // where the feet are when the head touches
-  const std::array cases{
-      Case{"falls onto it", true, 6, -10, 0},
-      Case{"stands on its line and is pulled down", true, 0, -2, 0},
-      Case{"jumps from it", true, 0, 9, 9},
-      Case{"rises through it from below", true, -50, 60, 10},
-      Case{"has its head through it and falls back", true, -10, -8, -18},
-      Case{"has its feet a hair below it and falls", true, -0.25, -8, -8.25},
-      Case{"is below it and falls", true, -50, -8, -58},
-      Case{"falls onto one of two sides", false, 6, -10, 0},
-      Case{"hits one of two sides with its head", false, head - 6, 10, head},
-      Case{"is around one of two sides", false, -20, -1, -21},
-  };
-  for (const std::string_view kind : {"bounding_box", "discrete", "speculative_march", "speculative"}) {
-    SCOPED_TRACE(kind);
-    for (const Case& each : cases) {
-      const bool sees_an_inside = kind == "bounding_box" || kind == "discrete";
-      if (sees_an_inside && each.start == -20) continue;
-      Rig rig(kind, {chain({{3, 0}, {-3, 0}}, each.one_way ? std::optional(Vec2d{0, 1}) : std::nullopt)});
-      rig.move({0, half_height + each.start * px}, {0, each.motion * px});
-      const bool blocked = each.end != each.start + each.motion;
-      const double up = each.motion < 0 ? 1 : -1;
-      const double above = blocked && kind == "discrete" ? gap * up : 0;
-      // A line that is reached counts as crossed: the march ends a unit before one of two sides.
-      const double slack = kind == "speculative_march" && !each.one_way ? px : 1e-12;
-      EXPECT_NEAR(rig.result.position.y() - half_height, each.end * px + above, slack) << each.what;
-      EXPECT_EQ(rig.result.contacts.size(), blocked ? 1U : 0U) << each.what;
-      EXPECT_EQ(rig.result.grounded, blocked && up > 0) << each.what;
-      for (const Contact& contact : rig.result.contacts) EXPECT_EQ(contact.normal, Vec2d(0, up)) << each.what;
-    }
-  }
-  Rig looks_inside("penetration_resolution", {chain({{-3, 0}, {3, 0}})});
-  EXPECT_EQ(looks_inside.move({0, half_height + px}, {0, -8 * px}).position, Vec2d(0, half_height - 7 * px));
 }
 
 }  // namespace
