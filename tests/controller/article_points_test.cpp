@@ -53,18 +53,6 @@ TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
   }
 }
 
-TEST(FlushTiles, a_computed_contact_is_found_on_the_seam_between_two_thin_ones) {
-  // The end is far below: only the time of impact can stop it. One tile ends lower: the seam begins where both are.
-  for (const double step_down : {0.0, 0.125}) {
-    const std::vector<ColliderDef> tiles{rectangle(-1, -0.25, 0, 0), rectangle(0, -0.25, 1, -step_down)};
-    Rig rig("speculative", tiles, {}, diamond());
-    EXPECT_NEAR(rig.move({0, 1}, {0, -3}).position.y(), 0.5 - step_down, 1e-15);
-  }
-  // Tiles that do not share a piece of the seam leave it open: a point without width passes between them.
-  Rig rig("speculative", {rectangle(-1, -0.25, 0, 0), rectangle(0, -0.75, 1, -0.5)}, {}, diamond());
-  EXPECT_TRUE(rig.move({0, 1}, {0, -3}).contacts.empty());
-}
-
 TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
   Random random(3);
   int passed_thin = 0;

@@ -1,4 +1,4 @@
-/// Discrete collision detection: impacts, islands, their order, and the technique made of them.
+/// Discrete collision detection: impacts, islands, their order. The technique made of them is in tests/situations.
 #include "controller/article_support.hpp"
 #include "techniques/discrete/solver.hpp"
 
@@ -18,7 +18,6 @@ using discrete::Reaches;
 
 constexpr double gap = Tolerances{}.stop;
 constexpr double touch = Tolerances{}.touch;
-constexpr std::string_view kind = "discrete";
 
 /// Bodies, and the outlines that they refer to.
 class Bodies {
@@ -88,14 +87,6 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   EXPECT_DOUBLE_EQ(solver.solved()[0].impact.time, (1 - 0.5 - -1.0) / 3);
   EXPECT_DOUBLE_EQ(bodies.all[3].expected().y(), -0.5 + gap);
   EXPECT_FALSE(solver.solve_once(bodies.all)) << "nothing is left";
-}
-
-TEST(Discrete, begins_inside_and_comes_out_the_nearest_way_or_is_stuck) {
-  Rig rig(kind, {rectangle(-5, -5, 5, 0)});
-  EXPECT_NEAR(rig.move({0, half_height - 0.125}, {0, 0}).position.y(), half_height + gap, 1e-12);
-  EXPECT_EQ(rig.result.status, StepStatus::moved);
-  Rig narrow(kind, {rectangle(-5, -5, 0.1, 5), rectangle(-0.1, -5, 5, 5)});
-  EXPECT_EQ(narrow.move({0, 0}, {0, 0}).status, StepStatus::stuck);
 }
 
 /// Sorted. @param find fills a list.

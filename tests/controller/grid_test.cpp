@@ -1,4 +1,5 @@
-/// The grid: squares out of scenery, and a character that is always in exactly one of them.
+/// The grid: squares out of scenery, and a character that is always in exactly one of them. How it begins and ends a
+/// move is in tests/situations/techniques.json.
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 #include "techniques/grid/squares.hpp"
@@ -75,16 +76,6 @@ TEST(Squares, are_refused_with_the_reason_where_scenery_is_not_made_of_them) {
   EXPECT_NE(refusal(rectangle(1e6, 1e6, 1e6 + 1, 1e6 + 1)), "") << "a million squares each way";
 }
 
-TEST(GridMoves, end_exactly_in_the_next_square_once_half_of_it_was_wanted) {
-  GridWalk walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
-  for (int step = 1; step <= 200; ++step) {
-    walk.move({0.125, 0});
-    const double column = std::floor(0.125 * step + 0.5);
-    ASSERT_TRUE(walk.is_in(column, 0)) << "step " << step;
-    ASSERT_EQ(walk.result.technique_memory.x(), 0.125 * step - column);
-  }
-}
-
 TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
   GridWalk walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
   for (int step = 0; step < 11; ++step) walk.move({0.125, 0});
@@ -99,27 +90,6 @@ TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
   for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
   for (int step = 0; step < 2; ++step) walk.move({0, 0});
   EXPECT_EQ(walk.result.technique_memory.x(), -0.3125 + 0.1875) << "from the other side, too";
-}
-
-TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
-  GridWalk walk({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 1)}, centre_of(0, 0));
-  const MoveResult& result = walk.move({0.125, -0.25});
-  EXPECT_TRUE(walk.is_in(0, 0));
-  EXPECT_TRUE(result.velocity.isZero(0));
-  EXPECT_TRUE(result.technique_memory.isZero(0));
-  EXPECT_TRUE(result.grounded);
-  const std::array<Contact, 2> expected{
-      Contact{.collider = 0, .point = {0.5, 0}, .normal = {0, 1}, .side = Side::bottom},
-      Contact{.collider = 1, .point = {1, 0.5}, .normal = {-1, 0}, .side = Side::right}};
-  ASSERT_EQ(result.contacts.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(result.contacts[i].collider, expected[i].collider);
-    EXPECT_EQ(result.contacts[i].side, expected[i].side);
-    EXPECT_EQ(result.contacts[i].point, expected[i].point);
-    EXPECT_EQ(result.contacts[i].normal, expected[i].normal);
-    EXPECT_EQ(result.contacts[i].separation, 0);
-    EXPECT_EQ(result.contacts[i].fraction, 0);
-  }
 }
 
 TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
@@ -178,15 +148,6 @@ TEST(Grid, puts_the_feet_on_the_edge_of_the_square_and_replays_from_a_copy_of_th
     copy.step({.move = 1});
     ASSERT_TRUE(stepping::same_bits(walker.state, copy.state)) << "step " << step;
   }
-}
-
-TEST(Grid, begins_inside_and_stays_stuck_until_there_is_a_free_square) {
-  GridWalk walk({rectangle(0, 0, 3, 3)}, centre_of(1, 1));
-  EXPECT_EQ(walk.move({0.75, 0}).status, StepStatus::stuck);
-  EXPECT_TRUE(walk.is_in(1, 1));
-  GridWalk beside({rectangle(0, 0, 3, 3)}, centre_of(2, 1));
-  EXPECT_EQ(beside.move({0.75, 0}).status, StepStatus::moved);
-  EXPECT_TRUE(beside.is_in(3, 1));
 }
 
 }  // namespace
