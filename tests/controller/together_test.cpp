@@ -1,5 +1,5 @@
-/// Characters that take turns, where the answer is a formula. See also the scenes of built_in_crowd.cpp, and the random
-/// runs of tests/agreement/together_test.cpp.
+/// Characters that take turns, where the answer is a formula that tests/situations/together.json cannot say. See also
+/// the scenes of built_in_crowd.cpp, and the random runs of tests/agreement/together_test.cpp.
 #include "controller/together.hpp"
 #include "support/allocations.hpp"
 
@@ -53,46 +53,6 @@ bool all_stand(const Together& all) {
   return std::all_of(all.states.begin(), all.states.end(), [](const CharacterState& state) { return state.grounded; });
 }
 
-/// The first begins its turn. Where it would meet the second, which has not gone, that one goes first: up to where the
-/// first begins. The first goes as far as is left then, but no farther than it would.
-TEST(Together, two_bullets_meet_in_turns_and_do_not_pass_through_each_other) {
-  struct HeadOn {
-    const char* what;
-    double distance;
-    double v1;
-    double v2;
-    double aside;
-  };
-  for (const auto& [what, d, v1, v2, aside] :
-       {HeadOn{"the first gets not so far, goes first, and is met", 0.4, 0.375, 0.25, 0},
-        HeadOn{"the second leaves some way to the first", 0.4, 0.5, 0.25, 0},
-        HeadOn{"the second comes to where the first begins", 0.4, 100, 1000, 0},
-        HeadOn{"the second stands", 0.4, 3, 0, 0}, HeadOn{"from afar, past a corner", 2000, 1e5, 1e5, 0.01}}) {
-    SCOPED_TRACE(what);
-    Together two({{0, 0}, {2 * half_width + d, aside}});
-    two.states[0].velocity = {v1, 0};
-    two.states[1].velocity = {-v2, 0};
-    two.step();
-    const bool first_goes_first = v1 < d;
-    const double by_second = std::min(v2, first_goes_first ? d - v1 : d);
-    const double by_first = first_goes_first ? v1 : std::min(v1, d - by_second);
-    EXPECT_NEAR(two.states[0].position.x(), by_first, most_gap);
-    EXPECT_NEAR(two.states[1].position.x(), 2 * half_width + d - by_second, most_gap);
-    EXPECT_TRUE(gap_of_a_contact(two.gap(0, 1))) << two.gap(0, 1);
-    EXPECT_EQ(two.turn, (first_goes_first ? std::vector<std::size_t>{0, 1} : std::vector<std::size_t>{1, 0}));
-    const std::size_t last = first_goes_first ? 1 : 0;
-    ASSERT_EQ(two.met(last).size(), 1U);
-    const Contact met = two.met(last)[0];
-    EXPECT_NEAR(met.fraction, last == 0 ? by_first / v1 : by_second / v2, 1e-6);
-    EXPECT_EQ(met.normal, Vec2d(last == 0 ? -1 : 1, 0));
-    EXPECT_EQ(met.side, last == 0 ? Side::right : Side::left);
-    EXPECT_EQ(met.collider, two.bodies[1 - last]);
-    EXPECT_EQ(two.states[last].velocity, Vec2d(0, 0)) << "it is stopped";
-    EXPECT_EQ(two.states[1 - last].velocity.x() != 0, by_first < d && by_second < d && v2 != 0)
-        << "who met nobody goes on";
-  }
-}
-
 /// Both walk; after some steps the faster one is at the back of the slower one.
 TEST(Together, who_walks_behind_a_slower_one_goes_as_fast_and_never_stutters) {
   for (const Order& order : orders) {
@@ -108,29 +68,6 @@ TEST(Together, who_walks_behind_a_slower_one_goes_as_fast_and_never_stutters) {
         ASSERT_NEAR(three.states[i].position.x() - before[i].position.x(), 0.5 * 6 * frame, 1e-12) << i;
         ASSERT_TRUE(three.states[i].grounded);
         ASSERT_TRUE(i == 0 || gap_of_a_contact(three.gap(i - 1, i))) << i;
-      }
-    }
-  }
-}
-
-TEST(Together, a_column_that_falls_keeps_its_gaps_and_falls_as_one_alone) {
-  for (const double gap : {0.05, 2 * rest_gap}) {
-    for (const Order& order : orders) {
-      SCOPED_TRACE(testing::Message() << order << ", gap " << gap);
-      std::vector<Vec2d> at;
-      for (int i = 0; i < 4; ++i) at.emplace_back(0, 9 + i * (2 * half_height + gap));
-      Together column = under_gravity(at, {floor_at_zero()});
-      Together alone = under_gravity({at[0]}, {floor_at_zero()});
-      order.put(column);
-      for (int step = 0; step < 40; ++step) {
-        column.step();
-        alone.step();
-        ASSERT_FALSE(column.states[0].grounded);
-        ASSERT_EQ(column.states[0], alone.states[0]) << step;
-        for (std::size_t i = 0; i < 4; ++i) {
-          ASSERT_EQ(column.states[i].velocity, alone.states[0].velocity) << i;
-          ASSERT_NEAR(column.states[i].position.y() - at[i].y(), alone.states[0].position.y() - at[0].y(), 1e-12) << i;
-        }
       }
     }
   }
@@ -176,132 +113,6 @@ TEST(Together, a_tower_on_a_lift_is_carried_without_a_crush_and_never_in_the_air
       EXPECT_EQ(tower.states[0].ride.ground, 0U);
       for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(tower.states[i].ride.ground, tower.bodies[i - 1]);
     }
-  }
-}
-
-/// A wall comes along a low passage and pushes three that stand apart.
-struct PushedRow {
-  static constexpr double face = -1;
-  static constexpr double way = 0.05;  ///< Of the wall in a step [m].
-
-  explicit PushedRow(const Order& order, std::vector<ColliderDef> end = {}) {
-    std::vector<ColliderDef> all{box(-20, -1, 20, 0), box(-20, 1.3, 20, 2), box(face - 1, 0.01, face, 1.29, 0)};
-    all.insert(all.end(), end.begin(), end.end());
-    row = standing({0, 0.8, 1.6}, all);
-    order.put(row);
-  }
-
-  Together row = standing({});
-};
-
-TEST(Together, a_wall_pushes_a_row_side_by_side_where_there_is_room) {
-  for (const Order& order : orders) {
-    SCOPED_TRACE(order);
-    Together row = PushedRow(order).row;
-    for (int step = 1; step <= 200; ++step) {
-      row.step_with_movers_by({{PushedRow::way, 0}});
-      ASSERT_TRUE(nobody_is_crushed(row) && all_stand(row)) << step;
-    }
-    for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(row.states[static_cast<std::size_t>(i)].position.x(),
-                  PushedRow::face + 200 * PushedRow::way + (2 * i + 1) * half_width, 4 * most_gap);
-  }
-}
-
-/// Between the wall that comes and the one at the end there is room for three, then, when it has gone through the
-/// first, for two, and for one.
-TEST(Together, a_wall_crushes_those_of_a_row_one_by_one_in_the_step_in_which_there_is_no_room) {
-  constexpr double end = 3.01;
-  for (const Order& order : orders) {
-    SCOPED_TRACE(order);
-    Together row = PushedRow(order, {box(end, 0, end + 1, 1.3)}).row;
-    std::vector<int> crushed_in(3);
-    for (int step = 1; step < 80; ++step) {
-      row.step_with_movers_by({{PushedRow::way, 0}});
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::vector<ColliderIndex>& by = row.reports[i].move.crushed;
-        if (by.empty() || crushed_in[i] > 0) continue;
-        EXPECT_EQ(by, std::vector<ColliderIndex>{2});
-        crushed_in[i] = step;
-      }
-      for (std::size_t i = 1; i < 3; ++i) ASSERT_GT(row.gap(i - 1, i), 0) << step;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const double room = end - PushedRow::face - 2 * (3 - i) * half_width;
-      EXPECT_EQ(crushed_in[static_cast<std::size_t>(i)], static_cast<int>(room / PushedRow::way) + 1) << i;
-    }
-  }
-}
-
-TEST(Together, a_carrier_climbs_with_its_rider_who_ends_above_it) {
-  const double steep = std::tan(30 * compare::degree);
-  std::vector<ColliderDef> stairs{box(-9, -1, 0, 0)};
-  for (int i = 0; i < 12; ++i) stairs.push_back(box(0.6 * i, -1, 0.6 * (i + 1), 0.2 * (i + 1)));
-  stairs.push_back(box(7.2, -1, 30, 2.4));
-  const std::vector<ColliderDef> slope{box(-9, -1, 0, 0), polygon({{0, -1}, {6, -1}, {6, 6 * steep}, {0, 0}}),
-                                       box(6, -1, 30, 6 * steep)};
-  for (const auto& [colliders, top] : {std::pair{slope, 6 * steep}, std::pair{stairs, 2.4}}) {
-    for (const Order& order : orders) {
-      SCOPED_TRACE(testing::Message() << order << ", up to " << top);
-      Together two = under_gravity(tower_of(2, -1), colliders, walker);
-      order.put(two);
-      two.steps(5);
-      two.inputs = {{.move = 1}, {.move = 0}};
-      for (int step = 0; step < 150; ++step) {
-        two.step();
-        ASSERT_TRUE(nobody_is_crushed(two)) << step;
-      }
-      // The speed is that on the flat: 60 m/s² up to 6 m/s, in six steps.
-      EXPECT_NEAR(two.states[0].position.x(), -1 + 6 * (150 - 2.5) * frame, 1e-9);
-      EXPECT_NEAR(two.states[0].position.y(), top + half_height, most_gap);
-      EXPECT_NEAR(two.states[1].position.y(), top + 3 * half_height, 2 * most_gap);
-      EXPECT_NEAR(two.states[1].position.x(), two.states[0].position.x(), 1e-9);
-      EXPECT_TRUE(all_stand(two));
-    }
-  }
-}
-
-TEST(Together, a_rider_walks_off_a_head_and_falls_to_the_floor) {
-  for (const Order& order : orders) {
-    SCOPED_TRACE(order);
-    Together two = under_gravity(tower_of(2), {floor_at_zero()});
-    order.put(two);
-    two.step();
-    const CharacterState below = two.states[0];
-    two.inputs = {{}, {.move = 1}};
-    int in_the_air = 0;
-    for (int step = 0; step < 60; ++step) {
-      two.step();
-      in_the_air += !two.states[1].grounded;
-      ASSERT_TRUE(same_bits(two.states[0], below)) << step;
-    }
-    EXPECT_GT(in_the_air, 5);
-    EXPECT_TRUE(two.states[1].grounded);
-    EXPECT_EQ(two.states[1].ride.ground, Ride::none);
-    EXPECT_NEAR(two.states[1].position.y(), half_height, most_gap);
-    EXPECT_GT(two.states[1].position.x(), 4);
-  }
-}
-
-/// It goes as far as its carrier would without it: 12 m/s less what gravity takes in a step.
-TEST(Together, a_rider_is_taken_along_by_a_jump) {
-  for (const Order& order : orders) {
-    SCOPED_TRACE(order);
-    Together two = under_gravity(tower_of(2), {floor_at_zero()});
-    order.put(two);
-    two.steps(5);
-    const std::vector<CharacterState> before = two.states;
-    two.inputs[0].jump = true;
-    two.step();
-    for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_NEAR(two.states[i].position.y(), before[i].position.y() + 11.5 * frame, most_gap) << i;
-      EXPECT_NEAR(two.states[i].velocity.y(), 11.5, 1e-9) << i;
-    }
-    for (int step = 0; step < 60; ++step) {
-      two.step();
-      ASSERT_TRUE(nobody_is_crushed(two));
-    }
-    EXPECT_TRUE(all_stand(two));
   }
 }
 
