@@ -4,6 +4,7 @@
 #include "campaign/random.hpp"
 #include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
+#include "support/exact_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +18,10 @@ inline double one_ulp_up(double x) { return std::nextafter(x, std::numeric_limit
 inline double one_ulp_down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 
 using Exact = Rational;
+using paperproof::test::cross;
+using paperproof::test::ExactPoint;
 
-struct ExactPoint {
-  Exact x;
-  Exact y;
-
-  friend ExactPoint operator+(const ExactPoint& a, const ExactPoint& b) { return {a.x + b.x, a.y + b.y}; }
-  friend ExactPoint operator-(const ExactPoint& a, const ExactPoint& b) { return {a.x - b.x, a.y - b.y}; }
-  friend ExactPoint operator*(const Exact& s, const ExactPoint& a) { return {s * a.x, s * a.y}; }
-};
-
-inline Exact cross(const ExactPoint& o, const ExactPoint& a, const ExactPoint& b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-
-inline ExactPoint exact(const Vec2d& v) { return {Exact(v.x()), Exact(v.y())}; }
+inline ExactPoint exact(const Vec2d& v) { return ExactPoint(v); }
 
 /// The article's hull at 32 pixels per metre, counter-clockwise.
 inline std::vector<Vec2d> octagon() {

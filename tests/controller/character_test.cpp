@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "campaign/random.hpp"
-#include "exact_reference.hpp"
+#include "support/exact_points.hpp"
 #include "support/refusal.hpp"
 #include "support/steps_wanted.hpp"
 #include "techniques/side_points.hpp"

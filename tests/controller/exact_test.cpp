@@ -1,7 +1,7 @@
 #include "geometry/exact.hpp"
 
 #include "campaign/random.hpp"
-#include "exact_reference.hpp"
+#include "support/exact_points.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// The rounding of random separations, in rational numbers, beside the bound that bounds/separation.gappa proves.
 #include "campaign/random.hpp"
-#include "exact_reference.hpp"
 #include "step/configuration_space.hpp"
+#include "support/exact_points.hpp"
 
 #include <gtest/gtest.h>
 
