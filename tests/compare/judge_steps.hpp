@@ -54,8 +54,7 @@ inline TraceStep among(TraceStep step, Motions movers) {
 
 /// On the side that its normal says.
 inline Contact contact(ColliderIndex collider, const Vec2d& normal, double fraction = 0) {
-  const Side upright = normal.y() > 0 ? Side::bottom : Side::top;
-  const Side side = std::abs(normal.x()) <= std::abs(normal.y()) ? upright : normal.x() > 0 ? Side::left : Side::right;
+  const Side side = side_of_normal(normal.x(), normal.y());
   return {.collider = collider, .normal = normal, .fraction = fraction, .side = side};
 }
 

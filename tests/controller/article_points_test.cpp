@@ -1,4 +1,5 @@
-/// The techniques that search along the article's points: what each does that no other does, and against each other.
+/// The techniques that search along the article's points, with their knobs. What each does without is in
+/// tests/situations/techniques.json.
 #include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
@@ -51,32 +52,6 @@ TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
       EXPECT_EQ(result.contacts.size(), 1U);
     }
   }
-}
-
-TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
-  Random random(3);
-  int passed_thin = 0;
-  for (int drop = 0; drop < 4000; ++drop) {
-    const double thickness = 5 * px * std::pow(10.0, -random.between(0, 4));
-    const double top = -px / 2 - random.between(1, 40) * px;
-    const double fall = (-px / 2 - top) + thickness + random.between(0, 50) * px;  // at least to the lower edge
-    const std::vector<ColliderDef> paper{rectangle(-2, top - thickness, 2, top)};
-
-    Rig exact("speculative", paper, {}, single_pixel());
-    EXPECT_NEAR(exact.move({0, 0}, {0, -fall}).position.y(), top + px / 2, 1e-14) << "seed 3, drop " << drop;
-
-    Rig march("speculative_march", paper, {}, single_pixel());
-    const bool stopped = !march.move({0, 0}, {0, -fall}).contacts.empty();
-    EXPECT_TRUE(stopped || thickness <= px) << "seed 3, drop " << drop;
-    passed_thin += stopped ? 0 : 1;
-    if (stopped) {
-      // Whole units from the start, and the last one above the paper.
-      const double distance = -px / 2 - top;
-      EXPECT_NEAR(march.result.position.y(), -std::floor(distance / px) * px, 1e-14) << "seed 3, drop " << drop;
-      EXPECT_NEAR(march.result.contacts[0].separation, std::fmod(distance, px), 1e-14) << "seed 3, drop " << drop;
-    }
-  }
-  EXPECT_GT(passed_thin, 400) << "paper thinner than a unit slips between two steps of the march";
 }
 
 }  // namespace
