@@ -1,5 +1,5 @@
-/// The smallest box around everything, in random scenes. Where it looks again, and how it comes out of what it began in,
-/// is in tests/situations/techniques.json.
+/// The smallest box around everything, in random scenes. Where it looks again, and how it comes out of what it began
+/// in, is in tests/situations/techniques.json.
 #include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
