@@ -1,4 +1,5 @@
-/// What several techniques do with the same situations. What they do at a chain is in tests/situations/techniques.json.
+/// What several techniques do with the same situations. What they do at a chain and how they slide is in
+/// tests/situations/techniques.json.
 #include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
@@ -18,31 +19,21 @@ struct Stopping {
   double most = 0;         ///< Of the gap that it leaves [m];
   bool is_a_stop = false;  ///< or the gap is always that of `Tolerances::stop`.
   bool knows_when = true;  ///< Otherwise its contacts are at the end of the step.
-  bool has_corner = true;  ///< The way has a corner where one component stops.
 };
 constexpr std::array all_stopping{
     Stopping{.kind = "pixel_colour"},
     Stopping{.kind = "pixel_tile"},
-    Stopping{.kind = "mask", .has_corner = false},
-    Stopping{.kind = "bounding_box", .knows_when = false, .has_corner = false},
-    Stopping{.kind = "discrete", .is_a_stop = true, .has_corner = false},
-    Stopping{.kind = "penetration_resolution", .most = px, .knows_when = false, .has_corner = false},
+    Stopping{.kind = "mask"},
+    Stopping{.kind = "bounding_box", .knows_when = false},
+    Stopping{.kind = "discrete", .is_a_stop = true},
+    Stopping{.kind = "penetration_resolution", .most = px, .knows_when = false},
     Stopping{.kind = "speculative_march", .most = px},
     Stopping{.kind = "speculative"},
 };
 
-class TechniqueIn : public testing::Test {
- protected:
-  static constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
-  static void expect_gap(double found, const Stopping& by) {
-    const double stop = by.is_a_stop ? Tolerances{}.stop : 0;
-    EXPECT_GE(found, stop - rounding);
-    EXPECT_LE(found, by.most + stop + rounding);
-  }
-};
-
-TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
+TEST(EveryTechnique, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   struct Case {
     Side side;
     ColliderDef wall;
@@ -62,7 +53,9 @@ TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
       const MoveResult& result = rig.move({0, 0}, 10.3 * px * each.out);
       const Vec2d end = result.position;
       const double left = away - end.dot(each.out);
-      this->expect_gap(left, by);
+      const double stop = by.is_a_stop ? Tolerances{}.stop : 0;
+      EXPECT_GE(left, stop - rounding);
+      EXPECT_LE(left, by.most + stop + rounding);
       EXPECT_EQ(end.cwiseAbs().minCoeff(), 0);
       EXPECT_TRUE(result.velocity.isZero(0));
       EXPECT_EQ(result.grounded, each.side == Side::bottom);
@@ -71,30 +64,13 @@ TEST_F(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
       EXPECT_EQ(result.contacts[0].normal, -each.out);
       EXPECT_NEAR(result.contacts[0].fraction, by.knows_when ? (3 - by.most / px / 2) / 10.3 : 1,
                   by.most / px / 2 / 10.3 + 1e-6);
-      EXPECT_NEAR(result.contacts[0].separation, left, this->rounding);
+      EXPECT_NEAR(result.contacts[0].separation, left, rounding);
       if (by.most > 0) continue;
       // Pressing on changes nothing, even by a fraction of a pixel.
       rig.move(end, 0.1 * px * each.out);
-      EXPECT_LE((result.position - end).norm(), by.is_a_stop ? this->rounding : 0);
+      EXPECT_LE((result.position - end).norm(), by.is_a_stop ? rounding : 0);
       EXPECT_EQ(result.contacts.size(), 1U);
     }
-  }
-}
-
-TEST_F(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
-  for (const Stopping& by : all_stopping) {
-    SCOPED_TRACE(by.kind);
-    Rig rig(by.kind, {rectangle(-9, -9, 9, 0)});
-    const MoveResult& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
-    EXPECT_NEAR(result.position.x(), 10 * px, this->rounding);
-    this->expect_gap(result.position.y() - half_height, by);
-    EXPECT_EQ(result.velocity, Vec2d(10 * px, 0));
-    ASSERT_EQ(result.path.size(), by.has_corner ? 3U : 2U);
-    EXPECT_EQ(result.path.back().position, result.position);
-    if (!by.has_corner || by.most > 0) continue;
-    EXPECT_NEAR(result.path[1].fraction, 0.4, 1e-6);
-    EXPECT_NEAR(result.path[1].position.x(), 4 * px, 1e-6);
-    EXPECT_NEAR(result.path[1].position.y(), half_height, this->rounding);
   }
 }
 
