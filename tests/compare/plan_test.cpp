@@ -97,10 +97,9 @@ TEST(PlanOfScenes, planned_and_full_give_the_same_bits_on_every_registered_scene
       const bool huge =
           entry.name == "article_bullet_extreme" || entry.name == "gravity_1e6" || entry.name == "scaled_1e3";
       if (huge && kind != "octagon_sweep" && kind != "speculative") continue;
-      expect_same_bits(kind, ScalarKind::binary64, scene, scenery, script_of(scene), steps);
+      const bool ran = expect_same_bits(kind, ScalarKind::binary64, scene, scenery, script_of(scene), steps);
+      EXPECT_TRUE(ran || kind != "octagon_sweep") << entry.name;
     }
-    EXPECT_TRUE(expect_same_bits("octagon_sweep", ScalarKind::binary64, scene, scenery, script_of(scene), steps))
-        << entry.name;
     expect_same_bits("octagon_sweep", ScalarKind::binary32, scene, scenery, script_of(scene), steps);
   }
 }
