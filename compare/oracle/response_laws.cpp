@@ -128,6 +128,18 @@ Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> su
   return u;
 }
 
+/// Whether steering slides along with the momentum: it presses into no slope and no wall, and under a ceiling there is
+/// a rise.
+bool slides_along(double steering, const Vec2d& u, std::span<const MetSurface> surfaces) {
+  const Vec2d w = u + Vec2d(steering, 0);
+  const auto presses = [&](const MetSurface& at) {
+    const bool rises = at.normal.y() < 0 && u.y() > at.velocity.y();
+    return !at.walkable && steering * at.normal.x() < 0 && !rises;
+  };
+  return std::none_of(surfaces.begin(), surfaces.end(), presses) &&
+         std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& at) { return !at.walkable && enters(w, at); });
+}
+
 /// What surfaces make of a velocity that are touched at once; nothing where they leave none.
 /// @param steering what steering added, horizontally; what brakes is spent. @param climbs a rise is the climb of a
 /// walk.
@@ -145,6 +157,10 @@ std::optional<Steered> respond(const Steered& velocity, double& steering, bool c
     if (!at.walkable) u = after_impact(u, at, surfaces, steering);
   const bool lands =
       std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return at.walkable && enters(u, at); });
+  if (!lands && slides_along(steering, u, surfaces)) {
+    u.x() += steering;
+    steering = 0;
+  }
   const auto walk = lands ? walked_towards(u.x(), -infinity, -infinity, infinity, surfaces) : std::nullopt;
   const std::optional<Vec2d> base = walk ? walk : nearest_allowed(u, surfaces);
   if (!base) return std::nullopt;

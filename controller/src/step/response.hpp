@@ -16,8 +16,9 @@
 ///     Speed that was gained by sliding points outward and is not touched.
 ///  3. **What is left of u** is, if it enters walkable ground, the walk along the ground with its x, or the nearest x
 ///  that
-///     the others allow. Else, or if they allow none, it is the motion of K that is nearest to u. A fall stays a fall
-///     then. If K is empty, the surfaces leave no motion.
+///     the others allow. Else, or if they allow none, it is the motion of K that is nearest to u; steering that leads
+///     away from slopes and walls, or goes along a ceiling with a rise, is part of u then. A fall stays a fall. If K is
+///     empty, the surfaces leave no motion.
 ///  4. **Steering** moves this across at its height, or along ground that is higher, as far as the others allow. So it
 ///     never holds or slows a fall: y(t) on a steep slope is the same with the key uphill and without a key, at any dt.
 ///     Steering that a surface took is there again at the next one; steering that was spent is not.
@@ -40,6 +41,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
@@ -127,6 +129,18 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
   u.x() = sooner(u.x(), stop);
 }
 
+/// Whether steering is part of the momentum: rule 3.
+[[nodiscard]] inline bool is_momentum(Real steered, const Vec2& u, std::span<const HalfPlane> touched) {
+  bool enters_any = false;
+  for (const HalfPlane& at : touched) {
+    if (at.walkable) continue;
+    const bool slides = at.normal.y() < 0 && u.y() > at.rest.y();
+    if (steered * at.normal.x() < 0 && !slides) return false;
+    enters_any = enters_any || at.margin({u.x() + steered, u.y()}) < 0;
+  }
+  return enters_any;
+}
+
 /// The response to all surfaces that are touched, as above; nothing where they leave no motion.
 /// @param steered what this step's steering added across to what is wanted; what brakes is spent, and taken from it.
 /// @param after_walk the character follows walkable ground that it touches: a rise is the climb of a walk.
@@ -145,6 +159,7 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
     if (!at.walkable) end_pressing(at, touched, u, steered);
   const bool lands =
       std::any_of(touched.begin(), touched.end(), [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
+  if (!lands && is_momentum(steered, u, touched)) u.x() += std::exchange(steered, Real(0));
   std::optional<Vec2> base;
   if (lands) base = walk(u.x(), -infinite, -infinite, infinite, touched);
   const Real fall = base ? u.y() : infinite;
