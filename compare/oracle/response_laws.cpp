@@ -74,9 +74,9 @@ struct Steered {
   Vec2d unsteered;
 };
 
-/// How fast the ground rises for whom it carries across at `x`.
+/// The speed upwards of a walk along the ground that has the speed `x` across.
 double rise_at(double x, const MetSurface& ground) {
-  return ground.velocity.y() - (x - ground.velocity.x()) * ground.normal.x() / ground.normal.y();
+  return follow(x - ground.velocity.x(), ground.normal).y() + ground.velocity.y();
 }
 
 /// Across at `x`, on the ground or above it at `y`; nothing where that enters a surface, or has no height.
@@ -107,8 +107,8 @@ std::optional<Vec2d> walked_towards(double x, double y, double begin, double end
   return std::nullopt;
 }
 
-/// Momentum that presses into a surface which nobody walks on ends, as in an impact; steering against it comes first.
-/// @return what is left of the velocity.
+/// An impact ends the momentum that presses into a surface which nobody walks on. Steering against it is spent first.
+/// @return the velocity that is left.
 Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> surfaces, double& steering) {
   const Vec2d& n = at.normal;
   const double towards = n.x() < 0 ? 1 : -1;  // across, into the surface
@@ -212,7 +212,7 @@ bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall)
          std::all_of(held.begin(), held.end(), goes_alike);
 }
 
-/// As an upright character sees it. What is met at one moment is answered together with all that is still held.
+/// As an upright character sees it. Surfaces that are met at one moment are answered together with all that still hold.
 /// @param fastest set to the speed at which surfaces press it out, where that is larger [m/s].
 Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown,
                  double& fastest) {
@@ -231,14 +231,12 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     if (held.empty()) continue;
     if (goes_on) fall = now.unsteered.y();
     const Vec2d came = now.wanted;
-    const auto carries = [&](const MetSurface& one) { return &one >= &held.back() && may_carry(one); };
-    if (unknown.carried && carries(held.back()) && enters(came, held.back()) &&
+    if (unknown.carried && may_carry(held.back()) && enters(came, held.back()) &&
         std::abs(came.x()) <= grazing * came.norm()) {
       now = {held.back().velocity, held.back().velocity};
       steering = 0;
     }
-    const auto made = respond(now, steering, at.climbs, held);
-    now = made.value_or(Steered{Vec2d::Zero(), Vec2d::Zero()});
+    now = respond(now, steering, at.climbs, held).value_or(Steered{Vec2d::Zero(), Vec2d::Zero()});
     const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
     if (all_left && hold_fall(held, now.unsteered, fall)) now = {Vec2d(0, fall), Vec2d(0, fall)};
     const double most = most_pressed(came, steering, held);
@@ -295,6 +293,18 @@ void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
   if (n.y() >= 0) return;
   add(Vec2d::Zero());
   slide(v);
+}
+
+/// Where the speed that a push gives is limited, all of it is slowed, by no more than the push gave.
+Box2 slowed_by_limit(Box2 box, std::span<const MetSurface> surfaces) {
+  double push = 0;
+  for (const MetSurface& at : surfaces)
+    if (surfaces.size() > 1 && at.velocity.dot(at.normal) + at.spread > 0) push = std::max(push, fastest(at));
+  for (const Eigen::Index i : {0, 1}) {
+    box.lower[i] = std::min(box.lower[i], std::max(box.lower[i] - push, 0.0));
+    box.upper[i] = std::max(box.upper[i], std::min(box.upper[i] + push, 0.0));
+  }
+  return box;
 }
 
 /// What the trace leaves open of these surfaces.
@@ -392,22 +402,6 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   }
   return outcomes;
 }
-
-namespace {
-
-/// Where the speed that a push gives is limited, all of it is slowed, by no more than the push gave.
-Box2 slowed_by_limit(Box2 box, std::span<const MetSurface> surfaces) {
-  double push = 0;
-  for (const MetSurface& at : surfaces)
-    if (surfaces.size() > 1 && at.velocity.dot(at.normal) + at.spread > 0) push = std::max(push, fastest(at));
-  for (const Eigen::Index i : {0, 1}) {
-    box.lower[i] = std::min(box.lower[i], std::max(box.lower[i] - push, 0.0));
-    box.upper[i] = std::max(box.upper[i], std::min(box.upper[i] + push, 0.0));
-  }
-  return box;
-}
-
-}  // namespace
 
 Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
   const Vec2d slower(range.least_steering, 0);

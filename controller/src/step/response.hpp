@@ -14,11 +14,10 @@
 ///     first; and under a ceiling where it no longer presses. (A rise under a ceiling slides.) Steering against it is
 ///     spent on it first: a character that turns around at a wall would be thrown back by its own momentum otherwise.
 ///     Speed that was gained by sliding points outward and is not touched.
-///  3. **What is left of u** is, if it enters walkable ground, the walk along the ground with its x, or the nearest x
-///  that
-///     the others allow. Else, or if they allow none, it is the motion of K that is nearest to u; steering that leads
-///     away from slopes and walls, or goes along a ceiling with a rise, is part of u then. A fall stays a fall. If K is
-///     empty, the surfaces leave no motion.
+///  3. **What is left of u.** Where it enters walkable ground, it becomes the walk along the ground with its x, or with
+///     the nearest x that the others allow. Else, or if they allow none, it becomes the motion of K that is nearest to
+///     it. Steering that leads away from slopes and walls, or along a ceiling with a rise, is part of u then. A fall
+///     stays a fall. If K is empty, the surfaces leave no motion.
 ///  4. **Steering** moves this across at its height, or along ground that is higher, as far as the others allow. So it
 ///     never holds or slows a fall: y(t) on a steep slope is the same with the key uphill and without a key, at any dt.
 ///     Steering that a surface took is there again at the next one; steering that was spent is not.
