@@ -201,7 +201,7 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
 /// The face of the solids taken together that is there to be touched along the reported normal: its own normal. There
 /// is one beside a corner of the way, or where a leg would come to if it went on. A one-way chain is there for a leg
 /// that began above it: where the leg ends, beside its tip, the octagon is not above it any more.
-std::optional<Vec2d> ContactJudge::face_of(const Contact& contact) const {
+std::optional<Vec2d> ContactJudge::find_face(const Contact& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
   bool is_own = false;  // of two that abut the face may be the other's, but both are there
@@ -228,6 +228,12 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact& contact) const {
       if (const auto impact = scenery_.impact_between(place(i - 1), to, contact.collider)) look(*impact);
   }
   return is_own || !promises_ ? most_alike : std::nullopt;
+}
+
+std::optional<Vec2d> ContactJudge::face_of(const Contact& contact) const {
+  const auto [face, is_new] = faces_.try_emplace(&contact);
+  if (is_new) face->second = find_face(contact);
+  return face->second;
 }
 
 /// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left

@@ -4,6 +4,9 @@
 #include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
 
+#include <map>
+#include <optional>
+
 namespace paperproof::compare::detail {
 
 /// A contact is this near along its normal [m]: twice what the controller stops at.
@@ -55,6 +58,8 @@ class ContactJudge {
   [[nodiscard]] bool is_opposed(double wanted, const StepJudgement& judgement) const;
   void add_normal_error(StepJudgement& judgement) const;
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
+  [[nodiscard]] std::optional<Vec2d> find_face(const Contact& contact) const;
+  /// The same, found once. @param contact one of the step's.
   [[nodiscard]] std::optional<Vec2d> face_of(const Contact& contact) const;
   [[nodiscard]] bool has_face(const Contact& contact) const { return face_of(contact).has_value(); }
   [[nodiscard]] bool ran_into(const Contact& contact) const;
@@ -76,7 +81,8 @@ class ContactJudge {
   Vec2d right_;    ///< and across it.
   bool promises_;  ///< See `Party::promising`.
   double touch_;   ///< Up to this gap the contender may hold a contact that it has [m].
-  double hit_;     ///< Below this gap at the end of the motion it may call it a contact already [m].
+  mutable std::map<const Contact*, std::optional<Vec2d>> faces_{};  ///< See `face_of`.
+  double hit_;  ///< Below this gap at the end of the motion it may call it a contact already [m].
 };
 
 }  // namespace paperproof::compare::detail
