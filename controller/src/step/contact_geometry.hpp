@@ -45,12 +45,20 @@ struct PieceFace {
   return face;
 }
 
-/// Separation from a circle along a direction, from differences of coordinates.
-[[nodiscard]] PAPERPROOF_COLD inline Real separation_along(const ConfigurationSpace& space, PieceIndex circle_piece,
-                                                           Vec2 n, Vec2 p) {
-  const Circle circle = space.circle(circle_piece);
-  const Vec2 centre = circle.centre - p;
-  return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
+/// Separation from a piece along any direction, from differences of coordinates [m].
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline Real separation_along(const ConfigurationSpace& space, PieceIndex piece,
+                                                                 Vec2 n, Vec2 p) {
+  const Real low = space.face_along(n).low;
+  if (space.is_circle(piece)) {
+    const Circle circle = space.circle(piece);
+    const Vec2 centre = circle.centre - p;
+    return low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
+  }
+  Real least = std::numeric_limits<Real>::infinity();
+  for (const Vec2d& v : space.vertices_of(piece))
+    least =
+        std::min(least, low - (n.x() * static_cast<Real>(v.x() - p.x()) + n.y() * static_cast<Real>(v.y() - p.y())));
+  return least;
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along

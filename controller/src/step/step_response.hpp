@@ -61,8 +61,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 }
 
 /// Whether the character can fall straight down between two rims that it touches: a shaft may be a little wider than
-/// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
-/// counts.
+/// the character. If it is off the middle, it shifts there.
 /// @param aside unit vector, across the fall.
 [[nodiscard]] PAPERPROOF_COLD inline bool shift_to_fall(Step& step, const Vec2& displacement, const Vec2& aside) {
   const auto falls = [&] {
@@ -71,15 +70,23 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
   };
   if (falls()) return true;
   if (step.certify) return false;
-  for (const Real by : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
-    const Vec2 here = step.position;
-    step.position += aside * by;
-    if (exactly_clear(step, here, step.position) && falls()) {
-      push_corner(step, step.time);
-      return true;
-    }
-    step.position = here;
+  const auto room = [&](const Vec2& normal) {
+    Real least = std::numeric_limits<Real>::infinity();
+    for (const TouchedSurface& surface : step.memory.surfaces)
+      if (dot(surface.normal, normal) > 0)
+        least = std::min(
+            least, separation_along(step.space, surface.piece, normal, local(step, surface.piece, step.position)));
+    return least;
+  };
+  const Real by = (room(-aside) - room(aside)) / 2;
+  if (!(std::abs(by) <= tolerances.touch)) return false;
+  const Vec2 here = step.position;
+  step.position += aside * by;
+  if (exactly_clear(step, here, step.position) && falls()) {
+    push_corner(step, step.time);
+    return true;
   }
+  step.position = here;
   return false;
 }
 
@@ -111,22 +118,25 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
   return true;
 }
 
-/// Whether steep surfaces on both sides, which go almost alike, leave hardly anything of a fall: a slope and a crate
-/// that rests, for example.
+/// Whether surfaces that go almost alike leave hardly anything of a fall, and none of them is ground below the
+/// character: steep ones on both sides, such as a slope and a crate that rests, or ground that the character is beside.
 [[nodiscard]] PAPERPROOF_COLD inline bool holds_fall(const Step& step, const DesiredMotion& desired) {
   const Vec2 velocity = step.movers.velocity(step.memory.surfaces[0].mover);
   const Real hardly = Real(0.1) * (step.up.up_of(velocity) - step.fall);
+  if (!(length_of(Vec2(desired.velocity.unsteered - velocity)) <= hardly)) return false;
   Real left = 0;
   Real right = 0;
-  Real fastest = length_of(Vec2(desired.velocity.unsteered - velocity));
+  bool beside = false;
   for (const TouchedSurface& surface : step.memory.surfaces) {
-    if (walkable(step, surface.normal)) return false;
+    const bool is_ground = walkable(step, surface.normal);
+    if (is_ground && !is_beside(step, surface.piece, surface.axis)) return false;
+    beside = beside || is_ground;
     const Real across = step.up.across_of(surface.normal);
     left = std::min(left, across);
     right = std::max(right, across);
-    fastest = std::max(fastest, length_of(Vec2(step.movers.velocity(surface.mover) - velocity)));
+    if (!(length_of(Vec2(step.movers.velocity(surface.mover) - velocity)) <= hardly)) return false;
   }
-  return left < 0 && right > 0 && step.up.up_of(step.memory.surfaces[0].normal) > 0 && hardly > 0 && fastest <= hardly;
+  return (beside || (left < 0 && right > 0)) && hardly > 0 && step.up.up_of(step.memory.surfaces[0].normal) > 0;
 }
 
 /// The response to all touched surfaces. False where they leave no motion.

@@ -140,7 +140,9 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
 PAPERPROOF_COLD inline void look_for_ground(Step& step) {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (step.result.grounded) return;
-    if (const auto ground = stood_on(step, piece)) note_ground(step, GroundState::walkable, piece, ground->normal);
+    const auto ground = stood_on(step, piece);
+    if (ground && (step.request.grounded || !is_beside(step, piece, ground->axis)))
+      note_ground(step, GroundState::walkable, piece, ground->normal);
   });
   const auto is_steep = [&](const Vec2& normal) { return step.up.up_of(normal) > 0 && !walkable(step, normal); };
   if (step.result.grounded || std::none_of(step.result.contacts.begin(), step.result.contacts.end(),

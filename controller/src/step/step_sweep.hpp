@@ -24,6 +24,18 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return false;
 }
 
+/// Whether the character is beside a surface that it touches: another face keeps it clear of the piece as well.
+[[nodiscard]] PAPERPROOF_COLD inline bool is_beside(const Step& step, PieceIndex piece, std::size_t touched) {
+  if (step.space.is_circle(piece)) return false;
+  const Vec2 at = local(step, piece, step.position);
+  const Vec2 normal = step.space.normal(piece, touched);
+  for (std::size_t axis = 0; axis < step.space.axis_count(piece); ++axis)
+    if (step.space.separation(piece, axis, at) >= tolerances.hit &&
+        dot(step.space.normal(piece, axis), normal) < 1 - same_plane)
+      return true;
+  return false;
+}
+
 /// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
 /// one that points up most.
 inline void update_surfaces(Step& step) {
