@@ -75,6 +75,9 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 /// Walls, floors and plates at up to 2e-7 m on opposite sides. @param rests all that could move.
 [[nodiscard]] RandomRun draw_exact_fit(bool rests, std::uint64_t seed);
 
+/// A window in a wall, or a slot in a floor, larger than the character by at most 1e-6 m, or smaller; and as near to it.
+[[nodiscard]] RandomRun draw_opening(std::uint64_t seed);
+
 /// A one-way mover that meets the character as a step ends, but for rounding, and goes on.
 [[nodiscard]] RandomRun draw_touched_by_ledge(std::uint64_t seed);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace paperproof::compare {
 namespace {
@@ -35,6 +36,18 @@ RandomRun of_free_flight(int steps) {
   run.scene.dt = 1;
   run.scene.steps = steps;
   return run;
+}
+
+/// A box of the article's size, with corners cut off or without.
+CharacterShape draw_box(Random& random) {
+  const double cut = random.chance(0.5) ? 0 : random.log_between(1e-6, 0.1);
+  std::vector<Vec2d> points;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      points.emplace_back(x * half_width, y * (half_height - cut));
+      if (cut > 0) points.emplace_back(x * (half_width - 0.7 * cut), y * half_height);  // at 45 degrees sides are alike
+    }
+  return CharacterShape(points);
 }
 
 Vec2d rounded(const Vec2d& v, double lattice) { return (v / lattice).array().round() * lattice; }
@@ -122,6 +135,44 @@ RandomRun draw_exact_fit(bool rests, std::uint64_t seed) {
   for (int step = 0; step < scene.steps; ++step) {
     const double move = random.integer(-1, 1);
     scene.input.push_back({.step = step, .move = move, .jump = random.chance(0.4)});
+  }
+  return run;
+}
+
+RandomRun draw_opening(std::uint64_t seed) {
+  Random random(seed);
+  RandomRun run;
+  Scene& scene = run.scene;
+  scene.gravity = {0, -30};
+  scene.dt = random.chance(0.5) ? 1.0 / 60 : random.log_between(1e-4, 1.0 / 30);
+  scene.steps = 12;
+  draw_rules(random, scene.character);
+  scene.character.shape = draw_box(random);
+  const Vec2d middle = random.chance(0.5) ? random.point(100) : Vec2d{0, 0};
+  scene.start.position = middle;
+  const int across = random.integer(0, 1);  // 1: a window, which is as high as the character
+  const int into = 1 - across;
+  const Vec2d half{half_width, half_height};
+  const double side = across == 0 || random.chance(0.5) ? -1 : 1;
+  const double larger = random.between(-1e-6, 1e-6);
+  const double share = random.chance(0.3) ? 0.5 : random.between(0, 1);
+  const double near =
+      side * (half[into] + (random.chance(0.7) ? random.between(0, 1e-6) : random.log_between(1e-9, 1e-3)));
+  for (const double end : {-1.0, 1.0}) {
+    const double rim = end * (half[across] + larger * (end < 0 ? share : 1 - share));
+    Vec2d corner;
+    Vec2d opposite;
+    corner[across] = rim;
+    corner[into] = near;
+    opposite[across] = rim + end * random.between(0.1, 8);
+    opposite[into] = near + side * random.between(0.05, 2);
+    const Vec2d lower = middle + corner.cwiseMin(opposite);
+    const Vec2d upper = middle + corner.cwiseMax(opposite);
+    scene.scenery.colliders.push_back(box(lower.x(), lower.y(), upper.x(), upper.y()));
+  }
+  for (int step = 0; step < scene.steps; ++step) {
+    const double move = across == 1 && random.chance(0.8) ? side : random.integer(-1, 1);
+    scene.input.push_back({.step = step, .move = move, .jump = random.chance(0.05)});
   }
   return run;
 }

@@ -128,6 +128,7 @@ std::vector<Family> tight() {
   return {{"tight", "corners", draw_near_a_corner, 6000011, 2, {{"contact", 0.5, 0.9}}},
           {"tight", "sensors", draw_through_sensors, 7000003, 1, {{"sensed", 0.15}}},
           {"tight", "fits", fits(true), 8000009, 1, {{"ceiling", 0.05}}},
+          {"tight", "openings", draw_opening, 11000027, 1, {{"contact", 0.2, 0.95}, {"falling", 0.2}}},
           {"presses", "fits", fits(false), 9000011, 1, {{"ceiling", 0.05}, {"crushed", 0.02}, {"riding", 0.05}}},
           {"presses", "ledges", draw_touched_by_ledge, 10000019, 1, {{"contact", 0.2, 0.9}}}};
 }
