@@ -75,8 +75,8 @@ TEST_P(Situations, come_to_what_they_must) {
   // All, eight where few steps are asked for, one under sanitizers.
   const std::size_t most = sanitized ? 1 : steps_per_family() < few_steps ? 8 : cases.size();
   const std::size_t count = std::min(cases.size(), most);
-  for (std::size_t k = 1; k <= count; ++k) {  // in even strides, to the last
-    const SituationCase& situation = cases[k * cases.size() / count - 1];
+  for (std::size_t k = 0; k < count; ++k) {  // in even strides, from the first: it is often the cheapest
+    const SituationCase& situation = cases[k * cases.size() / count];
     run(situation);
     ASSERT_FALSE(HasFailure()) << GetParam().name << situation.title << "\npaperproof compare " << stem()
                                << ".json --contender " << situation.contender << " --trace STEM";
