@@ -54,7 +54,10 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 /// Keys held and jumps at random, for ten seconds. @param rate steps per second.
 [[nodiscard]] RandomRun draw_play(PlayLevel level, int rate, std::uint64_t seed);
 
-/// The same with stairs that are climbed, ground that is followed down, and a lift or press that goes to and fro.
+/// The same for up to eight seconds with a gravity up to 60 degrees off up. In half of the runs nothing steers at all.
+[[nodiscard]] RandomRun draw_slanted(PlayLevel level, std::uint64_t seed);
+
+/// Play with stairs that are climbed, ground that is followed down, and a lift or press that goes to and fro.
 [[nodiscard]] RandomRun draw_stairs(PlayLevel level, std::uint64_t seed);
 
 /// Two to sixteen characters in a tight room. A run of fewer than two characters has no steps.

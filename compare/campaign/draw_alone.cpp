@@ -236,6 +236,15 @@ RandomRun draw_play(PlayLevel level, int rate, std::uint64_t seed) {
   return run;
 }
 
+RandomRun draw_slanted(PlayLevel level, std::uint64_t seed) {
+  RandomRun run = draw_play(level, 60, seed);
+  Random random(~seed);
+  run.scene.gravity = 30 * towards(random.between(-150, -30) * degree);
+  run.scene.steps = 480;
+  if (random.chance(0.5)) run.scene.input.clear();
+  return run;
+}
+
 RandomRun draw_stairs(PlayLevel level, std::uint64_t seed) {
   Random random(seed);
   RandomRun run;

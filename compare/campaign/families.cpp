@@ -101,6 +101,16 @@ std::vector<Family> play_on_stairs() {
   });
 }
 
+std::vector<Family> slanted() {
+  return one_of_each(all_play_levels, [](PlayLevel level, std::uint64_t number) -> Family {
+    return {.kind = "slanted",
+            .draw = [level](std::uint64_t seed) { return draw_slanted(level, seed); },
+            .first_seed = 13000027 * number,
+            .share = 4.0 / 9,
+            .covers = {{"grounded", 0.2}, {"falling", 0.01}}};
+  });
+}
+
 std::vector<Family> on_lines() {
   return one_of_each(all_lines, [](Line line, std::uint64_t number) -> Family {
     const double through = line == Line::arch || line == Line::ramp ? ever : 0;  // from the others few get through
@@ -161,7 +171,7 @@ const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
     for (std::vector<Family>& some : std::array{still(), any_up(), movers(false), movers(true), turning(), play(),
-                                                play_on_stairs(), on_lines(), inside(), tight(), rest()})
+                                                play_on_stairs(), slanted(), on_lines(), inside(), tight(), rest()})
       std::move(some.begin(), some.end(), std::back_inserter(joined));
     return joined;
   }();
