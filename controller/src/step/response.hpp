@@ -6,21 +6,24 @@
 /// of who rests at a surface. All of this is as the character sees it, x across it and y up, and relative to the first
 /// surface. Where w enters no surface, it goes on as it is. Else:
 ///
-///  1. **The climb of a walk ends** where what is not walkable holds w: u rises no more than that surface. A character
+///  1. **The climb of a walk ends** where what is not walkable stops w: u rises no more than that surface. A character
 ///     that walks up a slope into a wall would leave the ground with the speed of its climb otherwise, land, and hop
 ///     again, for ever.
 ///  2. **Momentum that presses is an impact.** Of u, the part across that presses into what is not walkable, and enters
-///     it, ends: it does not become a climb. It ends at `rest`; at an upward surface on the other side, if that comes
-///     first; and under a ceiling where it no longer presses. (A rise under a ceiling slides.) Steering against it is
-///     spent on it first: a character that turns around at a wall would be thrown back by its own momentum otherwise.
-///     Speed that was gained by sliding points outward and is not touched.
+///     it, ends: it does not become a climb. What is left of it is the motion of `rest` across. It keeps more where it
+///     comes to an upward surface on the other side before, or where it presses under a ceiling no longer. (A rise
+///     under a ceiling slides.) Steering against it is spent on it first: a character that turns around at a wall would
+///     be thrown back by its own momentum otherwise. Speed that was gained by sliding points outward and is not
+///     touched.
 ///  3. **What is left of u.** Where it enters walkable ground, it becomes the walk along the ground with its x, or with
-///     the nearest x that the others allow. Else, or if they allow none, it becomes the motion of K that is nearest to
-///     it. Steering that leads away from slopes and walls, or along a ceiling with a rise, is part of u then. A fall
-///     stays a fall. If K is empty, the surfaces leave no motion.
-///  4. **Steering** moves this across at its height, or along ground that is higher, as far as the others allow. So it
-///     never holds or slows a fall: y(t) on a steep slope is the same with the key uphill and without a key, at any dt.
-///     Steering that a surface took is there again at the next one; steering that was spent is not.
+///     the nearest x that the other surfaces allow. In all other cases, and where no x is allowed, it becomes the
+///     motion of K that is nearest to it. Before that, steering joins it that leads away from slopes and walls; and
+///     while it rises under a ceiling, steering to either side. A fall stays a fall. If K is empty, the surfaces leave
+///     no motion.
+///  4. **Steering**, as far as it has not joined, moves the motion that rule 3 gives across: at the height of that
+///     motion, or along ground that is higher, as far as all surfaces allow. So steering never holds or slows a fall
+///     along a surface: from the same place and speed, y(t) on a steep slope is the same with the key uphill and
+///     without a key. Steering that a surface took is there again at the next one; steering that was spent is not.
 ///
 /// **A wedge** holds a fall: surfaces on both sides, none of them walkable, that leave no more than a small share of
 /// it.
