@@ -11,22 +11,6 @@ namespace paperproof::test {
 extern "C" void __asan_init() __attribute__((weak));
 inline const bool sanitized = &__asan_init != nullptr;
 
-/// So many random cases, or a sixteenth where sanitizers look on: each case takes ten times as long there, and the
-/// other builds run all of them.
-template <class Count>
-[[nodiscard]] Count sampled(Count cases) {
-  return sanitized ? (cases + 15) / 16 : cases;
-}
-
-/// All of a list, or the last of every `of` where sanitizers look on.
-template <class Items>
-[[nodiscard]] Items sampled_of(const Items& items, std::size_t of = 16) {
-  Items some;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (!sanitized || i % of == of - 1) some.push_back(items[i]);
-  return some;
-}
-
 /// The number in an environment variable, or `otherwise` where there is none.
 [[nodiscard]] inline int steps_wanted(const char* variable, int otherwise) {
   const char* wanted = std::getenv(variable);
@@ -38,5 +22,22 @@ inline constexpr int few_steps = 1000;
 
 /// Of each family, for octagon_sweep.
 [[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 2000); }
+
+/// So many random cases; a sixteenth where sanitizers look on, as each takes ten times as long there; a quarter where
+/// an answer is wanted soon. The other runs make all of them.
+template <class Count>
+[[nodiscard]] Count sampled(Count cases) {
+  const int of = sanitized ? 16 : steps_per_family() < few_steps ? 4 : 1;
+  return (cases + static_cast<Count>(of - 1)) / static_cast<Count>(of);
+}
+
+/// All of a list, or the last of every `of` where sanitizers look on.
+template <class Items>
+[[nodiscard]] Items sampled_of(const Items& items, std::size_t of = 16) {
+  Items some;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!sanitized || i % of == of - 1) some.push_back(items[i]);
+  return some;
+}
 
 }  // namespace paperproof::test
