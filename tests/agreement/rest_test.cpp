@@ -1,5 +1,5 @@
-/// Who is steered alike for long comes to rest, bit for bit, under a gravity up to 60 degrees off up: in corners,
-/// notches and funnels, and at walls. The campaign judges the ways there: slanted.
+/// A character whose input does not change comes to rest, bit for bit, under a gravity up to 60 degrees off up: in
+/// corners, notches and funnels, and at walls. The campaign judges the way there: slanted.
 #include "campaign/draw.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -19,7 +19,7 @@ bool is_in_hall(const CharacterState& state) { return state.position.cwiseAbs().
 
 /// In a notch of a steep and a walkable side a fall meets the steep one first, slides along it, and goes up the other
 /// one by as much, in each step: for less than a millimetre.
-int most_restless(PlayLevel level) { return level == PlayLevel::sawtooth ? 6 : 0; }
+int most_restless(PlayLevel level) { return level == PlayLevel::sawtooth ? sampled(6) : 0; }
 
 class SlantedGravity : public ::testing::TestWithParam<PlayLevel> {};
 
