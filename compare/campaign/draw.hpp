@@ -54,7 +54,7 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 /// Keys held and jumps at random, for ten seconds. @param rate steps per second.
 [[nodiscard]] RandomRun draw_play(PlayLevel level, int rate, std::uint64_t seed);
 
-/// The same for up to eight seconds with a gravity up to 60 degrees off up. In half of the runs nothing steers at all.
+/// The same for eight seconds under a gravity up to 60 degrees off up. In half of the runs nothing steers.
 [[nodiscard]] RandomRun draw_slanted(PlayLevel level, std::uint64_t seed);
 
 /// Play with stairs that are climbed, ground that is followed down, and a lift or press that goes to and fro.
@@ -78,7 +78,8 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 /// Walls, floors and plates at up to 2e-7 m on opposite sides. @param rests all that could move.
 [[nodiscard]] RandomRun draw_exact_fit(bool rests, std::uint64_t seed);
 
-/// A window in a wall, or a slot in a floor, larger than the character by at most 1e-6 m, or smaller; and as near to it.
+/// A window in a wall, or a slot in a floor, larger than the character by at most 1e-6 m, or smaller; and as near to
+/// it.
 [[nodiscard]] RandomRun draw_opening(std::uint64_t seed);
 
 /// A one-way mover that meets the character as a step ends, but for rounding, and goes on.

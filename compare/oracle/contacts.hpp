@@ -81,8 +81,8 @@ class ContactJudge {
   Vec2d right_;    ///< and across it.
   bool promises_;  ///< See `Party::promising`.
   double touch_;   ///< Up to this gap the contender may hold a contact that it has [m].
+  double hit_;     ///< Below this gap at the end of the motion it may call it a contact already [m].
   mutable std::map<const Contact*, std::optional<Vec2d>> faces_{};  ///< See `face_of`.
-  double hit_;  ///< Below this gap at the end of the motion it may call it a contact already [m].
 };
 
 }  // namespace paperproof::compare::detail

@@ -76,15 +76,15 @@ class TogetherScratch {
 /// 1. While one goes the others stand: those that went before it where they ended, those that go after it where they
 ///    began. So two that do not overlap at the beginning of a step do not overlap at its end, and do not pass through
 ///    each other.
-/// 2. They go in the order of their bodies' ids, with these exceptions. Whoever is in the way of one goes before it; so
-///    does a rider in the way of its carrier, up a lift for example. A carrier goes before a rider that is not in its
-///    way. Of several that wait for each other the last one goes first, and stops at the others.
+/// 2. They go in the order of their bodies' ids, with these exceptions. A character goes before another if it is in its
+///    way. A carrier goes before its rider, unless the rider is in its way, as on a lift that rises. Of several that
+///    wait for each other the last one goes first, and stops at the others.
 /// 3. To its rider a character is a mover, which goes straight from where it began to where it ended, and carries at
 ///    its speed. To anyone else it is one, and pushes at its speed, if it went before, ended no nearer than it began,
 ///    and did not fly past; else it stands where it ended.
 /// 4. A rider that goes first is carried by the way that its carrier would go without it. One that a mover presses
-///    pushes whoever is in its way likewise: they go as far as it would. Where they have no room, the mover crushes the
-///    one that it presses. No character crushes another. None that walks or falls pushes one.
+///    pushes those in its way: they go first, as far as it would go. If they have no room, the mover crushes the one
+///    that it presses. No character crushes another. None that walks or falls pushes one.
 ///
 /// A character that meets no other makes the same step as alone, bit for bit. One whose step is refused stands where it
 /// is, and its report says why. The order of `companions` does not matter, only that of the ids.

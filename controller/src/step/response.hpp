@@ -6,18 +6,19 @@
 /// of who rests at a surface. All of this is as the character sees it, x across it and y up, and relative to the first
 /// surface. Where w enters no surface, it goes on as it is. Else:
 ///
-///  1. **The climb of a walk ends** where what is not walkable stops w: u rises no more than that surface. A character
+///  1. **The climb of a walk ends** at a surface that is not walkable and stops w: u rises no faster than that surface.
+///  A character
 ///     that walks up a slope into a wall would leave the ground with the speed of its climb otherwise, land, and hop
 ///     again, for ever.
 ///  2. **Momentum that presses is an impact.** Of u, the part across that presses into what is not walkable, and enters
-///     it, ends: it does not become a climb. What is left of it is the motion of `rest` across. It keeps more where it
-///     comes to an upward surface on the other side before, or where it presses under a ceiling no longer. (A rise
-///     under a ceiling slides.) Steering against it is spent on it first: a character that turns around at a wall would
+///     it, ends: it does not become a climb. It becomes the motion of `rest` across. It stays larger if an upward
+///     surface on the other side stops it before that, or if it presses into a ceiling no longer. (A rise under a
+///     ceiling slides.) Steering against it is spent on it first: a character that turns around at a wall would
 ///     be thrown back by its own momentum otherwise. Speed that was gained by sliding points outward and is not
 ///     touched.
-///  3. **What is left of u.** Where it enters walkable ground, it becomes the walk along the ground with its x, or with
-///     the nearest x that the other surfaces allow. In all other cases, and where no x is allowed, it becomes the
-///     motion of K that is nearest to it. Before that, steering joins it that leads away from slopes and walls; and
+///  3. **What is left of u** becomes a walk if it enters walkable ground: along the ground, with its x or the nearest x
+///     that the other surfaces allow. In all other cases, and if they allow no x, it becomes the motion of K that is
+///     nearest to it. Before that, steering joins it that leads away from slopes and walls; and
 ///     while it rises under a ceiling, steering to either side. A fall stays a fall. If K is empty, the surfaces leave
 ///     no motion.
 ///  4. **Steering**, as far as it has not joined, moves the motion that rule 3 gives across: at the height of that

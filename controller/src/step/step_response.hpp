@@ -123,7 +123,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 [[nodiscard]] PAPERPROOF_COLD inline bool holds_fall(const Step& step, const DesiredMotion& desired) {
   const Vec2 velocity = step.movers.velocity(step.memory.surfaces[0].mover);
   const Real hardly = Real(0.1) * (step.up.up_of(velocity) - step.fall);
-  if (!(length_of(Vec2(desired.velocity.unsteered - velocity)) <= hardly)) return false;
+  if (!(hardly > 0 && length_of(Vec2(desired.velocity.unsteered - velocity)) <= hardly)) return false;
   Real left = 0;
   Real right = 0;
   bool beside = false;
@@ -136,7 +136,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
     right = std::max(right, across);
     if (!(length_of(Vec2(step.movers.velocity(surface.mover) - velocity)) <= hardly)) return false;
   }
-  return (beside || (left < 0 && right > 0)) && hardly > 0 && step.up.up_of(step.memory.surfaces[0].normal) > 0;
+  return (beside || (left < 0 && right > 0)) && step.up.up_of(step.memory.surfaces[0].normal) > 0;
 }
 
 /// The response to all touched surfaces. False where they leave no motion.
