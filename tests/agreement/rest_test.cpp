@@ -35,10 +35,8 @@ TEST_P(SlantedGravity, brings_to_rest_who_is_steered_alike_for_long) {
     const Scenery scenery(run.scene.scenery);
     const Controller controller(scenery, run.scene.character);
     Scratch scratch = controller.make_scratch();
-    StepContext context;
-    context.gravity = run.scene.gravity;
+    const StepContext context{.gravity = run.scene.gravity, .dt = run.scene.dt};
     if (std::abs(context.gravity.x()) < 1) continue;  // it takes minutes to the wall
-    context.dt = run.scene.dt;
     Input input;
     // With the key at 0 it is braked in each step, and pulled again: it creeps, by gravity times dt.
     if (seed % 3 > 0) input.move = seed % 3 == 1 ? -1 : 1;
