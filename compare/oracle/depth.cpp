@@ -3,25 +3,56 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// The exact product of the separation and the length of the edge: for a left normal n of the edge, n·x = edge × x.
+/// How far points are to the left of an edge, times its length: for its left normal n, n·x = edge × x.
 template <class Number>
-Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, const ConvexPart& part,
-                         std::span<const Vec2d> octagon, const FramePlace& place) {
-  const Point<Number> from = place.in(number);
-  const Point<Number> edge = convert(number, axis.end) - convert(number, axis.start);
-  const auto near_side = [&](const Vec2d& corner) { return cross(edge, convert(number, corner)); };
-  const auto far_side = [&](const Vec2d& vertex) { return -cross(edge, convert(number, vertex) - from); };
-  Number corner = near_side(octagon[0]);
-  Number vertex = far_side(part.points[0]);
-  for (const Vec2d& point : octagon) corner = least(corner, near_side(point));
-  for (const Vec2d& point : part.points) vertex = least(vertex, far_side(point));
-  return corner + vertex;
+class Heights {
+ public:
+  Heights(const Convert<Number>& number, const AxisEdge& axis, const FramePlace& place)
+      : number_(number), from_(place.in(number)), edge_(convert(number, axis.end) - convert(number, axis.start)) {}
+  [[nodiscard]] Number of_corner(const Vec2d& corner) const { return cross(edge_, convert(number_, corner)); }
+  /// Negated: the vertex that is farthest to the left is the one that is nearest to the octagon.
+  [[nodiscard]] Number below_vertex(const Vec2d& vertex) const {
+    return -cross(edge_, convert(number_, vertex) - from_);
+  }
+
+ private:
+  Convert<Number> number_;
+  Point<Number> from_;
+  Point<Number> edge_;
+};
+
+template <class Height>
+auto least_of(std::span<const Vec2d> points, const Height& height) {
+  auto lowest = height(points[0]);
+  for (const Vec2d& point : points.subspan(1)) lowest = least(lowest, height(point));
+  return lowest;
 }
 
-double to_double(const Integer& x, int exponent) {
-  if (x == 0) return 0;
-  const int drop = std::max(0, static_cast<int>(msb(abs(x))) - 62);
-  return std::ldexp(static_cast<double>(static_cast<std::int64_t>(x / (Integer(1) << drop))), exponent + drop);
+/// The exact product of the separation and the length of the edge.
+template <class Number>
+Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, std::span<const Vec2d> vertices,
+                         std::span<const Vec2d> octagon, const FramePlace& place) {
+  const Heights<Number> heights(number, axis, place);
+  return least_of(octagon, [&](const Vec2d& corner) { return heights.of_corner(corner); }) +
+         least_of(vertices, [&](const Vec2d& vertex) { return heights.below_vertex(vertex); });
+}
+
+/// The points that may be the lowest, as far as doubles know.
+template <class Height>
+std::vector<Vec2d> may_be_least(std::span<const Vec2d> points, const Height& height) {
+  double highest = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Vec2d>> lows;
+  lows.reserve(points.size());
+  for (const Vec2d& point : points) {
+    const Approximate value = height(point);
+    highest = std::min(highest, value.value + value.radius);
+    lows.emplace_back(value.value - value.radius, point);
+  }
+  std::vector<Vec2d> possible;
+  for (const auto& [low, point] : lows) {
+    if (!(low > highest)) possible.push_back(point);
+  }
+  return possible;
 }
 
 double length_of(const AxisEdge& axis) {
@@ -34,10 +65,14 @@ double length_of(const AxisEdge& axis) {
 double exact_separation(const AxisEdge& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
                         const FramePlace& place) {
   constexpr double good_enough = 1e-13;  // relative; the length that it is divided by has a few ulp of its own
-  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part, octagon, place);
+  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part.points, octagon, place);
   if (quick.radius <= good_enough * std::abs(quick.value)) return quick.value / length_of(axis);
-  const int unit = common_unit(part, octagon, place);
-  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part, octagon, place);
+  const Heights<Approximate> heights({}, axis, place);
+  const auto corners = may_be_least(octagon, [&](const Vec2d& corner) { return heights.of_corner(corner); });
+  const auto vertices = may_be_least(part.points, [&](const Vec2d& vertex) { return heights.below_vertex(vertex); });
+  const int unit = std::min(
+      {place.unit(), lowest_bit(axis.start), lowest_bit(axis.end), lowest_bit_of(corners), lowest_bit_of(vertices)});
+  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, vertices, corners, place);
   return to_double(exact, 2 * unit) / length_of(axis);
 }
 
@@ -65,17 +100,14 @@ std::vector<AxisEdge> axis_edges(const ConvexPart& part, std::span<const Vec2d> 
 }
 
 int common_unit(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
-  int unit = place.unit();
-  for (const Vec2d& corner : octagon) unit = std::min(unit, lowest_bit(corner));
-  for (const Vec2d& vertex : part.points) unit = std::min(unit, lowest_bit(vertex));
-  return unit;
+  return std::min({place.unit(), lowest_bit_of(octagon), lowest_bit_of(part.points)});
 }
 
 std::vector<Integer> scaled_separations(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place,
                                         int unit) {
   std::vector<Integer> separations;
   for (const AxisEdge& axis : axis_edges(part, octagon)) {
-    separations.push_back(scaled_separation(Convert<Integer>{unit}, axis, part, octagon, place));
+    separations.push_back(scaled_separation(Convert<Integer>{unit}, axis, part.points, octagon, place));
   }
   return separations;
 }

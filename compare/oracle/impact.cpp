@@ -167,18 +167,25 @@ std::vector<Touch> earliest(const World& world, const Frame<Integer>& frame, con
   return first;
 }
 
-/// Whether the touch's normal separates the octagon, where it touches, from the world's edge `other`.
-bool separates(const World& world, const Frame<Integer>& frame, const Touch& touch, std::uint32_t other) {
-  const Edge& edge = world.edges()[other];
-  for (const Vec2d& end : {edge.a, edge.b}) {
-    const Point<Integer> vertex = frame.at(end);
-    for (std::size_t k = 0; k < frame.octagon.size; ++k) {
-      const Integer apart = cross(touch.edge, frame.octagon.corners[k] - vertex) * touch.timing.denominator +
-                            cross(touch.edge, frame.way) * touch.timing.numerator;
-      if (sign_of(apart) == Sign::negative) return false;
-    }
+/// The lowest height of the octagon over the touch's edge, where it touches: times the denominator.
+Integer lowest_of_octagon(const Frame<Integer>& frame, const Touch& touch) {
+  Integer lowest = cross(touch.edge, frame.octagon.corners[0]);
+  for (std::size_t k = 1; k < frame.octagon.size; ++k) {
+    lowest = least(lowest, cross(touch.edge, frame.octagon.corners[k]));
   }
-  return true;
+  return lowest * touch.timing.denominator + cross(touch.edge, frame.way) * touch.timing.numerator;
+}
+
+/// Whether the touch's normal separates the octagon, where it touches, from everything that is touched.
+bool stands(const World& world, const Frame<Integer>& frame, const Touch& touch, const std::vector<Touch>& touches) {
+  const Integer lowest = lowest_of_octagon(frame, touch);
+  return std::all_of(touches.begin(), touches.end(), [&](const Touch& other) {
+    const Edge& edge = world.edges()[other.event.edge];
+    const auto is_below = [&](const Vec2d& vertex) {
+      return cross(touch.edge, frame.at(vertex)) * touch.timing.denominator <= lowest;
+    };
+    return is_below(edge.a) && is_below(edge.b);
+  });
 }
 
 Vec2d left_normal(const World& world, const Touch& touch) {
@@ -207,10 +214,8 @@ const Touch& choose(const World& world, const Frame<Integer>& frame, const std::
   std::pair<bool, double> best_rank;
   for (const Touch& touch : touches) {
     if (!touch.opposes) continue;
-    const bool stands = std::all_of(touches.begin(), touches.end(), [&](const Touch& other) {
-      return separates(world, frame, touch, other.event.edge);
-    });
-    const std::pair<bool, double> rank{stands, -left_normal(world, touch).dot(displacement)};
+    const std::pair<bool, double> rank{stands(world, frame, touch, touches),
+                                       -left_normal(world, touch).dot(displacement)};
     if (best == nullptr || rank > best_rank) {
       best = &touch;
       best_rank = rank;

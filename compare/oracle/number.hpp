@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace paperproof::compare::detail {
 
@@ -162,17 +163,36 @@ template <class Number>
 }
 
 [[nodiscard]] inline int lowest_bit(const Vec2d& v) noexcept { return std::min(lowest_bit(v.x()), lowest_bit(v.y())); }
+[[nodiscard]] inline int lowest_bit_of(std::span<const Vec2d> points) noexcept {
+  int lowest = std::numeric_limits<int>::max();
+  for (const Vec2d& point : points) lowest = std::min(lowest, lowest_bit(point));
+  return lowest;
+}
+
+/// The leading bits of an integer: value * 2^exponent, rounded towards zero.
+struct Leading {
+  double value = 0;
+  int exponent = 0;
+};
+[[nodiscard]] inline Leading leading_bits(const Integer& x) {
+  if (x == 0) return {};
+  const Integer size = abs(x);
+  const int drop = std::max(0, static_cast<int>(msb(size)) - 62);
+  const auto value = static_cast<double>(static_cast<std::int64_t>(Integer(size >> drop)));
+  return {x < 0 ? -value : value, drop};
+}
+
+/// x * 2^exponent.
+[[nodiscard]] inline double to_double(const Integer& x, int exponent) {
+  const Leading leading = leading_bits(x);
+  return std::ldexp(leading.value, leading.exponent + exponent);
+}
 
 /// numerator / denominator as a double, exact to a few ulp whatever the size of the two.
 [[nodiscard]] inline double ratio(const Integer& numerator, const Integer& denominator) {
-  if (numerator == 0) return 0;
-  const auto size = [](const Integer& x) { return static_cast<int>(msb(abs(x))); };
-  const auto leading = [&](const Integer& x) {
-    const int drop = std::max(0, size(x) - 62);
-    return static_cast<double>(static_cast<std::int64_t>(x / (Integer(1) << drop)));
-  };
-  const int exponent = std::max(0, size(numerator) - 62) - std::max(0, size(denominator) - 62);
-  return std::ldexp(leading(numerator) / leading(denominator), exponent);
+  const Leading above = leading_bits(numerator);
+  const Leading below = leading_bits(denominator);
+  return std::ldexp(above.value / below.value, above.exponent - below.exponent);
 }
 
 }  // namespace paperproof::compare::detail
