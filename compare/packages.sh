@@ -9,7 +9,7 @@ build_packages=(
   libpolyclipping-dev                                  # box2d_adapter/twin
   libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
   nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev libjs-chart.js
-  libgtest-dev libmuparser-dev libbenchmark-dev  # tests and benchmarks
+  libgtest-dev libmuparser-dev  # tests
 )
 # To run every test.
 test_packages=(

@@ -39,6 +39,9 @@ struct Level {
 /// The character as a body that no other character meets. @param position [m].
 b2Body& add_box2d_character(b2World& world, const CharacterDef& character, const Vec2d& position);
 
+/// A step of a frame, with the iterations that Box2D's manual names.
+inline void advance(b2World& world) { world.Step(static_cast<float>(frame), 8, 3); }
+
 /// Walks and jumps at random.
 [[nodiscard]] std::vector<Input> random_walk(std::uint64_t seed, int steps);
 

@@ -1,32 +1,27 @@
-// Times the controller beside Box2D, as planned beside full, its set-up, its edits, and the broad phases. Takes the
-// options of Google Benchmark:
-//   --benchmark_filter=table            the table of controller/README.md; table.py writes it, and its picture
-//   --benchmark_filter=step/tiles       some of them
-//   --benchmark_out=FILE.json           keep the figures
-#include "broad_phase_benchmark.hpp"
-#include "edit_benchmark.hpp"
-#include "plan_benchmark.hpp"
-#include "setup_benchmark.hpp"
-#include "step_benchmark.hpp"
-#include "table_benchmark.hpp"
+// Measures the controller beside Box2D, and prints the figures as one JSON object: "measurement figure": number.
+// table.py makes the table of controller/README.md of them.
+//   paperproof_benchmarks          all
+//   paperproof_benchmarks edit     those whose name holds this word
+#include "figures.hpp"
 
-#include <benchmark/benchmark.h>
+#include <nlohmann/json.hpp>
 
 #include <exception>
 #include <iostream>
+#include <iterator>
 
 int main(int argc, char** argv) try {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  paperproof::benchmarks::register_step_benchmarks();
-  paperproof::benchmarks::register_plan_benchmarks();
-  paperproof::benchmarks::register_broad_phase_benchmarks();
-  paperproof::benchmarks::register_table_benchmarks();
-  paperproof::benchmarks::register_setup_benchmarks();
-  paperproof::benchmarks::register_edit_benchmarks();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  using paperproof::benchmarks::Measurement;
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::vector<Measurement> all = paperproof::benchmarks::step_measurements();
+  std::ranges::move(paperproof::benchmarks::level_measurements(), std::back_inserter(all));
+  nlohmann::json figures = nlohmann::json::object();
+  for (const Measurement& measurement : all) {
+    if (measurement.name.find(word) == std::string::npos) continue;
+    for (const auto& [figure, value] : measurement.measure()) figures[measurement.name + " " + figure] = value;
+  }
+  std::cout << figures.dump(1) << '\n';
+  return figures.empty() ? 2 : 0;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;

@@ -12,49 +12,47 @@ import math
 import subprocess
 import sys
 
-# Words, benchmark of the controller, its counter; benchmark of Box2D, its counter; unit, digits behind the point.
+# Words, measurement, what is measured where it is not a time in nanoseconds, unit.
 ROWS = [
-    *[(f"one character, {n} pieces", f"pieces/{p}", "paperproof", f"pieces/{p}", "box2d", "ns", 0)
-      for n, p in (("100", 100), ("10,000", 10_000), ("1,000,000", 1_000_000))],
-    ("one character among 10,000 sensors", "sensors/10000", "paperproof", "sensors/10000", "box2d", "ns", 0),
-    *[(f"10,000 characters, each, {words}", f"characters/{how}", "paperproof", f"characters/{how}", "box2d", "ns", 0)
-      for words, how in (("own scratch", "own_scratch"), ("one scratch", "shared_scratch"))],
-    ("one character on a plank that turns", "plank/on", "paperproof", "plank/on", "box2d", "ns", 0),
-    ("one character beside it", "plank/beside", "paperproof", "plank/beside", "box2d", "ns", 0),
-    ("a start inside, 1,000,000 pieces", "start_inside/surface", "paperproof", "start_inside/surface", "box2d", "ns", 0),
-    ("a start deep inside", "start_inside/deep", "paperproof", "start_inside/deep", "box2d", "ns", 0),
-    ("set-up of 1,000,000 pieces", "setup/octagon_sweep/1000000", "all_ms", "setup/box2d/1000000", "all_ms", "ms", 0),
-    ("memory for each piece", "setup/octagon_sweep/1000000", "all_bytes", "setup/box2d/1000000", "all_bytes", "B", 0),
+    ("one character, 100 pieces", "pieces/100", "", "ns"),
+    ("one character, 10,000 pieces", "pieces/10000", "", "ns"),
+    ("one character, 1,000,000 pieces", "pieces/1000000", "", "ns"),
+    ("one character among 10,000 sensors", "sensors", "", "ns"),
+    ("10,000 characters, each, own scratch", "characters/own_scratch", "", "ns"),
+    ("10,000 characters, each, one scratch", "characters/shared_scratch", "", "ns"),
+    ("1,000 characters, each alone", "those_that_meet/alone", "", "ns"),
+    ("1,000 characters that meet, each", "those_that_meet/together", "", "ns"),
+    ("one character on a plank that turns", "plank/on", "", "ns"),
+    ("one character beside it", "plank/beside", "", "ns"),
+    ("a start inside, 1,000,000 pieces", "start_inside/surface", "", "ns"),
+    ("a start deep inside", "start_inside/deep", "", "ns"),
+    ("at rest among 1,000,000 pieces", "edit/none", "", "ns"),
+    ("the same, after an edit far away", "edit/far_away", "", "ns"),
+    ("the same, after an edit near", "edit/near", "", "ns"),
+    ("set-up of 1,000,000 pieces", "set_up", "_ms", "ms"),
+    ("memory for each piece", "set_up", "_bytes", "B"),
 ]
 
 
 def measured(program, processes):
-    """Every counter by name of benchmark and counter, the least of all processes."""
+    """Every figure by its name, the least of all processes."""
     least = {}
     for _ in range(processes):
-        output = subprocess.run([program, "--benchmark_filter=table/.*(pieces|sensors|characters|plank|start|1000000)",
-                                 "--benchmark_format=json"], check=True, stdout=subprocess.PIPE).stdout
-        for run in json.loads(output)["benchmarks"]:
-            name = run["name"].removeprefix("table/").split("/iterations:")[0]
-            if "error_message" in run:
-                sys.exit(f"{name}: {run['error_message']}")
-            for counter, value in run.items():
-                if isinstance(value, float):
-                    key = f"{name} {counter}"
-                    least[key] = min(value, least.get(key, math.inf))
+        for key, value in json.loads(subprocess.check_output([program])).items():
+            least[key] = min(value, least.get(key, math.inf))
     return least
 
 
 def table(figures):
-    """A row of words, controller, Box2D, unit for each row that was measured."""
-    return [(words, figures[f"{ours} {our_counter}"], figures[f"{theirs} {their_counter}"], unit, digits)
-            for words, ours, our_counter, theirs, their_counter, unit, digits in ROWS]
+    """Words, figure of the controller, of Box2D, and unit, row by row."""
+    return [(words, figures[f"{name} paperproof{what}"], figures[f"{name} box2d{what}"], unit)
+            for words, name, what, unit in ROWS]
 
 
 def markdown(rows):
     lines = ["| | paperproof | Box2D 2.4.1 | ratio |", "|---|---|---|---|"]
-    for words, ours, theirs, unit, digits in rows:
-        lines.append(f"| {words} | {ours:,.{digits}f} {unit} | {theirs:,.{digits}f} {unit} | {theirs / ours:.1f} |")
+    for words, ours, theirs, unit in rows:
+        lines.append(f"| {words} | {ours:,.0f} {unit} | {theirs:,.0f} {unit} | {theirs / ours:.1f} |")
     return "\n".join(lines)
 
 
@@ -73,7 +71,7 @@ def picture(rows):
     """How many times Box2D's figure is the controller's, as bars along a logarithmic axis; to the left where Box2D's is
     the smaller one."""
     left, width, top, height = 280, 380, 62, 24
-    ratios = [theirs / ours for _, ours, theirs, _, _ in rows]
+    ratios = [theirs / ours for _, ours, theirs, _ in rows]
     least = max([tick for tick in TICKS if tick <= min(ratios)], default=TICKS[0])
     most = min([tick for tick in TICKS if tick >= max(ratios)], default=TICKS[-1])
     bottom = top + height * len(rows)
@@ -89,14 +87,14 @@ def picture(rows):
         out.append(f'<line class="{"one" if ratio == 1 else "grid"}" x1="{x(ratio):.1f}" y1="{top}" '
                    f'x2="{x(ratio):.1f}" y2="{bottom}"/>')
         out.append(f'<text class="quiet" x="{x(ratio):.1f}" y="{bottom + 18}" text-anchor="middle">{ratio}</text>')
-    for i, ((words, ours, theirs, unit, digits), ratio) in enumerate(zip(rows, ratios)):
+    for i, ((words, ours, theirs, unit), ratio) in enumerate(zip(rows, ratios)):
         y = top + height * i
         begin, end = sorted((x(1), x(ratio)))
         out.append(f'<text x="{left - 10}" y="{y + 16}" text-anchor="end">{words}</text>')
         out.append(f'<rect class="{"bar" if ratio >= 1 else "slower"}" x="{begin:.1f}" y="{y + 5}" '
                    f'width="{max(1, end - begin):.1f}" height="{height - 10}"/>')
         out.append(f'<text class="quiet" x="{end + 6:.1f}" y="{y + 16}">{ratio:.1f} × '
-                   f'({ours:,.{digits}f} {unit}, {theirs:,.{digits}f} {unit})</text>')
+                   f'({ours:,.0f} {unit}, {theirs:,.0f} {unit})</text>')
     return "\n".join([*out, "</svg>", ""])
 
 

@@ -1,52 +1,29 @@
-#include "table_benchmark.hpp"
+#include "figures.hpp"
 
 #include "level.hpp"
 
 #include "box2d_adapter/src/float_geometry.hpp"
 
 #include <paperproof/controller.hpp>
+#include <paperproof/together.hpp>
 
-#include <benchmark/benchmark.h>
 #include <box2d/b2_fixture.h>
 #include <box2d/b2_polygon_shape.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <random>
-#include <string>
+#include <stdexcept>
 
 namespace paperproof::benchmarks {
 namespace {
 
 constexpr int walked_steps = 2000;
 constexpr std::size_t many = 10'000;
+constexpr std::size_t those_that_meet = 1'000;
 constexpr int frames_to_land = 20;
 constexpr std::int64_t pieces_of_many = 10'000;
 constexpr std::int64_t pieces_of_large = 1'000'000;
-/// As `paperproof compare` and Box2D's manual have them.
-constexpr int velocity_iterations = 8;
-constexpr int position_iterations = 3;
-
-template <class Run>
-double nanoseconds_of(const Run& run) {
-  const auto begin = std::chrono::steady_clock::now();
-  run();
-  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// The fastest pass.
-struct Least {
-  double nanoseconds = std::numeric_limits<double>::infinity();
-  void note(double other) { nanoseconds = std::min(nanoseconds, other); }
-};
-
-void report(benchmark::State& state, const Least& paperproof, const Least& box2d, double steps) {
-  state.counters["paperproof"] = paperproof.nanoseconds / steps;
-  state.counters["box2d"] = box2d.nanoseconds / steps;
-  state.counters["ratio"] = box2d.nanoseconds / paperproof.nanoseconds;
-}
 
 /// One character with the controller alone.
 class Walk {
@@ -92,7 +69,7 @@ class Box2dWalk {
     body_.SetEnabled(true);
     for (const b2Vec2& velocity : velocities_) {
       body_.SetLinearVelocity(velocity);
-      world_->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+      advance(*world_);
     }
   }
 
@@ -103,94 +80,133 @@ class Box2dWalk {
   std::vector<b2Vec2> velocities_;
 };
 
-void one_character(benchmark::State& state, const Level& level) {
+Figures one_character(const Level& level) {
+  constexpr int passes = 50;
   const std::vector<Input> inputs = random_walk(1, walked_steps);
   Walk walk(level, inputs);
   Box2dWalk box2d_walk(level, walk);
-  Least paperproof;
-  Least box2d;
-  for ([[maybe_unused]] auto _ : state) {
-    paperproof.note(nanoseconds_of([&] { walk.run(); }));
-    box2d.note(nanoseconds_of([&] { box2d_walk.run(); }));
+  return fastest_in_turns(
+      passes, walked_steps, [&] { walk.run(); }, [&] { box2d_walk.run(); });
+}
+
+/// Where so many characters begin, above the ground of the sections and below their platforms.
+/// @param spaced side by side, so that none overlaps another; else anywhere.
+std::vector<Vec2d> places(const Level& level, std::size_t count, bool spaced) {
+  std::mt19937_64 random(1);
+  std::vector<Vec2d> found;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto sections = static_cast<std::size_t>(level.sections);
+    const std::size_t section = spaced ? i % sections : random() % sections;
+    const double along = spaced ? 1.25 * static_cast<double>(i / sections) : static_cast<double>(random() % 15);
+    found.push_back(level.start(static_cast<int>(section)) + Vec2d(along, 1));
   }
-  report(state, paperproof, box2d, walked_steps);
+  return found;
 }
 
-/// Above the ground of a section, wherever its hills are, and below its platforms.
-Vec2d place_above_ground(const Level& level, std::mt19937_64& random) {
-  const Vec2d start = level.start(static_cast<int>(random() % static_cast<std::uint64_t>(level.sections)));
-  return start + Vec2d(static_cast<double>(random() % 15), 1);
-}
-
-/// Many characters that do not see each other.
+/// Characters that all walk and jump, each in its own rhythm.
 class Characters {
  public:
-  Characters(const Level& level, std::size_t scratches) : scenery_(level.scenery) {
-    std::mt19937_64 random(1);
-    for (CharacterState& state : states) state.position = place_above_ground(level, random);
-    for (std::size_t i = 0; i < scratches; ++i) scratches_.push_back(controller_.make_scratch());
+  Characters(const Level& level, const std::vector<Vec2d>& starts) : scenery(level.scenery), states(starts.size()) {
+    for (std::size_t i = 0; i < starts.size(); ++i) states[i].position = starts[i];
   }
-  /// What all of them want in the next frame.
+  /// What each wants in the next frame.
   void press() {
-    for (std::size_t i = 0; i < many; ++i) inputs_[i] = walk_[(7 * i + frame_) % walk_.size()];
+    for (std::size_t i = 0; i < states.size(); ++i) inputs[i] = walk_[(7 * i + frame_) % walk_.size()];
     ++frame_;
   }
-  /// One after the other.
-  void step() {
-    for (std::size_t i = 0; i < many; ++i)
-      controller_.step(states[i], inputs_[i], {{0, gravity_y}, frame}, scratches_[i % scratches_.size()], report_);
-  }
 
-  std::vector<CharacterState> states = std::vector<CharacterState>(many);
+  Scenery scenery;
+  std::vector<CharacterState> states;
+  std::vector<Input> inputs = std::vector<Input>(states.size());
 
  private:
-  Scenery scenery_;
-  Controller controller_{scenery_, CharacterDef{}};
-  std::vector<Scratch> scratches_;
-  StepReport report_;
   std::vector<Input> walk_ = random_walk(1, walked_steps);
-  std::vector<Input> inputs_ = std::vector<Input>(many);
   std::size_t frame_ = 0;
 };
 
-/// As many bodies, which go where the characters do.
+/// As many bodies, which are given the velocities of the characters.
 class Box2dCharacters {
  public:
-  Box2dCharacters(const Level& level, const Characters& characters) : world_(make_box2d_level(level)) {
-    for (const CharacterState& state : characters.states)
-      bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, state.position));
+  /// @param meet whether they collide with each other.
+  Box2dCharacters(const Level& level, const std::vector<Vec2d>& starts, bool meet)
+      : world_(make_box2d_level(level)), velocities_(starts.size()) {
+    for (const Vec2d& start : starts) {
+      bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, start));
+      if (meet) bodies_.back()->GetFixtureList()->SetFilterData({});
+    }
   }
   void follow(const Characters& characters) {
-    for (std::size_t i = 0; i < many; ++i)
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
       velocities_[i] = box2d::rounded(Vec2d(characters.states[i].velocity + Vec2d(0, gravity_y * frame)));
   }
   void step() {
-    for (std::size_t i = 0; i < many; ++i) bodies_[i]->SetLinearVelocity(velocities_[i]);
-    world_->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->SetLinearVelocity(velocities_[i]);
+    advance(*world_);
   }
 
  private:
   std::unique_ptr<b2World> world_;
   std::vector<b2Body*> bodies_;
-  std::vector<b2Vec2> velocities_ = std::vector<b2Vec2>(many);
+  std::vector<b2Vec2> velocities_;
 };
 
-void many_characters(benchmark::State& state, std::size_t scratches) {
-  const Level level = make_level(pieces_of_many);
-  Characters characters(level, scratches);
-  Box2dCharacters bodies(level, characters);
-  Least paperproof;
-  Least box2d;
+/// @param step of all characters. @return for each of them.
+template <class Step>
+Figures fastest_frames(Characters& characters, Box2dCharacters& bodies, const Step& step) {
+  constexpr int passes = 40;
   const auto turn = [&] {
     characters.press();
     bodies.follow(characters);
-    paperproof.note(nanoseconds_of([&] { characters.step(); }));
-    box2d.note(nanoseconds_of([&] { bodies.step(); }));
+    return fastest_in_turns(1, static_cast<double>(characters.states.size()), step, [&] { bodies.step(); });
   };
   for (int i = 0; i < frames_to_land; ++i) turn();
-  paperproof = box2d = {};
-  for ([[maybe_unused]] auto _ : state) turn();
-  report(state, paperproof, box2d, many);
+  Figures least = turn();
+  for (int pass = 1; pass < passes; ++pass)
+    for (const auto& [name, value] : turn()) least[name] = std::min(least[name], value);
+  return least;
+}
+
+/// Many that do not see each other, one after the other.
+Figures many_characters(std::size_t scratches_made) {
+  const Level level = make_level(pieces_of_many);
+  const std::vector<Vec2d> starts = places(level, many, false);
+  Characters characters(level, starts);
+  Box2dCharacters bodies(level, starts, false);
+  const Controller controller(characters.scenery, CharacterDef{});
+  std::vector<Scratch> scratches;
+  for (std::size_t i = 0; i < scratches_made; ++i) scratches.push_back(controller.make_scratch());
+  StepReport report;
+  return fastest_frames(characters, bodies, [&] {
+    for (std::size_t i = 0; i < many; ++i)
+      controller.step(characters.states[i], characters.inputs[i], {{0, gravity_y}, frame},
+                      scratches[i % scratches.size()], report);
+  });
+}
+
+/// Those that block, carry and push each other: each with the others, and each alone.
+Figures characters_that_meet(bool together) {
+  const Level level = make_level(pieces_of_many);
+  const std::vector<Vec2d> starts = places(level, those_that_meet, true);
+  Characters characters(level, starts);
+  Box2dCharacters bodies(level, starts, together);
+  std::vector<ColliderIndex> own(starts.size(), no_collider);
+  if (together)
+    for (ColliderIndex& body : own) body = characters.scenery.add(body_of(CharacterDef{}));
+  const Controller controller(characters.scenery, CharacterDef{});
+  Scratch scratch = controller.make_scratch();
+  TogetherScratch together_scratch;
+  std::vector<StepReport> reports(starts.size());
+  std::vector<Companion> companions(starts.size());
+  const StepContext context{{0, gravity_y}, frame};
+  return fastest_frames(characters, bodies, [&] {
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (together)
+        companions[i] = {&controller, &characters.states[i], characters.inputs[i], own[i], &scratch, &reports[i]};
+      else
+        controller.step(characters.states[i], characters.inputs[i], context, scratch, reports[i]);
+    }
+    if (together) step_together(companions, context, together_scratch);
+  });
 }
 
 /// A plank of 3 m that turns, 1 m above the ground.
@@ -212,7 +228,7 @@ double angle_at(int step, bool rocks) {
 
 /// A character that stands while the plank turns.
 /// @param aside of the middle of the plank [m]; zero: it stands on the plank, which rocks.
-void plank(benchmark::State& state, double aside) {
+Figures plank(double aside) {
   const bool is_on_it = aside == 0;
   const Level level = make_level(pieces_of_many);
   const Vec2d middle = level.start() + Vec2d(where_nothing_is_above, plank_above_ground);
@@ -256,18 +272,14 @@ void plank(benchmark::State& state, double aside) {
       const double turn = angle_at(step + 1, is_on_it) - angle_at(step, is_on_it);
       body_of_plank.SetAngularVelocity(static_cast<float>(turn / frame));
       body.SetLinearVelocity({0, body.GetLinearVelocity().y + static_cast<float>(gravity_y * frame)});
-      world->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+      advance(*world);
     }
   };
-  Least paperproof;
-  Least box2d;
-  for ([[maybe_unused]] auto _ : state) {
-    paperproof.note(nanoseconds_of(run));
-    if (!character.grounded || (character.position.y() > middle.y()) != is_on_it)
-      return state.SkipWithError("the character stands elsewhere");
-    box2d.note(nanoseconds_of(run_box2d));
-  }
-  report(state, paperproof, box2d, walked_steps);
+  constexpr int passes = 20;
+  const Figures figures = fastest_in_turns(passes, walked_steps, run, run_box2d);
+  if (!character.grounded || (character.position.y() > middle.y()) != is_on_it)
+    throw std::runtime_error("plank: the character stands elsewhere");
+  return figures;
 }
 
 double median(std::vector<double> values) {
@@ -276,8 +288,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// The median of many starts, each somewhere in a level that no cache holds.
 /// @param depth of the character's feet below the ground [m]. @param expected what becomes of such a start.
-void start_inside(benchmark::State& state, double depth, StepStatus expected) {
+Figures start_inside(double depth, StepStatus expected) {
+  constexpr int starts = 200;
   const Level level = make_level(pieces_of_large);
   const Scenery scenery(level.scenery);
   const Controller controller(scenery, CharacterDef{});
@@ -288,7 +302,7 @@ void start_inside(benchmark::State& state, double depth, StepStatus expected) {
   std::mt19937_64 random(1);
   std::vector<double> paperproof;
   std::vector<double> box2d;
-  for ([[maybe_unused]] auto _ : state) {
+  for (int start = 0; start < starts; ++start) {
     const int section = static_cast<int>(random() % static_cast<std::uint64_t>(level.sections));
     CharacterState character;
     character.position = level.start(section) + Vec2d(0.75, -depth - 0.02);
@@ -297,35 +311,28 @@ void start_inside(benchmark::State& state, double depth, StepStatus expected) {
     paperproof.push_back(nanoseconds_of([&] {
       controller.step(character, {}, {{0, gravity_y}, frame}, scratch, report);
     }));
-    if (report.status != expected) return state.SkipWithError("the start ends otherwise");
-    box2d.push_back(
-        nanoseconds_of([&] { world->Step(static_cast<float>(frame), velocity_iterations, position_iterations); }));
+    if (report.status != expected) throw std::runtime_error("start_inside: the start ends otherwise");
+    box2d.push_back(nanoseconds_of([&] { advance(*world); }));
   }
-  state.counters["paperproof"] = median(paperproof);
-  state.counters["paperproof_most"] = *std::max_element(paperproof.begin(), paperproof.end());
-  state.counters["box2d"] = median(box2d);
-  state.counters["ratio"] = median(box2d) / median(paperproof);
-}
-
-template <class Body>
-void add(const std::string& name, int passes, const Body& body) {
-  benchmark::RegisterBenchmark(("table/" + name).c_str(), body)->Iterations(passes)->Unit(benchmark::kMillisecond);
+  return {{"paperproof", median(paperproof)}, {"box2d", median(box2d)}};
 }
 
 }  // namespace
 
-void register_table_benchmarks() {
+std::vector<Measurement> step_measurements() {
+  std::vector<Measurement> all;
   for (std::int64_t pieces = 100; pieces <= pieces_of_large; pieces *= 10)
-    add("pieces/" + std::to_string(pieces), 50,
-        [=](benchmark::State& state) { one_character(state, make_level(pieces)); });
-  add("sensors/10000", 50,
-      [](benchmark::State& state) { one_character(state, make_level_with_sensors(pieces_of_many, 10'000)); });
-  add("characters/own_scratch", 40, [](benchmark::State& state) { many_characters(state, many); });
-  add("characters/shared_scratch", 40, [](benchmark::State& state) { many_characters(state, 1); });
-  add("plank/on", 20, [](benchmark::State& state) { plank(state, 0); });
-  add("plank/beside", 20, [](benchmark::State& state) { plank(state, 2.2); });
-  add("start_inside/surface", 200, [](benchmark::State& state) { start_inside(state, 0.1, StepStatus::moved); });
-  add("start_inside/deep", 200, [](benchmark::State& state) { start_inside(state, 3, StepStatus::stuck); });
+    all.push_back({"pieces/" + std::to_string(pieces), [=] { return one_character(make_level(pieces)); }});
+  all.push_back({"sensors", [] { return one_character(make_level_with_sensors(pieces_of_many, 10'000)); }});
+  all.push_back({"characters/own_scratch", [] { return many_characters(many); }});
+  all.push_back({"characters/shared_scratch", [] { return many_characters(1); }});
+  all.push_back({"those_that_meet/alone", [] { return characters_that_meet(false); }});
+  all.push_back({"those_that_meet/together", [] { return characters_that_meet(true); }});
+  all.push_back({"plank/on", [] { return plank(0); }});
+  all.push_back({"plank/beside", [] { return plank(2.2); }});
+  all.push_back({"start_inside/surface", [] { return start_inside(0.1, StepStatus::moved); }});
+  all.push_back({"start_inside/deep", [] { return start_inside(3, StepStatus::stuck); }});
+  return all;
 }
 
 }  // namespace paperproof::benchmarks
