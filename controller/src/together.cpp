@@ -30,24 +30,41 @@ struct Passing {
   double leaves = 1;
 };
 
-/// @param from,to of the first relative to the second [m]. @param within the distance [m].
-Passing pass(std::span<const Vec2d> first, std::span<const Vec2d> second, const Vec2d& from, const Vec2d& to,
-             double within) {
-  Passing passing;
-  for (const bool of_first : {true, false}) {
-    const std::span<const Vec2d> outline = of_first ? first : second;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2d left = geometry::normal_of(outline[(i + 1) % outline.size()] - outline[i]);
-      const Vec2d normal = of_first ? left : Vec2d(-left);  // from the second towards the first
-      const double apart = geometry::least_along(first, normal) + geometry::least_along(second, -normal);
-      const double begin = apart + dot(from, normal);
-      const double end = apart + dot(to, normal);
-      passing.gap = std::max(passing.gap, begin);
-      if (begin >= within)
-        passing.enters = end < within ? std::max(passing.enters, (begin - within) / (begin - end)) : 2;
-      else if (end >= within)
-        passing.leaves = std::min(passing.leaves, (begin - within) / (begin - end));
+/// Along a normal of one of two outlines, from the second towards the first: how far they are apart where both are at
+/// the same place [m].
+struct Axis {
+  Vec2d normal;
+  double apart;
+};
+
+/// All of them for two outlines.
+struct Axes {
+  std::span<const Vec2d> first, second;
+  FixedVector<Axis, 2 * CharacterShape::max_points> all{};
+
+  Axes(std::span<const Vec2d> a, std::span<const Vec2d> b) : first(a), second(b) {
+    for (const bool of_first : {true, false}) {
+      const std::span<const Vec2d> outline = of_first ? first : second;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2d left = geometry::normal_of(outline[(i + 1) % outline.size()] - outline[i]);
+        const Vec2d normal = of_first ? left : Vec2d(-left);
+        all.push_back({normal, geometry::least_along(first, normal) + geometry::least_along(second, -normal)});
+      }
     }
+  }
+};
+
+/// @param from,to of the first relative to the second [m]. @param within the distance [m].
+Passing pass(const Axes& axes, const Vec2d& from, const Vec2d& to, double within) {
+  Passing passing;
+  for (const Axis& axis : axes.all) {
+    const double begin = axis.apart + dot(from, axis.normal);
+    const double end = axis.apart + dot(to, axis.normal);
+    passing.gap = std::max(passing.gap, begin);
+    if (begin >= within)
+      passing.enters = end < within ? std::max(passing.enters, (begin - within) / (begin - end)) : 2;
+    else if (end >= within)
+      passing.leaves = std::min(passing.leaves, (begin - within) / (begin - end));
   }
   return passing;
 }
@@ -158,10 +175,11 @@ struct TogetherScratch::Turns {
   [[nodiscard]] StepReport& report_of(std::size_t i) const { return all[i]->report(); }
   [[nodiscard]] bool is_still(std::size_t i) const { return !members[i].has_gone && !members[i].waits; }
   [[nodiscard]] std::size_t owner_of(ColliderIndex body, std::size_t i) const;
-  [[nodiscard]] bool recedes(std::size_t other, std::size_t i) const;
-  [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what) const;
-  [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within) const;
-  [[nodiscard]] bool is_clear(std::size_t i) const;
+  [[nodiscard]] const Axes& axes_between(std::size_t i, std::size_t other);
+  [[nodiscard]] bool recedes(std::size_t other, std::size_t i);
+  [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what);
+  [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within);
+  [[nodiscard]] bool is_clear(std::size_t i);
   [[nodiscard]] bool may_be_moved(std::size_t i) const;
   [[nodiscard]] bool is_crushed(std::size_t i, bool by_others) const;
   [[nodiscard]] bool comes_late(std::size_t i) const;
@@ -185,6 +203,7 @@ struct TogetherScratch::Turns {
   std::vector<std::size_t> group;  ///< Those that may meet.
   std::vector<std::size_t> first;  ///< Those of the group that go before the others.
   std::vector<TurnTaker::Other> others;
+  std::vector<Axes> axes;  ///< Of the pairs of outlines that were asked for in this step.
   std::size_t turns = 0;
   std::size_t begun = 0;
 };
@@ -196,17 +215,26 @@ std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) 
   return owner == near.end() ? nobody : *owner;
 }
 
+const Axes& TogetherScratch::Turns::axes_between(std::size_t i, std::size_t other) {
+  const auto are_they = [&](const Axes& known) {
+    return known.first.data() == hull(i).data() && known.second.data() == hull(other).data();
+  };
+  const auto known = std::find_if(axes.begin(), axes.end(), are_they);
+  return known != axes.end() ? *known : axes.emplace_back(hull(i), hull(other));
+}
+
 /// Whether one that has gone came no nearer to where another begins, and did not fly past it.
-bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) const {
+bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) {
   constexpr double noise = 1e-12;
   const Vec2d before = members[i].from() - members[other].from();
   const Vec2d now = members[i].from() - members[other].to;
-  const Passing passing = pass(hull(i), hull(other), before, now, Tolerances{}.certain);
-  return passing.enters > passing.leaves && pass(hull(i), hull(other), now, now, 0).gap >= passing.gap - noise;
+  const Axes& between = axes_between(i, other);
+  const Passing passing = pass(between, before, now, Tolerances{}.certain);
+  return passing.enters > passing.leaves && pass(between, now, now, 0).gap >= passing.gap - noise;
 }
 
 /// How another goes while one takes its turn.
-MoverMotion TogetherScratch::Turns::motion_of(std::size_t other, std::size_t i, Try what) const {
+MoverMotion TogetherScratch::Turns::motion_of(std::size_t other, std::size_t i, Try what) {
   const Member& it = members[other];
   const bool carries = members[i].carrier == other;
   MoverMotion motion{it.to, it.to};
@@ -241,18 +269,19 @@ Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
 }
 
 /// Whether the way that one went leads past another as it stands. @param within of it [m].
-bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, double within) const {
+bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, double within) {
   const std::vector<PathPoint>& path = report_of(i).move.path;
   const Vec2d& place = members[other].to;
   for (std::size_t k = 1; k < path.size(); ++k) {
-    const Passing passing = pass(hull(i), hull(other), path[k - 1].position - place, path[k].position - place, within);
+    const Passing passing =
+        pass(axes_between(i, other), path[k - 1].position - place, path[k].position - place, within);
     if (passing.enters <= passing.leaves) return false;
   }
   return true;
 }
 
 /// Whether the way that one went in its last attempt leads past those as they stand that moved in it.
-bool TogetherScratch::Turns::is_clear(std::size_t i) const {
+bool TogetherScratch::Turns::is_clear(std::size_t i) {
   return std::all_of(others.begin(), others.end(), [&](const TurnTaker::Other& other) {
     return other.motion.from == other.motion.to || is_clear_of(i, other.who, Tolerances{}.certain);
   });
@@ -477,6 +506,7 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     if (members[i].before.ride.ground != Ride::none) members[i].carrier = owner_of(members[i].before.ride.ground, i);
   }
   turns = begun = 0;
+  axes.clear();
   for (std::size_t i = 0; i < all.size(); ++i) {
     group.clear();
     add_to_group(i);
