@@ -79,6 +79,7 @@ struct Member {
   bool waits = false;                 ///< Its turn has begun: it waits for those in its way.
   bool follows = false;               ///< It waits for its carrier to go.
   bool is_late = false;               ///< It was crushed beside one that went sooner, and might have given way.
+  bool went_elsewhere = false;        ///< Than those foresaw that it carries.
   bool has_velocity = false;          ///< That of its carrier is in its own.
   std::size_t began = 0;              ///< How many turns had begun before its own.
   std::size_t carrier = nobody;       ///< Whom it rides on.
@@ -89,6 +90,9 @@ struct Member {
   // While it waits: how far it would go without those that yield [m],
   std::optional<Vec2d> carries;  ///< for those that ride on it, and
   std::optional<Vec2d> pushes;   ///< as movers alone take it, for others.
+  // By which those that it carries went first, and how far it then went [m]:
+  Vec2d foreseen{};
+  std::optional<Vec2d> known;  ///< in the round before, where that was another way.
 
   [[nodiscard]] const Vec2d& from() const { return before.position; }
 };
@@ -189,6 +193,7 @@ struct TogetherScratch::Turns {
   Vec2d attempt(std::size_t i, Try what);
   void find_in_way(std::size_t i);
   void find_riders_in_way(std::size_t i);
+  [[nodiscard]] Vec2d highest_way(std::size_t i) const;
   void let_go_first(std::size_t i);
   void try_step(std::size_t i);
   void take_turn(std::size_t i);
@@ -321,6 +326,15 @@ bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
          });
 }
 
+/// How far one went in its last attempt. Over the edge of a stair it goes higher than it ends: as high as that.
+Vec2d TogetherScratch::Turns::highest_way(std::size_t i) const {
+  const Vec2d way = all[i]->state().position - members[i].from();
+  double peak = 0;
+  for (const PathPoint& corner : report_of(i).move.path)
+    peak = std::max(peak, dot(Vec2d(corner.position - members[i].from() - way), up));
+  return way + up * peak;
+}
+
 /// Lets those go first that are in the way of one.
 void TogetherScratch::Turns::let_go_first(std::size_t i) {
   Member& me = members[i];
@@ -335,12 +349,8 @@ void TogetherScratch::Turns::let_go_first(std::size_t i) {
   const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
   if (std::any_of(in_way.begin(), in_way.end(), rides)) {
     std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
-    me.carries = attempt(i, Try::without_those);
-    // Over the edge of a stair it goes higher than it ends.
-    double peak = 0;
-    for (const PathPoint& corner : report_of(i).move.path)
-      peak = std::max(peak, dot(Vec2d(corner.position - me.from() - *me.carries), up));
-    *me.carries += up * peak;
+    if (!me.known) attempt(i, Try::without_those);
+    me.carries = me.foreseen = me.known ? *me.known : highest_way(i);
   }
   for (const std::size_t other : in_way)
     if (is_still(other)) take_turn(other);
@@ -417,6 +427,9 @@ void TogetherScratch::Turns::end_turn(std::size_t i) {
     if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
   }
   me.to = all[i]->state().position;
+  const Vec2d way = highest_way(i);
+  me.went_elsewhere = !me.carried.empty() && !((way - me.foreseen).norm() <= Tolerances{}.touch);
+  if (me.went_elsewhere) me.known = way;
   me.has_gone = true;
   turn_of[i] = turns++;
 }
@@ -458,7 +471,8 @@ void TogetherScratch::Turns::add_to_group(std::size_t i) {
       if (!std::exchange(members[other].is_in_group, true)) group.push_back(other);
 }
 
-/// The steps of the group. Those that came late go first, and the others again.
+/// The steps of the group, again as long as some must go otherwise: those that came late go first, and those that a
+/// carrier moved otherwise than they foresaw go by the way that it went.
 void TogetherScratch::Turns::let_take_turns() {
   constexpr int most_rounds = 4;
   const std::size_t begin = turns;
@@ -468,16 +482,19 @@ void TogetherScratch::Turns::let_take_turns() {
     std::sort(group.begin(), group.end());
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
-      members[i].has_gone = members[i].waits = members[i].is_late = false;
+      members[i].has_gone = members[i].waits = members[i].is_late = members[i].went_elsewhere = false;
     }
     for (const std::size_t i : first)
       if (is_still(i)) take_turn(i);
     for (std::size_t k = 0; k < group.size(); ++k)  // it may grow
       if (is_still(group[k])) take_turn(group[k]);
-    const std::size_t known = first.size();
-    for (const std::size_t i : group)
-      if (members[i].is_late && !contains(first, i)) first.push_back(i);
-    if (first.size() == known) break;
+    bool again = false;
+    for (const std::size_t i : group) {
+      const bool is_new = members[i].is_late && !contains(first, i);
+      if (is_new) first.push_back(i);
+      again = again || is_new || members[i].went_elsewhere;
+    }
+    if (!again) break;
   }
   for (const std::size_t i : group) take_velocity_of_carrier(i);
 }
@@ -497,6 +514,7 @@ void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, c
     if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();
     member.to = member.from();
     member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
+    member.known.reset();
     member.carrier = nobody;
     member.near.clear();
   }

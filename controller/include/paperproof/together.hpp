@@ -82,9 +82,10 @@ class TogetherScratch {
 /// 3. To its rider a character is a mover, which goes straight from where it began to where it ended, and carries at
 ///    its speed. To anyone else it is one, and pushes at its speed, if it went before, ended no nearer than it began,
 ///    and did not fly past; else it stands where it ended.
-/// 4. A rider that goes first is carried by the way that its carrier would go without it. One that a mover presses
-///    pushes those in its way: they go first, as far as it would go. If they have no room, the mover crushes the one
-///    that it presses. No character crushes another. None that walks or falls pushes one.
+/// 4. A rider that goes first is carried by the way that its carrier would go without it. Where the carrier then goes
+///    another way, as others push it, all go again, up to three times: the rider is carried by that way. One that a
+///    mover presses pushes those in its way: they go first, as far as it would go. If they have no room, the mover
+///    crushes the one that it presses. No character crushes another. None that walks or falls pushes one.
 ///
 /// A character that meets no other makes the same step as alone, bit for bit. One whose step is refused stands where it
 /// is, and its report says why. The order of `companions` does not matter, only that of the ids.
