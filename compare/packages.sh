@@ -19,8 +19,9 @@ test_packages=(
   python3-jsonschema parallel  # schemas of what is written; shards over several processes
 )
 # Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), the sanitizers' part
-# of clang (in older releases it comes with clang itself), and the prover of bounds of rounding.
-optional_test_packages=(chromium libclang-rt-dev gappa)
+# of clang (in older releases it comes with clang itself), the prover of bounds of rounding, and what draws pictures for
+# documents (compare/plots.py).
+optional_test_packages=(chromium libclang-rt-dev gappa python3-matplotlib)
 # A compiler for Windows, and what runs its programs: for one slow test. 170 MB to download, half a minute to install.
 windows_test_packages=(g++-mingw-w64-x86-64-posix wine64)
 
