@@ -230,15 +230,15 @@ def draw_ratios(figures, theme):
     """How many times Box2D's figure is the controller's, as bars along a logarithmic axis; to the left where Box2D's is the
     smaller one."""
     rows = table(figures)[::-1]
-    ratios = [theirs / ours for _, ours, theirs, _, _ in rows]
+    ratios = [theirs / ours for _, ours, theirs, _ in rows]
     figure = Figure(figsize=(9, 0.3 * len(rows) + 1.3), layout="constrained")
     figure.suptitle("How many times faster or smaller than Box2D 2.4.1", x=0.01, ha="left", weight="bold")
     axes = figure.subplots()
     axes.set_title("one process, the same level, 60 Hz; paperproof, Box2D beside each bar", loc="left", fontsize=9)
     axes.barh([words for words, *_ in rows], [ratio - 1 for ratio in ratios], left=1, height=0.6,
               color=[INKS[0] if ratio >= 1 else INKS[1] for ratio in ratios])
-    for i, ((_, ours, theirs, unit, digits), ratio) in enumerate(zip(rows, ratios)):
-        words = f"{ratio:.1f} × ({ours:,.{digits}f} {unit}, {theirs:,.{digits}f} {unit})"
+    for i, ((_, ours, theirs, unit), ratio) in enumerate(zip(rows, ratios)):
+        words = f"{ratio:.1f} × ({ours:,.0f} {unit}, {theirs:,.0f} {unit})"
         axes.annotate(words, (max(1, ratio), i), (5, 0), textcoords="offset points", va="center", annotation_clip=False)
     axes.set_xscale("log")
     axes.set_xlim(min(1, *ratios) * 0.9, max(1, *ratios) * 1.1)

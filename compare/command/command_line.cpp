@@ -93,7 +93,11 @@ void add_compare_options(CLI::App& command, CompareWords& words) {
   command.add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl")
       ->type_name("STEM")
       ->check(expect_file_name());
-  add_outputs(command, arguments.rows_path, arguments.pages);
+  add_outputs(command, arguments.rows_path, arguments.report_path);
+  command.add_option("--strip", arguments.strip_path, "Draw one step of one scene, the contenders side by side")
+      ->type_name("FILE.svg")
+      ->check(expect_file_name())
+      ->check(expect_ending({".svg"}));
   command.add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
       ->type_name("full")
       ->check(expect_one_of({"full"}));
@@ -136,7 +140,7 @@ void add_run_options(CLI::App& command, RunArguments& run, CaseArguments& cases)
   add_contenders(command, cases.contenders);
   add_scalars(command, cases.scalars);
   add_knobs(command, cases.knobs);
-  add_outputs(command, run.rows_path, run.pages);
+  add_outputs(command, run.rows_path, run.report_path);
   add_log(command, run.log_path);
   add_jobs(command, run.jobs);
   command
@@ -213,7 +217,7 @@ void add_scale(CLI::App& study, int& status) {
       ->type_name("N,...")
       ->check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
-  add_outputs(command, arguments->rows_path, arguments->pages);
+  add_outputs(command, arguments->rows_path, arguments->report_path);
   add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
   on_parsed(command, status, arguments, study_scale_command);
 }
@@ -223,7 +227,7 @@ void add_disagreement(CLI::App& study, int& status) {
       *study.add_subcommand("disagreement", "Every event on which octagon_sweep and Box2D differ, and its cause");
   const auto arguments = std::make_shared<DisagreementArguments>();
   command.add_option("SCENE", arguments->scenes, std::string(scene_words) + "; every registered one if none is given");
-  add_outputs(command, arguments->rows_path, arguments->pages);
+  add_outputs(command, arguments->rows_path, arguments->report_path);
   add_jobs(command, arguments->jobs);
   add_log(command, arguments->log_path);
   add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
@@ -235,7 +239,7 @@ CLI::App& add_study(CLI::App& app, const std::string& name, const std::string& h
                     const std::shared_ptr<StudyArguments>& arguments, int (*run)(const StudyArguments&), int& status) {
   CLI::App& command = *app.add_subcommand(name, help);
   add_contenders(command, arguments->contenders);
-  add_outputs(command, arguments->rows_path, arguments->pages);
+  add_outputs(command, arguments->rows_path, arguments->report_path);
   add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
   on_parsed(command, status, arguments, run);
   return command;

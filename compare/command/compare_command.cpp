@@ -12,7 +12,7 @@
 #include "records/rows_file.hpp"
 #include "records/trace_writer.hpp"
 #include "report/report.hpp"
-#include "report/svg.hpp"
+#include "report/strip_svg.hpp"
 #include "runs/environment.hpp"
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
@@ -78,7 +78,8 @@ class Outputs {
   void check() {
     if (arguments_.files_from != "-") files_.claim_for_option("--files-from", arguments_.files_from);
     files_.claim_for_option("--rows", arguments_.rows_path);
-    files_.claim_for_option("--report", arguments_.pages.report);
+    files_.claim_for_option("--report", arguments_.report_path);
+    files_.claim_for_option("--strip", arguments_.strip_path);
   }
 
  private:
@@ -109,6 +110,7 @@ class Comparison {
         progress_, [this](const std::string& name, const Scene& scene) { look_at(name, scene); },
         [this](const std::string& name, const InputError& error) { refuse(name, error); });
     outputs_.check();
+    if (!arguments.strip_path.empty() && scene_count_ != 1) throw InputError("--strip: expected one scene");
     open_outputs();
   }
 
@@ -162,17 +164,17 @@ class Comparison {
   void open_outputs() {
     rows_file_.emplace(arguments_.rows_path, rows_header(environment()));
     for (const Row& refused : refused_) rows_file_->add(refused);
-    if (arguments_.pages.wanted()) open_pages();
+    if (!arguments_.report_path.empty() || !arguments_.strip_path.empty()) open_pictures();
     if (!arguments_.run.trace_stem.empty()) const OutputFile probe(arguments_.run.trace_stem + ".jsonl");
   }
 
-  void open_pages() {
+  void open_pictures() {
     const std::size_t contenders =
         arguments_.run.contenders.empty() ? contender_names().size() : arguments_.run.contenders.size() + 1;
     report_options_ = options_for(scene_count_ * contenders);
     arguments_.run.max_replay_steps = report_options_.max_replay_steps;
-    if (!arguments_.pages.report.empty()) report_.emplace(arguments_.pages.report, report_options_);
-    if (!arguments_.pages.svg.empty()) pictures_.emplace(arguments_.pages.svg);
+    if (!arguments_.report_path.empty()) report_.emplace(arguments_.report_path, report_options_);
+    if (!arguments_.strip_path.empty()) strip_.emplace(arguments_.strip_path);
   }
 
   void run_one(const Scene& scene) {
@@ -197,7 +199,7 @@ class Comparison {
     }
     if (tolerances_.empty()) tolerances_ = tolerances_of(result);
     if (report_) report_->add(result);
-    if (pictures_) write_strip(result);
+    if (strip_) write_strip(result);
     if (!arguments_.quiet && !arguments_.json) print(result);
   }
 
@@ -211,7 +213,8 @@ class Comparison {
       panels.push_back({called(row), outcome_of(row), bad, run == scene.runs.end() ? nullptr : &*run});
     }
     const std::string title = scene.name + (scene.description.empty() ? "" : ": " + scene.description);
-    pictures_->write(scene.name, svg_of_strip(title, panels));
+    strip_->write(svg_of_strip(title, panels));
+    strip_->commit();
   }
 
   void announce_preparation(const Scene& scene) const {
@@ -267,7 +270,7 @@ class Comparison {
       print_json(gallery);
     else if (!arguments_.quiet)
       print_summary(sections);
-    if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.pages.report + '\n');
+    if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
   }
 
   void print_json(const nlohmann::ordered_json& more) const {
@@ -295,7 +298,7 @@ class Comparison {
   Totals totals_;
   ReportOptions report_options_;
   std::optional<ReportWriter> report_;
-  std::optional<PictureFolder> pictures_;
+  std::optional<OutputFile> strip_;
   std::vector<NamedTolerance> tolerances_;
 };
 

@@ -1,7 +1,6 @@
 /// `paperproof compare`: run scenes, print tables, write rows, traces and the report.
 #pragma once
 
-#include "command/page_outputs.hpp"
 #include "runs/run.hpp"
 #include "scenes/parameters.hpp"
 
@@ -17,7 +16,8 @@ struct CompareArguments {
   std::string files_from;   ///< A file with more names, or "-" for standard input; empty: none.
   bool keep_going = false;  ///< An input that cannot be used is a row, and the others run.
   std::string rows_path;    ///< Empty: none.
-  PagePaths pages;
+  std::string report_path;  ///< Empty: none.
+  std::string strip_path;   ///< A drawing of the runs of one scene; empty: none.
   bool all_tables = false;  ///< Of every scene, where there are several.
   bool explain = false;     ///< What each contender is excused, after the results.
   bool quiet = false;       ///< No table, no progress.

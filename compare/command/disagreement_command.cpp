@@ -44,7 +44,7 @@ class DisagreementRun {
  public:
   explicit DisagreementRun(const DisagreementArguments& arguments)
       : arguments_(arguments),
-        outputs_(arguments.rows_path, arguments.pages, arguments.log_path),
+        outputs_(arguments.rows_path, arguments.report_path, arguments.log_path),
         progress_(!arguments.quiet, arguments.log_path) {
     page_.title = "the ledger of disagreement";
     page_.paragraphs = {about_the_ledger};

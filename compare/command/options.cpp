@@ -49,18 +49,15 @@ void add_input(CLI::App& command, std::optional<std::string>& input) {
   command.add_option("--input", input, "Replaces the scene's input by one at random")->type_name("random:SEED");
 }
 
-void add_outputs(CLI::App& command, std::string& rows, PagePaths& pages) {
+void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
   command.add_option("--rows", rows, "Write all rows to this file; .jsonl grows line by line as results come")
       ->type_name("FILE.json|.jsonl|.csv")
       ->check(expect_file_name())
       ->check(expect_ending({".json", ".jsonl", ".csv"}));
-  command.add_option("--report", pages.report, "Write one self-contained HTML page to this file")
+  command.add_option("--report", report, "Write one self-contained HTML page to this file")
       ->type_name("FILE.html")
       ->check(expect_file_name())
       ->check(expect_ending({".html"}));
-  command.add_option("--svg", pages.svg, "Write each picture to a file of its own in this folder")
-      ->type_name("DIR")
-      ->check(expect_file_name());
 }
 
 void add_log(CLI::App& command, std::string& path) {

@@ -1,8 +1,6 @@
 /// Options that several commands have, each written once. The variables are to live until the command line is parsed.
 #pragma once
 
-#include "command/page_outputs.hpp"
-
 #include <CLI/CLI.hpp>
 
 #include <optional>
@@ -21,8 +19,8 @@ void add_grid_size(CLI::App& command, std::string& grid);
 void add_jobs(CLI::App& command, int& jobs);
 /// `--log`: how far the work is, in a file.
 void add_log(CLI::App& command, std::string& path);
-/// `--rows`, `--report` and `--svg`.
-void add_outputs(CLI::App& command, std::string& rows, PagePaths& pages);
+/// `--rows` and `--report`.
+void add_outputs(CLI::App& command, std::string& rows, std::string& report);
 
 /// The option is given or not: a value behind it is refused.
 template <class Variable>

@@ -83,7 +83,7 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 }  // namespace
 
 int study_scale_command(const ScaleArguments& arguments) {
-  StudyOutputs outputs(arguments.rows_path, arguments.pages);
+  StudyOutputs outputs(arguments.rows_path, arguments.report_path);
   const Progress progress(!arguments.quiet);
   const std::vector<ScalePoint> points =
       study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });

@@ -86,7 +86,7 @@ class StabilityRun {
       : arguments_(arguments),
         regions_(stability_regions(arguments.contenders, arguments.grid)),
         borders_(stability_borders(arguments.contenders, arguments.grid)),
-        outputs_(arguments.rows_path, arguments.pages, arguments.log_path),
+        outputs_(arguments.rows_path, arguments.report_path, arguments.log_path),
         progress_(!arguments.quiet, arguments.log_path),
         rows_(regions_.size() + borders_.size(), ordered_json::array()) {
     for (std::size_t k = 0; k < regions_.size(); ++k)

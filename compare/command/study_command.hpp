@@ -4,7 +4,7 @@
 /// All throw InputError for arguments that cannot be used, and std::runtime_error where an output cannot be written.
 #pragma once
 
-#include "command/page_outputs.hpp"
+#include "command/page_output.hpp"
 
 #include <cstddef>
 #include <string>
@@ -16,11 +16,11 @@ struct StudyArguments {
   std::vector<std::string> motions;     ///< Of `work-precision`; empty: all.
   std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
   std::string rows_path;                ///< Empty: none.
-  PagePaths pages;
-  std::string log_path;        ///< Empty: none.
-  int jobs = 0;                ///< Not of `work-precision`; 0: one for each core.
-  std::string grid = "quick";  ///< Of `stability`: quick, standard or full.
-  bool quiet = false;          ///< No table, no progress.
+  std::string report_path;              ///< Empty: none.
+  std::string log_path;                 ///< Empty: none.
+  int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
+  std::string grid = "quick";           ///< Of `stability`: quick, standard or full.
+  bool quiet = false;                   ///< No table, no progress.
 };
 
 /// Error against run time. Refuses a build with assertions, which take time of their own.
@@ -34,10 +34,10 @@ int stability_command(const StudyArguments& arguments);
 struct DisagreementArguments {
   std::vector<std::string> scenes;  ///< Empty: every registered one.
   std::string rows_path;            ///< Empty: none.
-  PagePaths pages;
-  std::string log_path;  ///< Empty: none.
-  int jobs = 0;          ///< 0: one for each core.
-  bool quiet = false;    ///< No table, no progress.
+  std::string report_path;          ///< Empty: none.
+  std::string log_path;             ///< Empty: none.
+  int jobs = 0;                     ///< 0: one for each core.
+  bool quiet = false;               ///< No table, no progress.
 };
 
 /// Every event on which octagon_sweep and Box2D differ, with its cause, in free runs and in lockstep.
@@ -47,8 +47,8 @@ int study_disagreement_command(const DisagreementArguments& arguments);
 struct ScaleArguments {
   std::vector<std::size_t> grid{100, 1'000, 10'000, 100'000, 1'000'000};  ///< Numbers of pieces.
   std::string rows_path;                                                  ///< Empty: none.
-  PagePaths pages;
-  bool quiet = false;  ///< No table, no progress.
+  std::string report_path;                                                ///< Empty: none.
+  bool quiet = false;                                                     ///< No table, no progress.
 };
 
 /// The cost of a step against the number of pieces, for each broad phase.

@@ -63,10 +63,10 @@ StudyRun::StudyRun(const RunArguments& arguments, const std::vector<StudyPart>& 
       count_(shard_.size(cases_in(parts))),
       header_(rows_header(environment())) {
   header_["sweep"] = {{"id", id_of(parts)}, {"cases", cases_in(parts)}, {"shard", {shard_.part, shard_.of}}};
-  claim_outputs(arguments.rows_path, arguments.pages, arguments.log_path);
+  claim_outputs(arguments.rows_path, arguments.report_path, arguments.log_path);
   const bool continued = goes_on();
   rows_.emplace(arguments.rows_path, header_, continued);
-  pages_.emplace(arguments.pages);
+  page_.emplace(arguments.report_path);
 }
 
 bool StudyRun::goes_on() {
@@ -127,7 +127,7 @@ void StudyRun::run() {
 
 int StudyRun::finish(const std::function<ChartPage()>& page, const std::string& text) {
   rows_->finish();
-  if (arguments_.pages.wanted()) pages_->finish(page(), arguments_.jobs);
+  if (!arguments_.report_path.empty()) page_->finish(page(), arguments_.jobs);
   if (!arguments_.quiet) print_out(text);
   return trouble_ ? 1 : 0;
 }

@@ -1,7 +1,7 @@
 /// Runs the cases of a study: on many cores, on many machines, and resumed after a kill.
 #pragma once
 
-#include "command/page_outputs.hpp"
+#include "command/page_output.hpp"
 #include "command/progress.hpp"
 #include "records/rows_file.hpp"
 #include "report/row_pictures.hpp"
@@ -19,8 +19,8 @@ namespace paperproof::compare {
 
 /// How the cases are run, and where what they give goes.
 struct RunArguments {
-  std::string rows_path;  ///< Empty: none.
-  PagePaths pages;
+  std::string rows_path;             ///< Empty: none.
+  std::string report_path;           ///< Empty: none.
   std::string log_path;              ///< Of the progress; empty: none.
   int jobs = 0;                      ///< 0: one for each core.
   int limit_s = 60;                  ///< Of one case. A search of lowest speeds is one.
@@ -68,7 +68,7 @@ class StudyRun {
   bool trouble_ = false;
   nlohmann::ordered_json header_;
   std::optional<RowsFile> rows_;
-  std::optional<PageOutputs> pages_;
+  std::optional<PageOutput> page_;
 };
 
 /// Counts the verdicts of each part and contender, as tables and as heat maps. Keeps no row.

@@ -69,7 +69,7 @@ int work_precision_command(const StudyArguments& arguments) {
   throw InputError("work-precision: expected a build without assertions (NDEBUG): this one's times mean nothing");
 #endif
   check_contenders(arguments.contenders);
-  StudyOutputs outputs(arguments.rows_path, arguments.pages);
+  StudyOutputs outputs(arguments.rows_path, arguments.report_path);
   const Progress progress(!arguments.quiet);
   WorkPrecision found;
   try {

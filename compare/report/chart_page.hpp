@@ -1,4 +1,4 @@
-/// What a study found, as pictures and as numbers: what a page and the standalone pictures are made of.
+/// What a study found, as pictures and as numbers: what a page is made of.
 #pragma once
 
 #include <cstddef>

@@ -135,24 +135,12 @@ std::vector<ChartGrid> grids_of(const ordered_json& rows, const std::string& tit
   return counter.grids();
 }
 
-ChartGrid::Cell total_of(const ChartGrid& grid) {
-  ChartGrid::Cell sum;
-  for (const auto& line : grid.cells)
-    for (const ChartGrid::Cell& cell : line) {
-      sum.bad += cell.bad;
-      sum.all += cell.all;
-    }
-  return sum;
-}
-
-bool is_border(const ChartGrid::Cell& one, const ChartGrid::Cell& other) {
-  return one.all > 0 && other.all > 0 && (one.bad == 0) != (other.bad == 0);
-}
-
 bool is_at_border(const ChartGrid& grid, std::size_t column, std::size_t row) {
   const ChartGrid::Cell& cell = grid.cells[row][column];
   const auto differs = [&](std::size_t x, std::size_t y) {
-    return y < grid.cells.size() && x < grid.cells[y].size() && is_border(cell, grid.cells[y][x]);
+    if (y >= grid.cells.size() || x >= grid.cells[y].size()) return false;
+    const ChartGrid::Cell& other = grid.cells[y][x];
+    return cell.all > 0 && other.all > 0 && (cell.bad == 0) != (other.bad == 0);
   };
   return differs(column - 1, row) || differs(column + 1, row) || differs(column, row - 1) || differs(column, row + 1);
 }

@@ -54,12 +54,7 @@ class GridCounter {
 [[nodiscard]] std::vector<ChartGrid> grids_of(const nlohmann::ordered_json& rows, const std::string& title,
                                               const std::string& x, const std::string& y);
 
-/// Of all its cells together.
-[[nodiscard]] ChartGrid::Cell total_of(const ChartGrid& grid);
-
-/// Whether a border lies between two cells: both ran, and bad cases are on one side alone.
-[[nodiscard]] bool is_border(const ChartGrid::Cell& one, const ChartGrid::Cell& other);
-/// Whether one lies on a side of a cell.
+/// Whether a border lies on a side of a cell: it and its neighbour ran, and bad cases are in one of them alone.
 [[nodiscard]] bool is_at_border(const ChartGrid& grid, std::size_t column, std::size_t row);
 
 /// Error against run time from the rows of `work-precision`: one chart for each motion, one series for each row with a

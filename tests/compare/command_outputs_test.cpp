@@ -28,7 +28,7 @@ TEST_F(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
   ASSERT_EQ(of_rows.at("scenes").size(), 1U);
   EXPECT_EQ(of_rows.at("scenes")[0].at("rows"), compared.at("scenes")[0].at("rows"));
   EXPECT_EQ(place.run("report m.html m.html").status, 2) << "it would overwrite what it reads";
-  EXPECT_EQ(place.run("compare article_bullet --quiet --svg /dev/null/x").status, 2);
+  EXPECT_EQ(place.run("compare article_bullet --quiet --strip /dev/null/x.svg").status, 2);
 }
 
 TEST_F(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupted) {

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""The committed pictures are those of what the command writes today: the same bytes, where the matplotlib of this machine is
+the one that drew them, else the same words and as many marks. Of the one with times, which differ from run to run, the curves
+are: who has one, over how many points, with which slope.
+
+usage: committed_pictures.py COMMAND REPOSITORY FOLDER_TO_WORK_IN    (exit status 77: skipped, with the reason)
+"""
+import importlib.util
+import os
+import re
+import shlex
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+STRIP = "article_bullet"
+OF_ROWS = {
+    "a-tip-between-two-points": "study corner --contender speculative_march,box2d,octagon_sweep",
+    "Where-does-drop-hold": "sweep drop --vary gravity=10,100,1e3,1e4,1e5,1e6 --vary dt=1e-4,1e-3,0.01,0.1,1 "
+                            "--contender octagon_sweep,box2d",
+    "level": "work-precision level"}
+LONG = {  # a minute of a core
+    "Where-do-bullets-pass": "study bullet --contender penetration_resolution,wind_back,box2d,octagon_sweep"}
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def words_in(root):
+    return ["".join(text.itertext()).strip() for text in root.iter(f"{SVG}text")]
+
+
+def words_and_marks(path):
+    root = xml.parse(path).getroot()
+    return words_in(root), len(list(root.iter(f"{SVG}use")))
+
+
+def curves(path):
+    root = xml.parse(path).getroot()
+    points = {group.get("id"): len(list(group.iter(f"{SVG}use"))) for group in root.iter(f"{SVG}g")
+              if group.get("id", "").startswith("curve-")}
+    return [words for words in words_in(root) if re.search(", slope|cannot run|failed", words)], points
+
+
+def drawn_by(path):
+    return re.search(r"Matplotlib v[\d.]*", path.read_text(encoding="utf-8"))[0]
+
+
+def same(name, committed, written):
+    if name == "level":
+        return curves(committed) == curves(written)
+    if committed.read_bytes() == written.read_bytes():
+        return True
+    return drawn_by(committed) != drawn_by(written) and words_and_marks(committed) == words_and_marks(written)
+
+
+def main(command, repository, folder):
+    committed, folder = Path(repository, "compare/report/pictures"), Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    subprocess.run([command, "compare", STRIP, "--no-timing", "--quiet", "--strip", folder / f"{STRIP}.svg"], check=True)
+    xml.parse(folder / f"{STRIP}.svg")
+    if (committed / f"{STRIP}.svg").read_bytes() != (folder / f"{STRIP}.svg").read_bytes():
+        sys.exit(f"write it anew: paperproof compare {STRIP} --no-timing --strip compare/report/pictures/{STRIP}.svg")
+    if not importlib.util.find_spec("matplotlib"):
+        print("skipped: there is no matplotlib here, which draws the other pictures")
+        sys.exit(77)
+    pictures = {**OF_ROWS, **(LONG if os.environ.get("PAPERPROOF_LONG_TESTS") == "1" else {})}
+    sources = {"table": Path(repository, "compare/benchmarks/table.json")}
+    for name, arguments in pictures.items():
+        sources[name] = folder / f"{name}.jsonl"
+        subprocess.run([command, *shlex.split(arguments), "--quiet", "--rows", sources[name]], check=True)
+    subprocess.run([sys.executable, Path(repository, "compare/plots.py"), *sources.values(), "--out", folder], check=True,
+                   stdout=subprocess.DEVNULL)
+    others = [name for name in sources if not same(name, committed / f"{name}.svg", folder / f"{name}.svg")]
+    for name in others:
+        rows = f"paperproof {pictures[name]} --rows ROWS.jsonl; " if name in pictures else ""
+        print(f"write it anew: {rows}compare/plots.py {'ROWS.jsonl' if rows else sources[name]} --out DIR; "
+              f"take DIR/{name}.svg")
+    sys.exit(bool(others))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
