@@ -3,7 +3,7 @@
 #include "campaign/campaign.hpp"
 #include "records/output_file.hpp"
 #include "records/row.hpp"
-#include "runs/text_columns.hpp"
+#include "runs/view.hpp"
 #include "scenes/load.hpp"
 #include "scenes/write_json.hpp"
 #include "words.hpp"
@@ -30,26 +30,20 @@ std::string names_of(const Breaches& breaches) {
 
 /// Of one kind: steps, and the shares of what happened in any of its families.
 std::string table_of(const std::vector<Ran>& all) {
-  std::vector<TextColumn> columns{{.heading = "family", .cells = {}, .words = true}, {.heading = "steps", .cells = {}}};
-  for (const Ran& ran : all) {
-    columns[0].cells.emplace_back(ran.family->title());
-    columns[1].cells.emplace_back(std::to_string(ran.findings.records));
-  }
+  std::vector<Column<Ran>> columns{{"family", [](const Ran& ran) { return ran.family->title(); }},
+                                   {"steps", [](const Ran& ran) { return std::to_string(ran.findings.records); }}};
   for (std::size_t i = 0; i < happenings().size(); ++i) {
-    TextColumn column{.heading = std::string(happenings()[i].name), .cells = {}};
-    int found = 0;
-    for (const Ran& ran : all) {
-      found += ran.findings.happened[i];
-      column.cells.emplace_back(fmt::format("{:.2f} %", 100.0 * ran.findings.happened[i] / ran.findings.records));
-    }
-    if (found > 0) columns.push_back(std::move(column));
+    const auto share = [i](const Ran& ran) {
+      return fmt::format("{:.2f} %", 100.0 * ran.findings.happened[i] / ran.findings.records);
+    };
+    const auto happened = [i](const Ran& ran) { return ran.findings.happened[i] > 0; };
+    if (std::any_of(all.begin(), all.end(), happened)) columns.push_back({std::string(happenings()[i].name), share});
   }
-  columns.push_back({.heading = "breaks, in steps", .cells = {}, .words = true});
-  for (const Ran& ran : all) {
-    const std::string names = names_of(ran.findings.breaches);
-    columns.back().cells.push_back(names.empty() ? std::nullopt : std::optional(names));
-  }
-  return aligned(columns) + "\n";
+  columns.push_back({"breaks, in steps", [](const Ran& ran) {
+                       const std::string names = names_of(ran.findings.breaches);
+                       return names.empty() ? "-" : names;
+                     }});
+  return view(all, columns) + "\n";
 }
 
 /// All that are named, each once and in the order of the kinds.

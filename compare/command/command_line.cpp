@@ -13,7 +13,6 @@
 #include "command/report_command.hpp"
 #include "command/rows_command.hpp"
 #include "command/study_command.hpp"
-#include "command/sweep_command.hpp"
 #include "records/output_file.hpp"
 #include "scenes/load.hpp"
 #include "studies/scale.hpp"
@@ -135,23 +134,32 @@ void add_compare(CLI::App& app, int& status) {
   on_parsed(command, status, words, compare);
 }
 
-/// The options that `sweep` and the prepared studies have alike.
-void add_run_options(CLI::App& command, RunArguments& run, CaseArguments& cases) {
+void add_cases(CLI::App& command, CaseArguments& cases) {
   add_contenders(command, cases.contenders);
   add_scalars(command, cases.scalars);
   add_knobs(command, cases.knobs);
+}
+
+/// What a study that measures in one process writes.
+void add_run_outputs(CLI::App& command, RunArguments& run) {
   add_outputs(command, run.rows_path, run.report_path);
+  add_flag(command, "--quiet", run.quiet, "No table, no progress");
+}
+
+/// The options of everything that runs cases.
+void add_run_options(CLI::App& command, RunArguments& run) {
+  add_run_outputs(command, run);
   add_log(command, run.log_path);
   add_jobs(command, run.jobs);
   command
       .add_option("--limit", run.limit_s,
-                  "A case that takes longer than this fails; where not given 60 s, in a study an hour")
+                  "A case that takes longer than this fails; where not given 60 s in a sweep, 10 minutes in `study "
+                  "disagreement`, an hour in other studies, and a day on their full grid")
       ->type_name("SECONDS")
       ->check(expect_whole_number(1'000'000));
   command.add_option("--shard", run.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
       ->type_name("K/N");
   add_flag(command, "--resume", run.resume, "Go on behind the rows that the file of --rows has");
-  add_flag(command, "--quiet", run.quiet, "No table, no progress");
 }
 
 void forget_repeats(CaseArguments& cases) {
@@ -190,23 +198,24 @@ void add_sweep(CLI::App& app, int& status) {
   add_settings(*command, arguments.set);
   add_steps(*command, arguments.steps);
   add_input(*command, words->input);
-  add_run_options(*command, arguments.run, arguments.cases);
+  add_cases(*command, arguments.cases);
+  add_run_options(*command, arguments.run);
   add_flag(*command, "--no-reference", words->no_reference, "Without Box2D, where no contender is named");
   add_flag(*command, "--no-timing", words->no_timing, "A sweep measures no costs anyway");
   on_parsed(*command, status, words, sweep);
 }
 
 /// A study that is a list of sweeps.
-void add_swept_study(CLI::App& study, const char* name, const char* help, int& status,
-                     const std::function<int(const PreparedArguments&)>& run) {
-  CLI::App& command = *study.add_subcommand(name, help);
-  const auto arguments = std::make_shared<PreparedArguments>();
-  arguments->run.limit_s = 3600;
+void add_prepared_study(CLI::App& parent, const PreparedStudy& study, int& status) {
+  CLI::App& command = *parent.add_subcommand(study.name, study.help);
+  const auto arguments = std::make_shared<StudyArguments>();
+  arguments->grid = study.grid;
   add_grid_size(command, arguments->grid);
-  add_run_options(command, arguments->run, arguments->cases);
-  on_parsed(command, status, arguments, [run](PreparedArguments& typed) {
+  add_cases(command, arguments->cases);
+  add_run_options(command, arguments->run);
+  on_parsed(command, status, arguments, [&study](StudyArguments& typed) {
     forget_repeats(typed.cases);
-    return run(typed);
+    return study_command(study, typed);
   });
 }
 
@@ -217,8 +226,7 @@ void add_scale(CLI::App& study, int& status) {
       ->type_name("N,...")
       ->check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
-  add_outputs(command, arguments->rows_path, arguments->report_path);
-  add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
+  add_run_outputs(command, arguments->run);
   on_parsed(command, status, arguments, study_scale_command);
 }
 
@@ -227,47 +235,27 @@ void add_disagreement(CLI::App& study, int& status) {
       *study.add_subcommand("disagreement", "Every event on which octagon_sweep and Box2D differ, and its cause");
   const auto arguments = std::make_shared<DisagreementArguments>();
   command.add_option("SCENE", arguments->scenes, std::string(scene_words) + "; every registered one if none is given");
-  add_outputs(command, arguments->rows_path, arguments->report_path);
-  add_jobs(command, arguments->jobs);
-  add_log(command, arguments->log_path);
-  add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
+  add_run_options(command, arguments->run);
   on_parsed(command, status, arguments, study_disagreement_command);
 }
 
-/// A study that takes `StudyArguments`, with the options that all of them have.
-CLI::App& add_study(CLI::App& app, const std::string& name, const std::string& help,
-                    const std::shared_ptr<StudyArguments>& arguments, int (*run)(const StudyArguments&), int& status) {
-  CLI::App& command = *app.add_subcommand(name, help);
+void add_precision(CLI::App& app, int& status) {
+  CLI::App& command = *app.add_subcommand("work-precision", "Error against run time, for motions known in closed form");
+  const auto arguments = std::make_shared<PrecisionArguments>();
+  command.add_option("MOTION", arguments->motions, "Only these (without any: all)");
   add_contenders(command, arguments->contenders);
-  add_outputs(command, arguments->rows_path, arguments->report_path);
-  add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
-  on_parsed(command, status, arguments, run);
-  return command;
+  add_run_outputs(command, arguments->run);
+  on_parsed(command, status, arguments, work_precision_command);
 }
 
 void add_studies(CLI::App& app, int& status) {
   CLI::App& study = *app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   study.require_subcommand(1);
   add_scale(study, status);
-  add_swept_study(study, "bullet", "Who gets through paper: rates, and the lowest speeds beside theory", status,
-                  study_bullet_command);
+  add_precision(app, status);
   for (const PreparedStudy& prepared : prepared_studies())
-    add_swept_study(study, prepared.name, prepared.help, status, [&prepared](const PreparedArguments& arguments) {
-      return study_prepared_command(prepared, arguments);
-    });
+    add_prepared_study(std::string_view(prepared.name) == "stability" ? app : study, prepared, status);
   add_disagreement(study, status);
-
-  const auto precise = std::make_shared<StudyArguments>();
-  add_study(app, "work-precision", "Error against run time, for motions known in closed form", precise,
-            work_precision_command, status)
-      .add_option("MOTION", precise->motions, "Only these (without any: all)");
-  const auto extreme = std::make_shared<StudyArguments>();
-  CLI::App& stability = add_study(app, "stability", "Stiff and extreme cases: where each side holds, and where not",
-                                  extreme, stability_command, status);
-  extreme->grid = "standard";
-  add_grid_size(stability, extreme->grid);
-  add_jobs(stability, extreme->jobs);
-  add_log(stability, extreme->log_path);
 }
 
 struct RowsWords {

@@ -3,7 +3,7 @@
 #include "command/compare_command.hpp"
 #include "records/output_file.hpp"
 #include "runs/contender.hpp"
-#include "runs/headline.hpp"
+#include "runs/row_views.hpp"
 #include "runs/run.hpp"
 #include "scenes/load.hpp"
 

@@ -1,8 +1,9 @@
 #include "command/progress.hpp"
 #include "command/study_command.hpp"
-#include "command/study_outputs.hpp"
 #include "records/output_file.hpp"
 #include "records/trace.hpp"
+#include "runs/environment.hpp"
+#include "runs/view.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/techniques.hpp>
@@ -14,22 +15,17 @@
 namespace paperproof::compare {
 namespace {
 
-const std::vector<std::string> heading{"pieces",  "search",     "ns per step", "median",
-                                       "largest", "build [ms]", "same bits"};
-
-std::vector<std::string> cells_of(const ScalePoint& point) {
-  return {std::to_string(point.pieces),
-          std::string(name_of(point.search)),
-          fmt::format("{:.1f}", point.ns_per_step_min),
-          fmt::format("{:.1f}", point.ns_per_step_median),
-          fmt::format("{:.1f}", point.ns_per_step_max),
-          fmt::format("{:.2f}", point.build_ms),
-          point.same_bits ? "yes" : "NO"};
-}
-
-std::string line_of(const std::vector<std::string>& cells) {
-  return fmt::format("{:>9}  {:<11}  {:>11}  {:>10}  {:>10}  {:>10}  {:>9}\n", cells[0], cells[1], cells[2], cells[3],
-                     cells[4], cells[5], cells[6]);
+Table table_of(const std::vector<ScalePoint>& points) {
+  const auto number = [](auto ScalePoint::*of, const char* format) {
+    return [of, format](const ScalePoint& point) { return fmt::format(fmt::runtime(format), point.*of); };
+  };
+  return table_of<ScalePoint>(points, {{"pieces", number(&ScalePoint::pieces, "{}")},
+                                       {"search", [](const ScalePoint& p) { return std::string(name_of(p.search)); }},
+                                       {"ns per step", number(&ScalePoint::ns_per_step_min, "{:.1f}")},
+                                       {"median", number(&ScalePoint::ns_per_step_median, "{:.1f}")},
+                                       {"largest", number(&ScalePoint::ns_per_step_max, "{:.1f}")},
+                                       {"build [ms]", number(&ScalePoint::build_ms, "{:.2f}")},
+                                       {"same bits", [](const ScalePoint& p) { return p.same_bits ? "yes" : "NO"; }}});
 }
 
 Row row_of(const ScalePoint& point) {
@@ -74,8 +70,8 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
       if (point.search == search) series.points.push_back({static_cast<double>(point.pieces), point.ns_per_step_min});
     chart.series.push_back(std::move(series));
   }
-  page.table.heading = heading;
-  for (const ScalePoint& point : points) page.table.rows.push_back(cells_of(point));
+  const Table table = table_of(points);
+  page.table = {table.heading, table.lines};
   page.environment = environment();
   return page;
 }
@@ -83,23 +79,19 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 }  // namespace
 
 int study_scale_command(const ScaleArguments& arguments) {
-  StudyOutputs outputs(arguments.rows_path, arguments.report_path);
-  const Progress progress(!arguments.quiet);
+  StudyOutputs outputs(arguments.run);
+  const Progress progress(!arguments.run.quiet);
   const std::vector<ScalePoint> points =
       study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });
   progress.clear();
-
   bool same = true;
   for (const ScalePoint& point : points) {
-    outputs.add(row_of(point));
+    outputs.rows.add(row_of(point));
     same = same && point.same_bits;
   }
-  if (!arguments.quiet) {
-    std::string text = line_of(heading);
-    for (const ScalePoint& point : points) text += line_of(cells_of(point));
-    print_out(fmt::format("{}\n{}\n", text, growth_sentence(points)));
-  }
-  outputs.finish(page_of(points));
+  if (!arguments.run.quiet) print_out(text_of(table_of(points)) + '\n' + growth_sentence(points) + '\n');
+  outputs.rows.finish();
+  outputs.page.finish(page_of(points));
   return same ? 0 : 1;
 }
 

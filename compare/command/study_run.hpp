@@ -2,9 +2,7 @@
 #pragma once
 
 #include "command/page_output.hpp"
-#include "command/progress.hpp"
 #include "records/rows_file.hpp"
-#include "report/row_pictures.hpp"
 #include "studies/sweep.hpp"
 
 #include <nlohmann/json.hpp>
@@ -12,37 +10,43 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace paperproof::compare {
 
 /// How the cases are run, and where what they give goes.
 struct RunArguments {
-  std::string rows_path;             ///< Empty: none.
-  std::string report_path;           ///< Empty: none.
+  std::string rows_path;  ///< Empty: none.
+  std::string report_path;
   std::string log_path;              ///< Of the progress; empty: none.
   int jobs = 0;                      ///< 0: one for each core.
-  int limit_s = 60;                  ///< Of one case. A search of lowest speeds is one.
+  std::optional<int> limit_s;        ///< Of one case; absent: see `StudyCases`. A search of lowest speeds is one.
   std::optional<std::string> shard;  ///< `K/N`; absent: all.
   bool resume = false;
   bool quiet = false;
 };
 
+/// What a study that measures in this process writes. Opened before the work begins.
+struct StudyOutputs {
+  /// @throws InputError where two of them are one file; what RowsFile and PageOutput throw.
+  explicit StudyOutputs(const RunArguments& arguments);
+  RowsFile rows;
+  PageOutput page;
+};
+
 /// All the cases of a study, each in a child process; rows in `.jsonl` appear as they come.
 class StudyRun {
  public:
-  using Visit = std::function<void(const StudyPart& part, const nlohmann::ordered_json& row)>;
-  /// @param arguments,parts are to live as long as this.
+  using Visit = std::function<void(std::size_t index, const nlohmann::ordered_json& row)>;
+  /// @param arguments is to live as long as this.
   /// @param visit is called for every row in order, those included that `--resume` finds in the file.
   /// @throws InputError before any output is touched; std::runtime_error if one cannot be written.
-  StudyRun(const RunArguments& arguments, const std::vector<StudyPart>& parts, Visit visit);
+  StudyRun(const RunArguments& arguments, StudyCases cases, Visit visit);
 
   void run();
   /// To be called once, last: ends the rows, writes the page, prints the text unless it is to be quiet.
-  /// @param page is asked for only where it is written.
-  /// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee or a case failed.
-  int finish(const std::function<ChartPage()>& page, const std::string& text);
+  /// @param page is asked for only where it is written. @param fails as the study sees it.
+  /// @return the exit status: 0, or 1 if it fails, or octagon_sweep in double broke its guarantee, or a case failed.
+  int finish(const std::function<ChartPage()>& page, const std::string& text, bool fails = false);
 
  private:
   /// Which part of the work: every `of`-th case, from the `part`-th on.
@@ -60,7 +64,7 @@ class StudyRun {
   void note(const nlohmann::ordered_json& row);
 
   const RunArguments& arguments_;
-  const std::vector<StudyPart>& parts_;
+  StudyCases cases_;
   Visit visit_;
   Shard shard_;
   std::size_t count_;  ///< Cases of this shard.
@@ -70,39 +74,5 @@ class StudyRun {
   std::optional<RowsFile> rows_;
   std::optional<PageOutput> page_;
 };
-
-/// Counts the verdicts of each part and contender, as tables and as heat maps. Keeps no row.
-class StudyScores {
- public:
-  explicit StudyScores(const std::vector<StudyPart>& parts);
-  void add(const StudyPart& part, const nlohmann::ordered_json& row);
-  /// A table for each title.
-  [[nodiscard]] std::string tables() const;
-  [[nodiscard]] std::vector<ChartGrid> grids() const;
-
- private:
-  struct Score {
-    int cases = 0;
-    int holds = 0;
-    int through = 0;
-    int beyond = 0;  ///< Beyond the contender's own limits, and nothing else.
-    int other = 0;   ///< Ends inside something, or is flagged or failed for another reason.
-    int cannot = 0;
-    std::string first_bad;  ///< Where the first case is that does not hold.
-  };
-  struct Title {
-    std::string title;
-    std::vector<std::string> keys;                      ///< Of the axes, in `parameters`.
-    std::vector<std::pair<std::string, Score>> scores;  ///< By contender.
-    std::optional<GridCounter> grids;                   ///< Where something is varied.
-  };
-  std::vector<Title> titles_;
-};
-
-/// A table for a terminal. A column is aligned to the right where a cell begins with a digit or a sign.
-[[nodiscard]] std::string text_of(const ChartTable& table);
-
-/// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.
-[[nodiscard]] std::string values_of(const nlohmann::ordered_json& row, const std::vector<std::string>& keys);
 
 }  // namespace paperproof::compare

@@ -2,10 +2,10 @@
 
 #include "command/compare_command.hpp"
 #include "command/progress.hpp"
-#include "command/study_outputs.hpp"
 #include "report/row_pictures.hpp"
 #include "runs/contender.hpp"
-#include "runs/text_columns.hpp"
+#include "runs/environment.hpp"
+#include "runs/view.hpp"
 #include "scenes/load.hpp"
 #include "studies/front.hpp"
 #include "studies/motions.hpp"
@@ -35,42 +35,35 @@ ChartPage page_of(const WorkPrecision& found) {
   return page;
 }
 
+/// A line for each contender and what its curves are over, with the slope of each motion.
 std::string slopes(const WorkPrecision& found) {
-  std::vector<TextColumn> columns{{"contender", {}, true}, {"over", {}, true}};
-  std::vector<std::pair<std::string, std::string>> lines;
-  for (const Row& curve : found.curves) {
-    const std::pair line{name_of_curve(curve), curve.curve};
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-  }
-  for (const auto& [who, over] : lines) {
-    columns[0].cells.emplace_back(who);
-    columns[1].cells.emplace_back(over);
-  }
-  for (const Motion& motion : motions()) {
-    TextColumn column{std::string(motion.name), {}};
-    for (const auto& line : lines) {
-      const auto curve = std::find_if(found.curves.begin(), found.curves.end(), [&](const Row& row) {
-        return row.scene == motion.name && name_of_curve(row) == line.first && row.curve == line.second;
-      });
-      const bool known = curve != found.curves.end();
-      const std::string slope = known && curve->slope ? fmt::format("{:.2f}", *curve->slope) : "";
-      const std::string mark = known && curve->on_front.value_or(false) ? "*" : "";
-      column.cells.push_back(slope.empty() && mark.empty() ? Cell{} : Cell(slope + mark));
-    }
-    columns.push_back(std::move(column));
-  }
-  return aligned(columns);
+  using Line = std::pair<std::string, std::vector<const Row*>>;
+  std::vector<Line> lines;
+  for (const Row& curve : found.curves) entry_of(lines, name_of_curve(curve) + ' ' + curve.curve).push_back(&curve);
+  std::vector<Column<Line>> columns{{"contender", [](const Line& line) { return name_of_curve(*line.second.front()); }},
+                                    {"over", [](const Line& line) { return line.second.front()->curve; }}};
+  for (const Motion& motion : motions())
+    columns.push_back({std::string(motion.name), [&motion](const Line& line) -> Cell {
+                         for (const Row* curve : line.second) {
+                           if (curve->scene != motion.name) continue;
+                           const std::string slope = curve->slope ? fmt::format("{:.2f}", *curve->slope) : "";
+                           const std::string mark = curve->on_front.value_or(false) ? "*" : "";
+                           if (!slope.empty() || !mark.empty()) return slope + mark;
+                         }
+                         return std::nullopt;
+                       }});
+  return view(lines, columns);
 }
 
 }  // namespace
 
-int work_precision_command(const StudyArguments& arguments) {
+int work_precision_command(const PrecisionArguments& arguments) {
 #ifndef NDEBUG
   throw InputError("work-precision: expected a build without assertions (NDEBUG): this one's times mean nothing");
 #endif
   check_contenders(arguments.contenders);
-  StudyOutputs outputs(arguments.rows_path, arguments.report_path);
-  const Progress progress(!arguments.quiet);
+  StudyOutputs outputs(arguments.run);
+  const Progress progress(!arguments.run.quiet);
   WorkPrecision found;
   try {
     found = study_work_precision(arguments.motions, arguments.contenders,
@@ -84,11 +77,12 @@ int work_precision_command(const StudyArguments& arguments) {
   bool failed = false;
   for (const std::vector<Row>* rows : {&found.points, &found.curves})
     for (const Row& row : *rows) {
-      outputs.add(row);
+      outputs.rows.add(row);
       failed = failed || row.verdict == Verdict::failed;
     }
-  outputs.finish(page_of(found));
-  if (!arguments.quiet) {
+  outputs.rows.finish();
+  outputs.page.finish(page_of(found));
+  if (!arguments.run.quiet) {
     std::string text = "slope of log error over log knob; * on the front: no other has less error in less time\n\n" +
                        slopes(found) + '\n';
     for (const std::string& sentence : found.sentences) text += sentence + '\n';

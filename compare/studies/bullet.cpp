@@ -121,7 +121,7 @@ StudyPart lowest_speeds_part(GridSize size) {
 
 std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
 
-std::vector<StudyPart> bullet_parts(GridSize size) {
+std::vector<StudyPart> bullet_parts(GridSize size, const std::vector<std::string>&) {
   std::vector<StudyPart> parts;
   for (const NamedContender& contender : bullet_contenders())
     parts.push_back({"", bullet_sweep(size, contender), {}, Bad::tunnels});
@@ -177,6 +177,15 @@ BulletTheory bullet_theory(const NamedContender& contender, double thickness) {
     return {true, way / usual_step};
   }
   return {};
+}
+
+std::string bullet_theory_in_words(const std::string& who, double thickness) {
+  BulletTheory theory;
+  for (const NamedContender& contender : bullet_contenders())
+    if (contender.called() == who) theory = bullet_theory(contender, thickness);
+  if (!theory.known) return "-";
+  if (!theory.lowest) return "never";
+  return *theory.lowest > 0 ? fmt::format("{:.4g}", *theory.lowest) : "any";
 }
 
 Interval wilson(int bad, int all) {

@@ -20,7 +20,7 @@ namespace paperproof::compare {
 /// - `moving_paper_title`: paper that comes to a character that stands; for Box2D also put there by SetTransform;
 /// - `far_title`: a wall far from the origin;
 /// - `lowest_speeds_title`: for each contender and thickness `lowest_speed_through`.
-[[nodiscard]] std::vector<StudyPart> bullet_parts(GridSize size);
+[[nodiscard]] std::vector<StudyPart> bullet_parts(GridSize size, const std::vector<std::string>& contenders = {});
 inline constexpr const char* moving_paper_title = "paper that comes";
 inline constexpr const char* far_title = "a wall far from the origin";
 inline constexpr const char* lowest_speeds_title = "lowest speeds";
@@ -54,6 +54,9 @@ struct BulletTheory {
   std::optional<double> lowest{};  ///< [m/s]; none: never. 0: at any speed.
 };
 [[nodiscard]] BulletTheory bullet_theory(const NamedContender& contender, double thickness);
+/// The same in a word: the speed [m/s], `any`, `never`, or `-` where it is not known.
+/// @param who one of `bullet_contenders` as it is called; of a number type of its own nothing is known.
+[[nodiscard]] std::string bullet_theory_in_words(const std::string& who, double thickness);
 
 /// Wilson's interval of 95 % for a rate (Wilson 1927, "Probable inference, the law of succession, and statistical
 /// inference").

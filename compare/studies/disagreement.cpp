@@ -5,6 +5,7 @@
 #include "words.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <exception>
 
@@ -18,6 +19,16 @@ Row named(Row row, const DisagreementCase& one) {
   row.mode = one.lockstep ? "lockstep" : "free";
   row.command = fmt::format("paperproof study disagreement {}", one.scene);
   return row;
+}
+
+/// The row of a case that gave none. @param reason in words.
+Row failed_row(const DisagreementCase& one, const std::string& reason) {
+  Row row;
+  row.scene = one.scene;
+  row.contender = compared;
+  row.verdict = Verdict::failed;
+  row.reason = reason;
+  return named(row, one);
 }
 
 }  // namespace
@@ -53,13 +64,20 @@ Row run_disagreement(const DisagreementCase& one) {
   }
 }
 
-Row failed_row(const DisagreementCase& one, const std::string& reason) {
-  Row row;
-  row.scene = one.scene;
-  row.contender = compared;
-  row.verdict = Verdict::failed;
-  row.reason = reason;
-  return named(row, one);
+StudyCases cases_of(const std::vector<DisagreementCase>& all) {
+  StudyCases cases;
+  std::string text;
+  for (const DisagreementCase& one : all) text += fmt::format("{} {} {}\n", one.scene, one.index, one.lockstep);
+  cases.id = hash_of(text);
+  cases.count = all.size();
+  cases.run = [&all](std::size_t index) { return run_disagreement(all[index]); };
+  cases.lost = [&all](std::size_t index, const std::string& reason) { return failed_row(all[index], reason); };
+  cases.is_of = [&all](std::size_t index, const nlohmann::ordered_json& row) {
+    const Row expected = named({}, all[index]);
+    return row.value("mode", "") == expected.mode && row.value("command", "") == expected.command;
+  };
+  cases.limit_s = 600;  // a real level may take this long
+  return cases;
 }
 
 std::string words_of(const Leftovers& found) {

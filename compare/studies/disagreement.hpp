@@ -2,6 +2,7 @@
 #pragma once
 
 #include "records/row.hpp"
+#include "studies/sweep.hpp"
 
 #include <string>
 #include <string_view>
@@ -26,8 +27,8 @@ struct DisagreementCase {
 /// The row of octagon_sweep, with its ledger. What goes wrong is a row that says so.
 [[nodiscard]] Row run_disagreement(const DisagreementCase& one);
 
-/// The row of a case that gave none. @param reason in words.
-[[nodiscard]] Row failed_row(const DisagreementCase& one, const std::string& reason);
+/// The cases as a study runs them. @param all is to live as long.
+[[nodiscard]] StudyCases cases_of(const std::vector<DisagreementCase>& all);
 
 /// What the study must not find, over all its runs.
 struct Leftovers {

@@ -138,12 +138,4 @@ Scene scene_of(const Motion& motion, double dt) {
   return scene;
 }
 
-std::vector<Vec2d> continuous_places(const Scene& scene, continuous::Law law) {
-  using Real = continuous::Number<50>;
-  const continuous::Course<Real> course = continuous::course_of<Real>(scene, scene.input, law);
-  std::vector<Vec2d> places;
-  for (int step = 1; step <= scene.steps; ++step) places.push_back(course.at(step * scene.dt));
-  return places;
-}
-
 }  // namespace paperproof::compare

@@ -1,7 +1,6 @@
 /// The motions of `work-precision`: scenes whose continuous course is known.
 #pragma once
 
-#include "continuous/course.hpp"
 #include "scenes/scene.hpp"
 
 #include <string_view>
@@ -25,8 +24,5 @@ inline constexpr double longest_step = 1.0 / 15;  ///< [s]
 
 /// The motion's scene with steps of a length that divides `longest_step` [s].
 [[nodiscard]] Scene scene_of(const Motion& motion, double dt);
-
-/// Where the character is at the end of every step of the scene, by the continuous reference.
-[[nodiscard]] std::vector<Vec2d> continuous_places(const Scene& scene, continuous::Law law);
 
 }  // namespace paperproof::compare

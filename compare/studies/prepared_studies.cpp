@@ -1,6 +1,8 @@
 #include "studies/prepared_studies.hpp"
 
 #include "runs/contender.hpp"
+#include "studies/bullet.hpp"
+#include "studies/stability.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +27,7 @@ StudyPart part_of(const char* title, const char* scene, const std::vector<const 
 
 const std::vector<const char*>& at(const Axes& axes, GridSize size) { return axes[static_cast<std::size_t>(size)]; }
 
-std::vector<StudyPart> corner_parts(GridSize size) {
+std::vector<StudyPart> corner_parts(GridSize size, const std::vector<std::string>&) {
   const Axes wedges{{{"angle=1:60:log12"},
                      {"angle=1:60:log30", "dt=0.004166666666666667,0.008333333333333333,0.016666666666666666,0.033"},
                      {"angle=1:120:log120", "dt=0.001:0.1:log12"}}};
@@ -49,14 +51,14 @@ std::vector<StudyPart> corner_parts(GridSize size) {
   return parts;
 }
 
-std::vector<StudyPart> seam_parts(GridSize size) {
+std::vector<StudyPart> seam_parts(GridSize size, const std::vector<std::string>&) {
   const Axes tiles{{{"speed=0.12:12:lin50", "origin=0,0.37"},
                     {"speed=0.12:12:lin100", "origin=0,0.37,1000.1"},
                     {"speed=0.1:12:lin1000", "origin=0,0.1,0.37,1000.1,100000.3"}}};
   return {part_of("a walk over flush tiles", "tiles", at(tiles, size))};
 }
 
-std::vector<StudyPart> squeeze_parts(GridSize size) {
+std::vector<StudyPart> squeeze_parts(GridSize size, const std::vector<std::string>&) {
   const Axes shafts{{{"clearance=0,1e-6,1e-3,0.05"},
                      {"clearance=0,1e-12,1e-9,2e-7,1e-6,1e-5,1e-4,1e-3,0.01,0.02,0.05", "dt=0.001:0.1:log7"},
                      {"clearance=1e-9:0.1:log60", "dt=0.0001:0.1:log16"}}};
@@ -93,10 +95,35 @@ void keep_only(const std::vector<std::string>& wanted, std::vector<StudyPart>& p
 
 const std::vector<PreparedStudy>& prepared_studies() {
   static const std::vector<PreparedStudy> all{
-      {"corner", "Wedges, tips between two points, corners that are just met: who gets through or ends inside",
-       corner_parts},
-      {"seam", "Walks over flush tiles at many speeds and offsets: who snags at their seams", seam_parts},
-      {"squeeze", "Shafts that fit, walls and lifts that close in: who gets stuck, inside or through", squeeze_parts}};
+      {.name = "bullet",
+       .help = "Who gets through paper: rates, and the lowest speeds beside theory",
+       .parts = bullet_parts,
+       .title = "Where do bullets pass?",
+       .paragraphs =
+           {"A character flies onto paper. The cases of a cell differ in angle, phase and length of a step. In "
+            "numbers: how many get through, with Wilson's interval of 95 %, and the lowest speed at which "
+            "each gets through head-on at 60 steps per second, found by bisection over all phases, beside "
+            "what theory says."},
+       .theory = bullet_theory_in_words},
+      {.name = "corner",
+       .help = "Wedges, tips between two points, corners that are just met: who gets through or ends inside",
+       .parts = corner_parts,
+       .title = "study corner"},
+      {.name = "seam",
+       .help = "Walks over flush tiles at many speeds and offsets: who snags at their seams",
+       .parts = seam_parts,
+       .title = "study seam"},
+      {.name = "squeeze",
+       .help = "Shafts that fit, walls and lifts that close in: who gets stuck, inside or through",
+       .parts = squeeze_parts,
+       .title = "study squeeze"},
+      {.name = "stability",
+       .help = "Stiff and extreme cases: where each side holds, and where not",
+       .parts = stability_parts,
+       .title = "stability",
+       .paragraphs = stability_paragraphs(),
+       .grid = "standard"},
+  };
   return all;
 }
 

@@ -1,4 +1,4 @@
-/// The questions behind `study corner`, `study seam` and `study squeeze`.
+/// The studies that are lists of sweeps.
 #pragma once
 
 #include "studies/sweep.hpp"
@@ -14,12 +14,21 @@ enum class GridSize : std::uint8_t { quick, standard, full };
 /// @param name as `--grid` has it. Anything unknown is `quick`.
 [[nodiscard]] GridSize grid_size(std::string_view name) noexcept;
 
+/// A question with its cases, as data.
 struct PreparedStudy {
   const char* name;
   const char* help;
-  std::vector<StudyPart> (*parts)(GridSize);
+  /// @param contenders that were asked for; empty: all that the study is about. It may have others: see `keep_only`.
+  std::vector<StudyPart> (*parts)(GridSize, const std::vector<std::string>& contenders);
+  std::string title{};                    ///< Of its page.
+  std::vector<std::string> paragraphs{};  ///< Of its page, below how to read its maps.
+  const char* grid = "quick";             ///< Where none is named.
+  /// What theory says of a border, in a word; none: nothing is said. @param who ran, with its knobs. @param at value of
+  /// the first axis.
+  std::string (*theory)(const std::string& who, double at) = nullptr;
 };
 
+/// bullet, corner, seam, squeeze, stability.
 [[nodiscard]] const std::vector<PreparedStudy>& prepared_studies();
 
 /// All contenders, and some more with knobs of their own.

@@ -127,6 +127,8 @@ struct Border {
   double least;
   double most;
   std::vector<Case::Setting> set{};
+  /// Only this is asked: that no answer of the scene is missed by more [in its unit]. 0: all predicates are, and the
+  /// answers to the letter.
   double most_off = 0;
 };
 
@@ -166,13 +168,53 @@ SweepAxis thinned(SweepAxis axis) {
   return axis;
 }
 
-Sweep sweep_of(const char* scene, const std::vector<std::string>& contenders) {
-  Sweep sweep;
-  sweep.scene = scene;
-  for (const std::string& name : contenders) sweep.contenders.push_back({name});
-  if (contenders.empty()) sweep.contenders = {{"octagon_sweep"}, {"box2d"}};
-  sweep.scalars = {"double", "float"};
-  return sweep;
+/// Adds a part for those that compute in double and in float, and one for those that have one number type alone.
+void add_parts(StudyPart part, const std::vector<std::string>& contenders, std::vector<StudyPart>& parts) {
+  for (const bool references : {false, true}) {
+    part.sweep.contenders.clear();
+    for (const std::string& name : contenders)
+      if (is_reference(name) == references) part.sweep.contenders.push_back({name});
+    part.sweep.scalars = references ? std::vector<std::string>{"double"} : std::vector<std::string>{"double", "float"};
+    if (!part.sweep.contenders.empty()) parts.push_back(part);
+  }
+}
+
+StudyPart part_of(const Region& region, GridSize size) {
+  StudyPart part{region.name, {}, {}, Bad::does_not_hold, region.question};
+  part.sweep.scene = region.scene;
+  const bool whole = size == GridSize::full && !region.full_axes.empty();
+  for (const char* text : whole ? region.full_axes : region.axes) {
+    const SweepAxis axis = parse_axis(text);
+    // What has one value is no axis of a picture.
+    if (part.sweep.axes.size() == 2)
+      part.sweep.set.push_back({axis.key, axis.values.front()});
+    else
+      part.sweep.axes.push_back(size == GridSize::quick ? thinned(axis) : axis);
+  }
+  part.run = [&region](const Sweep& sweep, std::size_t index) {
+    return run_stable(sweep, index, region.replicas_along, region.has_slopes);
+  };
+  return part;
+}
+
+StudyPart part_of(const Border& border, GridSize size) {
+  StudyPart part{border.name, {}, {}};
+  part.sweep.scene = border.scene;
+  part.sweep.set = border.set;
+  part.sweep.border = border.key;
+  part.sweep.border_range = {border.least, border.most};
+  const auto run = [](const Case& at) {
+    Row row = run_case(at);
+    judge_stability(row);
+    return row;
+  };
+  const auto holds = [&border](const Row& row) {
+    return border.most_off > 0 ? row.answer_error && *row.answer_error <= border.most_off
+                               : row.verdict == Verdict::holds;
+  };
+  const int strides = size == GridSize::quick ? quick_border_strides : border_strides;
+  part.run = [=](const Sweep& sweep, std::size_t index) { return border_at(sweep, index, {run, holds, strides}); };
+  return part;
 }
 
 /// How far apart numbers are at the place of a row [m].
@@ -217,40 +259,30 @@ void take_events_of(const Row& expected, Row& row) {
 
 }  // namespace
 
-std::vector<StabilityRegion> stability_regions(const std::vector<std::string>& contenders, const std::string& grid) {
-  std::vector<StabilityRegion> made;
-  for (const Region& region : regions()) {
-    Sweep sweep = sweep_of(region.scene, contenders);
-    const bool whole = grid == "full" && !region.full_axes.empty();
-    for (const char* text : whole ? region.full_axes : region.axes) {
-      const SweepAxis axis = parse_axis(text);
-      // What has one value is no axis of a picture.
-      if (sweep.axes.size() == 2)
-        sweep.set.push_back({axis.key, axis.values.front()});
-      else
-        sweep.axes.push_back(grid == "quick" ? thinned(axis) : axis);
-    }
-    made.push_back({region.name, region.question, std::move(sweep), region.replicas_along, region.has_slopes});
-  }
-  return made;
+std::vector<StudyPart> stability_parts(GridSize size, const std::vector<std::string>& contenders) {
+  const std::vector<std::string> who =
+      contenders.empty() ? std::vector<std::string>{"octagon_sweep", "box2d"} : contenders;
+  std::vector<StudyPart> parts;
+  for (const Region& region : regions()) add_parts(part_of(region, size), who, parts);
+  for (const Border& border : borders()) add_parts(part_of(border, size), who, parts);
+  return parts;
 }
 
-const std::vector<Predicate>& stability_predicates() {
-  static const std::vector<Predicate> all{
-      {"finite", "every position and velocity is a number"},
-      {"penetration", "passes nothing, and ends no step inside anything by more than an ulp; bodies by at most 5 mm"},
-      {"drift",
-       "at rest it stays within 1e-6 m (octagon_sweep in double) or 1e-4 m (others), or two ulp of its place where "
-       "that is more; not asked in a crowd, nor of Box2D on slopes"},
-      {"energy",
-       "where nothing is put in the energy never rises by more than gravity times the contender's reach (1e-6 m; "
-       "Box2D's "
-       "skin, 20 mm) and rounding; of bodies by more than 1 % of what moves and the weight of loose ones times 20 mm"},
-      {"hanging", "no step that could fall hangs, and none is stuck beside a way out"},
-      {"events",
-       "the sequence of events is that of the first of the replicas: the same contacts and supports in order"},
+std::vector<std::string> stability_paragraphs() {
+  return {
+      "Stiff and extreme cases, judged step by step by exact arithmetic. A case does not hold where one of the "
+      "predicates below fails, the scene's exact answer is missed, or the contender's limits are passed.",
+      "finite: every position and velocity is a number.",
+      "penetration: passes nothing, and ends no step inside anything by more than an ulp; bodies by at most 5 mm.",
+      "drift: at rest it stays within 1e-6 m (octagon_sweep in double) or 1e-4 m (others), or two ulp of its place "
+      "where that is more; not asked in a crowd, nor of Box2D on slopes.",
+      "energy: where nothing is put in the energy never rises by more than gravity times the contender's reach (1e-6 "
+      "m; "
+      "Box2D's skin, 20 mm) and rounding; of bodies by more than 1 % of what moves and the weight of loose ones times "
+      "20 mm.",
+      "hanging: no step that could fall hangs, and none is stuck beside a way out.",
+      "events: the sequence of events is that of the first of the replicas: the same contacts and supports in order.",
   };
-  return all;
 }
 
 void judge_stability(Row& row, bool has_slopes) {
@@ -263,46 +295,17 @@ void judge_stability(Row& row, bool has_slopes) {
   settle(row);
 }
 
-Row run_at(const StabilityRegion& region, std::size_t index) {
-  const Case one = region.sweep.at(index);
+Row run_stable(const Sweep& sweep, std::size_t index, const std::string& replicas_along, bool has_slopes) {
+  const Case one = sweep.at(index);
   Row row = run_case(one);
-  row.swept = {region.name, axis_keys_of(region.sweep), Bad::does_not_hold};
-  judge_stability(row, region.has_slopes);
-  const auto along = std::find_if(region.sweep.axes.begin(), region.sweep.axes.end(),
-                                  [&](const SweepAxis& axis) { return axis.key == region.replicas_along; });
-  if (along == region.sweep.axes.end() || !was_judged(row)) return row;
+  judge_stability(row, has_slopes);
+  const auto along = std::find_if(sweep.axes.begin(), sweep.axes.end(),
+                                  [&](const SweepAxis& axis) { return axis.key == replicas_along; });
+  if (along == sweep.axes.end() || !was_judged(row)) return row;
   Case first = one;
   for (Case::Setting& setting : first.parameters)
     if (setting.key == along->key) setting.value = along->values.front();
   take_events_of(run_case(first), row);
-  return row;
-}
-
-std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& contenders, const std::string& grid) {
-  std::vector<StabilityBorder> made;
-  for (const Border& border : borders()) {
-    Sweep sweep = sweep_of(border.scene, contenders);
-    sweep.set = border.set;
-    sweep.border = border.key;
-    sweep.border_range = {border.least, border.most};
-    made.push_back(
-        {border.name, std::move(sweep), border.most_off, grid == "quick" ? quick_border_strides : border_strides});
-  }
-  return made;
-}
-
-Row run_at(const StabilityBorder& border, std::size_t index) {
-  const auto run = [](const Case& at) {
-    Row row = run_case(at);
-    judge_stability(row);
-    return row;
-  };
-  const auto holds = [&border](const Row& row) {
-    return border.most_off > 0 ? row.answer_error && *row.answer_error <= border.most_off
-                               : row.verdict == Verdict::holds;
-  };
-  Row row = border_at(border.sweep, index, {run, holds, border.strides});
-  row.swept = {border.name, axis_keys_of(border.sweep), Bad::does_not_hold};
   return row;
 }
 

@@ -1,7 +1,6 @@
 #include "studies/sweep.hpp"
 
 #include "near_names.hpp"
-#include "records/rows_json.hpp"
 #include "runs/knobs.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/input_error.hpp"
@@ -106,6 +105,21 @@ bool was_made(const Row& row) {
   return row.verdict != Verdict::not_applicable && (row.verdict != Verdict::failed || !row.finite.value_or(true));
 }
 
+/// Tells two studies apart.
+std::string id_of(const std::vector<StudyPart>& parts) {
+  std::string text;
+  for (const StudyPart& part : parts) {
+    const Sweep& sweep = part.sweep;
+    text += command_of(sweep.at(0));
+    if (sweep.border) text += " border " + *sweep.border;
+    if (sweep.border_range) text += fmt::format(" {}:{}", sweep.border_range->first, sweep.border_range->second);
+    for (const SweepAxis& axis : sweep.axes) text += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
+    for (const NamedContender& who : sweep.contenders) text += ' ' + who.called();
+    text += fmt::format(" {}\n", fmt::join(sweep.scalars, ","));
+  }
+  return hash_of(text);
+}
+
 }  // namespace
 
 bool is_safe(const Row& row) {
@@ -189,20 +203,6 @@ void check(const Sweep& sweep) {
   static_cast<void>(load_scene(sweep.scene, {}));
 }
 
-std::string id_of(const std::vector<StudyPart>& parts) {
-  std::string text;
-  for (const StudyPart& part : parts) {
-    const Sweep& sweep = part.sweep;
-    text += command_of(sweep.at(0));
-    if (sweep.border) text += " border " + *sweep.border;
-    if (sweep.border_range) text += fmt::format(" {}:{}", sweep.border_range->first, sweep.border_range->second);
-    for (const SweepAxis& axis : sweep.axes) text += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
-    for (const NamedContender& who : sweep.contenders) text += ' ' + who.called();
-    text += fmt::format(" {}\n", fmt::join(sweep.scalars, ","));
-  }
-  return hash_of(text);
-}
-
 PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index) {
   PartCase place{0, index};
   for (; place.part + 1 < parts.size() && place.index >= parts[place.part].sweep.size(); ++place.part)
@@ -231,26 +231,33 @@ Row border_at(const Sweep& sweep, std::size_t index, const BorderSearch& search)
   return row;
 }
 
-Jobs jobs_of(const std::vector<StudyPart>& parts, std::size_t count,
-             const std::function<std::size_t(std::size_t)>& case_of) {
-  Jobs jobs;
-  jobs.count = count;
-  jobs.run = [&parts, case_of](std::size_t job) {
-    const PartCase place = part_case(parts, case_of(job));
-    const StudyPart& part = parts[place.part];
-    Row row = part.run ? part.run(part.sweep, place.index) : run_at(part.sweep, place.index);
-    row.swept = {part.title, axis_keys_of(part.sweep), part.bad};
-    return json_line(row_json(row));
+StudyCases cases_of(const std::vector<StudyPart>& parts) {
+  const auto at = [&parts](std::size_t index) {
+    const PartCase place = part_case(parts, index);
+    return std::pair(&parts[place.part], place.index);
   };
-  jobs.lost = [&parts, case_of](std::size_t job, const std::string& reason) {
-    const PartCase place = part_case(parts, case_of(job));
-    const StudyPart& part = parts[place.part];
-    Row row = failed_row(part.sweep.at(place.index), reason);
+  const auto swept = [](const StudyPart& part, Row row) {
     row.swept = {part.title, axis_keys_of(part.sweep), part.bad};
-    if (part.sweep.border) row.border = border_key(part.sweep);
-    return json_line(row_json(row));
+    return row;
   };
-  return jobs;
+  StudyCases cases;
+  cases.id = id_of(parts);
+  for (const StudyPart& part : parts) cases.count += part.sweep.size();
+  cases.run = [=](std::size_t index) {
+    const auto [part, of_part] = at(index);
+    return swept(*part, part->run ? part->run(part->sweep, of_part) : run_at(part->sweep, of_part));
+  };
+  cases.lost = [=](std::size_t index, const std::string& reason) {
+    const auto [part, of_part] = at(index);
+    Row row = swept(*part, failed_row(part->sweep.at(of_part), reason));
+    if (part->sweep.border) row.border = border_key(part->sweep);
+    return row;
+  };
+  cases.is_of = [=](std::size_t index, const nlohmann::ordered_json& row) {
+    const auto [part, of_part] = at(index);
+    return part->sweep.border || row.value("case", "") == id_of(part->sweep.at(of_part));
+  };
+  return cases;
 }
 
 std::vector<std::string> axis_keys_of(const Sweep& sweep) {

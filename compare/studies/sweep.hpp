@@ -3,7 +3,8 @@
 
 #include "records/case.hpp"
 #include "records/row.hpp"
-#include "studies/processes.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -55,6 +56,7 @@ struct StudyPart {
   Sweep sweep;
   std::function<Row(const Sweep& sweep, std::size_t index)> run{};  ///< Of a case; none: `run_at`.
   Bad bad = Bad::does_not_hold;                                     ///< What its maps count.
+  std::string question{};                                           ///< One sentence; empty where the title says it.
 };
 
 /// Reads `KEY`, or `KEY=FIRST:LAST`, as a sweep's border. @throws InputError in words for anything else.
@@ -63,9 +65,6 @@ void parse_border(const std::string& text, Sweep& sweep);
 /// @throws InputError where an axis or a setting is no parameter of the scene and no knob, or out of its range, and
 /// where the scene cannot be used at all.
 void check(const Sweep& sweep);
-
-/// Tells two studies apart: 16 hexadecimal digits.
-[[nodiscard]] std::string id_of(const std::vector<StudyPart>& parts);
 
 /// The row of a Case; with a border, of its bisection.
 [[nodiscard]] Row run_at(const Sweep& sweep, std::size_t index);
@@ -78,11 +77,18 @@ struct PartCase {
 /// Where a case is in sweeps that stand one behind the other. @param index among all their cases, of which it is one.
 [[nodiscard]] PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index);
 
-/// Cases of sweeps that stand one behind the other as jobs, each of which gives a line of JSON. `take` is still to be
-/// set.
-/// @param parts are to live as long as the jobs. @param case_of the index of a job among all cases.
-[[nodiscard]] Jobs jobs_of(const std::vector<StudyPart>& parts, std::size_t count,
-                           const std::function<std::size_t(std::size_t)>& case_of);
+/// What a study runs: each case gives a row.
+struct StudyCases {
+  std::string id;  ///< Tells two studies apart: 16 hexadecimal digits.
+  std::size_t count = 0;
+  std::function<Row(std::size_t)> run;                              ///< In a process of its own. It must not throw.
+  std::function<Row(std::size_t, const std::string& reason)> lost;  ///< Where that process ended or was killed.
+  /// Whether a row of a file can be that of a case.
+  std::function<bool(std::size_t, const nlohmann::ordered_json& row)> is_of;
+  int limit_s = 60;  ///< A case that takes longer fails, where the options do not say otherwise.
+};
+/// Those of sweeps that stand one behind the other. @param parts are to live as long.
+[[nodiscard]] StudyCases cases_of(const std::vector<StudyPart>& parts);
 
 /// How the border of a sweep is looked for.
 struct BorderSearch {

@@ -1,6 +1,7 @@
 #include "studies/work_precision.hpp"
 
 #include "runs/contender.hpp"
+#include "runs/continuous_error.hpp"
 #include "runs/cost.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/scene_plan.hpp"
@@ -150,13 +151,11 @@ class MotionStudy {
         : scene(std::move(made)),
           script(script_of(scene)),
           scenery(scene.scenery),
-          places(continuous_places(scene, continuous::Law::octagon_sweep)),
-          places_without_friction(continuous_places(scene, continuous::Law::frictionless)) {}
+          courses(scene, scene.input, scene.steps) {}
     Scene scene;
     Script script;
     Scenery scenery;
-    std::vector<Vec2d> places;  ///< Where the continuous motion is at the end of every step.
-    std::vector<Vec2d> places_without_friction;
+    ContinuousCourses courses;
   };
 
   void measure_error(Point& point) {
@@ -165,23 +164,18 @@ class MotionStudy {
     const ScalarKind scalar = point.row.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64;
     point.contender = make_contender(point.row.contender, scalar, level.scene, level.scenery, planning);
     point.row.knob = point.contender->header().knob;
-    const std::vector<Vec2d>& places = is_reference(point.row.contender) ? level.places_without_friction : level.places;
+    ContinuousError error(level.courses.of(point.row.contender));
     InputCursor cursor(level.scene, level.script);
     std::vector<TraceStep> records(1);
-    double largest = 0;
-    double squares = 0;
     for (int step = 0; step < level.scene.steps; ++step) {
       records.front() = {};
       point.contender->step(cursor.at(step), records);
       const Vec2d made = records.front().path.back().position + records.front().remainder;
-      const double error = (made - places[static_cast<std::size_t>(step)]).norm();
-      if (!std::isfinite(error)) throw std::runtime_error(fmt::format("step {}: a position that is no number", step));
-      largest = std::max(largest, error);
-      squares += error * error;
+      if (!made.allFinite()) throw std::runtime_error(fmt::format("step {}: a position that is no number", step));
+      error.add(made, level.courses.end(step));
     }
     point.row.steps = level.scene.steps;
-    point.row.error_max_m = largest;
-    point.row.error_rms_m = std::sqrt(squares / level.scene.steps);
+    error.write(point.row);
   }
 
   [[nodiscard]] static bool same_curve(const Point& a, const Point& b) {

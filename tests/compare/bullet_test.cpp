@@ -40,6 +40,12 @@ TEST(BulletTheory, is_as_worked_out_by_hand) {
     EXPECT_NEAR(theory.lowest.value_or(0), lowest.value_or(0), contender.name == "wind_back" ? 1e-3 : 1e-9);
   }
   EXPECT_TRUE(bullet_theory({"octagon_sweep"}, 0.01).known);
+  for (const auto& [who, thickness, words] : {std::tuple{"penetration_resolution", 0.01, "0.6"},
+                                              {"mask", 0.01, "any"},
+                                              {"octagon_sweep", 0.1, "never"},
+                                              {"octagon_sweep in float", 0.1, "-"},
+                                              {"box2d bullet=off solids=dynamic", 0.1, "41.7"}})
+    EXPECT_EQ(bullet_theory_in_words(who, thickness), words) << who;
 }
 
 Row run(const std::string& scene, const std::vector<Case::Setting>& settings, const NamedContender& contender) {
@@ -80,12 +86,10 @@ TEST(LowestSpeed, of_box2d_with_its_holes_open_is_that_of_theory) {
 }
 
 TEST(PreparedStudies, ask_for_cases_that_can_be_run_in_every_corner_of_every_grid) {
-  std::vector<StudyPart> (*const makers[])(GridSize) = {bullet_parts, prepared_studies()[0].parts,
-                                                        prepared_studies()[1].parts, prepared_studies()[2].parts};
   int loaded = 0;
-  for (const auto& parts : makers)
+  for (const PreparedStudy& study : prepared_studies())
     for (const GridSize size : {GridSize::quick, GridSize::standard, GridSize::full})
-      for (const StudyPart& part : parts(size)) {
+      for (const StudyPart& part : study.parts(size, {})) {
         EXPECT_NO_THROW(check(part.sweep)) << part.title;
         Sweep sweep = part.sweep;
         sweep.contenders.resize(1);
@@ -123,8 +127,9 @@ Count through_in(const std::vector<StudyPart>& parts, const std::string& title, 
 }
 
 TEST(PreparedStudies, find_the_holes_of_box2d_on_their_quick_grids) {
-  std::map<std::string, std::vector<StudyPart>> studies{{"bullet", bullet_parts(GridSize::quick)}};
-  for (const PreparedStudy& study : prepared_studies()) studies[study.name] = study.parts(GridSize::quick);
+  std::map<std::string, std::vector<StudyPart>> studies;
+  for (const PreparedStudy& study : prepared_studies()) studies[study.name] = study.parts(GridSize::quick, {});
+  studies.erase("stability");  // has tests of its own
   const std::string wedge = "a wedge hit at 100 m/s, by solver iterations";
   EXPECT_GT(through_in(studies["corner"], wedge, "box2d").through, 0);
   EXPECT_GT(through_in(studies["squeeze"], "walls that close in", "box2d").through, 0);

@@ -140,46 +140,51 @@ TEST(BodyEnergyGained, is_that_of_motion_height_and_springs) {
   EXPECT_FALSE(energy_of(lifted, {0, 0}).body_energy_gained_j);
 }
 
-TEST(StabilityRegions, have_cases_on_every_grid_and_more_on_a_larger_one) {
-  const auto count = [](const char* grid) {
+TEST(StabilityParts, have_cases_on_every_grid_and_more_on_a_larger_one) {
+  const auto count = [](GridSize size) {
     std::size_t cases = 0;
-    for (const StabilityRegion& region : stability_regions({}, grid)) {
-      EXPECT_NO_THROW(check(region.sweep)) << region.name;
-      EXPECT_EQ(region.sweep.axes.size(), 2U) << region.name;
-      cases += region.sweep.size();
+    for (const StudyPart& part : stability_parts(size, {})) {
+      EXPECT_NO_THROW(check(part.sweep)) << part.title;
+      EXPECT_EQ(part.sweep.axes.size(), part.sweep.border ? 0U : 2U) << part.title;
+      cases += part.sweep.size();
     }
     return cases;
   };
-  EXPECT_LT(count("quick"), count("standard"));
-  EXPECT_LT(count("standard"), count("full"));
-  for (const StabilityBorder& border : stability_borders({})) EXPECT_NO_THROW(check(border.sweep)) << border.name;
+  EXPECT_LT(count(GridSize::quick), count(GridSize::standard));
+  EXPECT_LT(count(GridSize::standard), count(GridSize::full));
 }
 
-TEST(StabilityRegions, hold_for_octagon_sweep_in_their_first_cases_and_every_replica) {
+TEST(StabilityParts, run_box2d_once_and_all_others_in_double_and_in_float) {
+  for (const StudyPart& part : stability_parts(GridSize::quick, {}))
+    for (const NamedContender& contender : part.sweep.contenders)
+      EXPECT_EQ(part.sweep.scalars.size(), contender.name == "box2d" ? 1U : 2U) << part.title << " " << contender.name;
+}
+
+TEST(StabilityParts, hold_for_octagon_sweep_in_their_first_cases_and_every_replica) {
   int replicas = 0;
-  for (const StabilityRegion& region : stability_regions({"octagon_sweep"}, "quick")) {
-    const bool has_replicas = !region.replicas_along.empty();
-    const std::size_t cases = has_replicas ? region.sweep.size() : 2;  // one in double, one in float
+  for (const StudyPart& part : stability_parts(GridSize::quick, {"octagon_sweep"})) {
+    if (part.sweep.border) continue;
+    std::size_t cases = 1;
     for (std::size_t k = 0; k < cases; ++k) {
-      if (region.sweep.at(k).scalar != "double") continue;
-      const Row row = run_at(region, k);
-      EXPECT_EQ(row.verdict, Verdict::holds) << region.name << ", case " << k << ": " << row.reason;
-      if (!has_replicas) continue;
-      EXPECT_EQ(row.events_ok, true) << region.name << ", case " << k;
+      if (part.sweep.at(k).scalar != "double") continue;
+      const Row row = part.run(part.sweep, k);
+      EXPECT_EQ(row.verdict, Verdict::holds) << part.title << ", case " << k << ": " << row.reason;
+      if (!row.events_ok) continue;
+      EXPECT_TRUE(*row.events_ok) << part.title << ", case " << k;
+      cases = part.sweep.size();
       ++replicas;
     }
   }
   EXPECT_GT(replicas, 2);
 }
 
-TEST(StabilityRegions, tell_where_the_events_are_others) {
-  StabilityRegion region;
-  region.sweep.scene = "ramp";
-  region.sweep.axes = {parse_axis("angle=10,70")};
-  region.sweep.contenders = {{"octagon_sweep"}};
-  region.replicas_along = "angle";
-  EXPECT_EQ(run_at(region, 0).events_ok, true);
-  const Row other = run_at(region, 1);
+TEST(RunStable, tells_where_the_events_are_others) {
+  Sweep sweep;
+  sweep.scene = "ramp";
+  sweep.axes = {parse_axis("angle=10,70")};
+  sweep.contenders = {{"octagon_sweep"}};
+  EXPECT_EQ(run_stable(sweep, 0, "angle").events_ok, true);
+  const Row other = run_stable(sweep, 1, "angle");
   EXPECT_EQ(other.events_ok, false) << "a steep slope is no support";
   EXPECT_EQ(other.verdict, Verdict::flagged);
 }

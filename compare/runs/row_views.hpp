@@ -1,4 +1,4 @@
-/// A scene in one screen: what happens to each contender, in plain words, and what a step costs.
+/// What a terminal shows of rows: a scene as a table or in plain words, and all scenes together.
 #pragma once
 
 #include "records/row.hpp"
@@ -7,6 +7,11 @@
 #include <vector>
 
 namespace paperproof::compare {
+
+/// One line per row under a heading: the columns that matter first; those that no row has are left out. "prec. recall"
+/// is against exact arithmetic, "since" the first step on which a contender and Box2D differ, "ns/step"
+/// minimum..median.
+[[nodiscard]] std::string table(const std::vector<Row>& rows);
 
 /// "through", "ends inside", "hangs", "stopped at 0.600", "meets nothing", "cannot run" or "failed"; with the step
 /// where it is not the first one.
@@ -17,5 +22,9 @@ namespace paperproof::compare {
 
 /// One line per row under a heading: contender, outcome, nanoseconds per step.
 [[nodiscard]] std::string headline(const std::vector<Row>& rows);
+
+/// One line per contender, in the order in which they first appear, and a last line that says what the columns are. A
+/// column whose metric no row has is left out.
+[[nodiscard]] std::string summary_table(const std::vector<Row>& rows);
 
 }  // namespace paperproof::compare

@@ -1,0 +1,200 @@
+#include "command/study_view.hpp"
+
+#include "records/metric.hpp"
+#include "runs/environment.hpp"
+#include "studies/bullet.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Rows that a page lists one by one.
+constexpr std::size_t most_listed = 2000;
+
+/// Whether it is flagged for nothing but its validity: Box2D's travel cap, for example.
+bool is_beyond_limits(const ordered_json& row) {
+  const std::string reason = row.value("reason", "");
+  if (row.value("verdict", "") != "flagged" || !reason.starts_with("validity: ")) return false;
+  for (const char* axis : {"safety: ", "progress: ", "answer: "})
+    if (reason.find(axis) != std::string::npos) return false;
+  return true;
+}
+
+/// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.
+std::string values_of(const ordered_json& row, const std::vector<std::string>& keys) {
+  std::string text;
+  for (const std::string& key : keys)
+    if (row.contains("parameters") && row["parameters"].contains(key))
+      text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", key, row["parameters"][key].get<double>());
+  return text;
+}
+
+std::string number_or_dash(const ordered_json& row, const char* key) {
+  return row.contains(key) ? fmt::format("{:.4g}", row[key].get<double>()) : "-";
+}
+
+Cell unless_empty(const std::string& text) { return text.empty() ? std::nullopt : Cell(text); }
+
+/// As `drift 3, energy 1`.
+Cell in_words(const std::map<std::string, int>& fails) {
+  std::string text;
+  for (const auto& [predicate, count] : fails)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", predicate, count);
+  return unless_empty(text);
+}
+
+}  // namespace
+
+StudyView::StudyView(const PreparedStudy& study, const std::vector<StudyPart>& parts) : study_(study) {
+  for (const StudyPart& part : parts) {
+    if (part.sweep.border) continue;
+    Title& title = entry_of(titles_, part.title);
+    title.question = part.question;
+    title.keys = axis_keys_of(part.sweep);
+    title.bad = part.bad;
+    if (!title.keys.empty() && !title.grids)
+      title.grids.emplace(part.title, title.keys.front(), title.keys.size() > 1 ? title.keys[1] : "", part.bad);
+  }
+}
+
+void StudyView::add(const StudyPart& part, const ordered_json& row) {
+  if (part.sweep.border) return add_border(part, row);
+  Title& title = entry_of(titles_, part.title);
+  if (title.grids) title.grids->add(row);
+  Score& score = entry_of(title.scores, who_ran(row, title.keys));
+  ++score.cases;
+  for (const Metric& metric : metrics())
+    if (std::string key(metric.key); metric.group == Metric::Group::study && row.value(key, ordered_json{}) == false)
+      ++score.fails[key.substr(0, key.find("_ok"))];
+  const std::string verdict = row.value("verdict", "");
+  if (verdict == "holds") {
+    ++score.holds;
+    return;
+  }
+  if (verdict == "not_applicable") {
+    ++score.cannot;
+    return;
+  }
+  const std::string at = values_of(row, title.keys);
+  if (title.bad == Bad::does_not_hold && faults_.size() < most_listed)
+    faults_.push_back(
+        {part.title, who_ran(row), at, verdict, shortened(row.value("reason", "")), row.value("command", "")});
+  if (is_beyond_limits(row)) {
+    ++score.beyond;
+    return;
+  }
+  ++(row.value("tunnels", 0) > 0 ? score.through : score.other);
+  score.failed += verdict == "failed";
+  if (score.first_bad.empty()) score.first_bad = at;
+}
+
+void StudyView::add_border(const StudyPart& part, const ordered_json& row) {
+  const std::vector<std::string> keys = axis_keys_of(part.sweep);
+  Border& border = borders_.emplace_back();
+  border.title = part.title;
+  border.parameter = row.value("border", "");
+  if (const auto& range = part.sweep.border_range)
+    border.range = fmt::format("{:g} to {:g}", range->first, range->second);
+  border.who = who_ran(row);
+  border.at = values_of(row, keys);
+  border.low = number_or_dash(row, "border_low");
+  border.high = number_or_dash(row, "border_high");
+  const ordered_json parameters = row.value("parameters", ordered_json::object());
+  if (study_.theory != nullptr && !keys.empty())
+    border.theory = study_.theory(border.who, parameters.value(keys.front(), 0.0));
+  const std::string verdict = row.value("verdict", "");
+  if (verdict == "failed" || verdict == "not_applicable") border.reason = shortened(row.value("reason", ""));
+  border.command = row.value("command", "");
+}
+
+std::vector<Column<StudyView::Scored>> StudyView::score_columns(Bad bad) {
+  const auto count = [](int Score::*of) {
+    return [of](const Scored& scored) { return std::to_string(scored.second.*of); };
+  };
+  std::vector<Column<Scored>> columns{{"contender", [](const Scored& scored) { return scored.first; }},
+                                      {"cases", count(&Score::cases)},
+                                      {"hold", count(&Score::holds)},
+                                      {"through", count(&Score::through)}};
+  if (bad == Bad::tunnels) {
+    const auto ran = [](const Score& score) { return score.cases - score.cannot - score.failed; };
+    columns.push_back({"rate", [ran](const Scored& scored) -> Cell {
+                         const auto& [who, score] = scored;
+                         if (ran(score) == 0) return std::nullopt;
+                         return fmt::format("{:.4f}", static_cast<double>(score.through) / ran(score));
+                       }});
+    columns.push_back({"95 % from", [ran](const Scored& scored) {
+                         return fmt::format("{:.6f}", wilson(scored.second.through, ran(scored.second)).low);
+                       }});
+    columns.push_back({"to", [ran](const Scored& scored) {
+                         return fmt::format("{:.6f}", wilson(scored.second.through, ran(scored.second)).high);
+                       }});
+  }
+  columns.insert(columns.end(),
+                 {{"other faults", count(&Score::other)},
+                  {"beyond limits", count(&Score::beyond)},
+                  {"cannot run", count(&Score::cannot)},
+                  {"predicates that fail", [](const Scored& scored) { return in_words(scored.second.fails); }},
+                  {"first fault at", [](const Scored& scored) { return unless_empty(scored.second.first_bad); }}});
+  return columns;
+}
+
+std::string StudyView::text() const {
+  std::string text;
+  for (const auto& [name, title] : titles_) {
+    const std::string heading = name + (title.question.empty() ? "" : ": ") + title.question;
+    text += (text.empty() ? "" : "\n") + heading + (heading.empty() ? "" : "\n\n");
+    text += view(title.scores, score_columns(title.bad));
+  }
+  if (borders_.empty()) return text;
+  return text + (text.empty() ? "" : "\n") +
+         view<Border>(borders_, {{"border of", [](const Border& one) { return unless_empty(one.title); }},
+                                 {"parameter", [](const Border& one) { return one.parameter; }},
+                                 {"range", [](const Border& one) { return unless_empty(one.range); }},
+                                 {"contender", [](const Border& one) { return one.who; }},
+                                 {"at", [](const Border& one) { return unless_empty(one.at); }},
+                                 {"holds up to", [](const Border& one) { return one.low; }},
+                                 {"fails from", [](const Border& one) { return one.high; }},
+                                 {"theory", [](const Border& one) { return unless_empty(one.theory); }},
+                                 {"cannot run", [](const Border& one) { return unless_empty(one.reason); }}});
+}
+
+ChartPage StudyView::page() const {
+  std::vector<Line> lines;
+  for (const Border& one : borders_)
+    lines.push_back({one.title, one.who, one.at, "border",
+                     fmt::format("holds up to {}, fails from {}{}{}", one.low, one.high,
+                                 one.theory.empty() ? "" : ", theory ", one.theory),
+                     one.command});
+  for (const auto& [name, title] : titles_)
+    for (const auto& [who, score] : title.bad == Bad::tunnels ? title.scores : std::vector<Scored>{}) {
+      const int ran = score.cases - score.cannot - score.failed;
+      const Interval interval = wilson(score.through, ran);
+      lines.push_back({name, who, "", "rate",
+                       fmt::format("{} of {} get through; 95 % from {:.6f} to {:.6f}", score.through, ran, interval.low,
+                                   interval.high),
+                       ""});
+    }
+  lines.insert(lines.end(), faults_.begin(), faults_.end());
+  const Table table = table_of<Line>(lines, {{"question", [](const Line& line) { return unless_empty(line.title); }},
+                                             {"contender", [](const Line& line) { return line.who; }},
+                                             {"at", [](const Line& line) { return unless_empty(line.at); }},
+                                             {"verdict", [](const Line& line) { return line.verdict; }},
+                                             {"why", [](const Line& line) { return unless_empty(line.why); }},
+                                             {"command", [](const Line& line) { return unless_empty(line.command); }}});
+  ChartPage page;
+  page.title = study_.title;
+  for (const auto& [name, title] : titles_)
+    for (ChartGrid& grid : title.grids ? title.grids->grids() : std::vector<ChartGrid>{})
+      page.grids.push_back(std::move(grid));
+  if (!page.grids.empty()) page.paragraphs.emplace_back(how_to_read_maps);
+  page.paragraphs.insert(page.paragraphs.end(), study_.paragraphs.begin(), study_.paragraphs.end());
+  if (!lines.empty()) page.table = {table.heading, table.lines};
+  page.environment = environment();
+  return page;
+}
+
+}  // namespace paperproof::compare
