@@ -2,7 +2,6 @@
 
 #include "records/metric.hpp"
 #include "runs/environment.hpp"
-#include "studies/bullet.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -119,20 +118,16 @@ std::vector<Column<StudyView::Scored>> StudyView::score_columns(Bad bad) {
                                       {"cases", count(&Score::cases)},
                                       {"hold", count(&Score::holds)},
                                       {"through", count(&Score::through)}};
-  if (bad == Bad::tunnels) {
-    const auto ran = [](const Score& score) { return score.cases - score.cannot - score.failed; };
-    columns.push_back({"rate", [ran](const Scored& scored) -> Cell {
-                         const auto& [who, score] = scored;
-                         if (ran(score) == 0) return std::nullopt;
-                         return fmt::format("{:.4f}", static_cast<double>(score.through) / ran(score));
-                       }});
-    columns.push_back({"95 % from", [ran](const Scored& scored) {
-                         return fmt::format("{:.6f}", wilson(scored.second.through, ran(scored.second)).low);
-                       }});
-    columns.push_back({"to", [ran](const Scored& scored) {
-                         return fmt::format("{:.6f}", wilson(scored.second.through, ran(scored.second)).high);
-                       }});
-  }
+  if (bad == Bad::tunnels)
+    columns.insert(columns.end(),
+                   {{"rate",
+                     [](const Scored& scored) -> Cell {
+                       const auto& [who, score] = scored;
+                       if (score.ran() == 0) return std::nullopt;
+                       return fmt::format("{:.4f}", static_cast<double>(score.through) / score.ran());
+                     }},
+                    {"95 % from", [](const Scored& scored) { return fmt::format("{:.6f}", scored.second.rate().low); }},
+                    {"to", [](const Scored& scored) { return fmt::format("{:.6f}", scored.second.rate().high); }}});
   columns.insert(columns.end(),
                  {{"other faults", count(&Score::other)},
                   {"beyond limits", count(&Score::beyond)},
@@ -170,14 +165,11 @@ ChartPage StudyView::page() const {
                                  one.theory.empty() ? "" : ", theory ", one.theory),
                      one.command});
   for (const auto& [name, title] : titles_)
-    for (const auto& [who, score] : title.bad == Bad::tunnels ? title.scores : std::vector<Scored>{}) {
-      const int ran = score.cases - score.cannot - score.failed;
-      const Interval interval = wilson(score.through, ran);
+    for (const auto& [who, score] : title.bad == Bad::tunnels ? title.scores : std::vector<Scored>{})
       lines.push_back({name, who, "", "rate",
-                       fmt::format("{} of {} get through; 95 % from {:.6f} to {:.6f}", score.through, ran, interval.low,
-                                   interval.high),
+                       fmt::format("{} of {} get through; 95 % from {:.6f} to {:.6f}", score.through, score.ran(),
+                                   score.rate().low, score.rate().high),
                        ""});
-    }
   lines.insert(lines.end(), faults_.begin(), faults_.end());
   const Table table = table_of<Line>(lines, {{"question", [](const Line& line) { return unless_empty(line.title); }},
                                              {"contender", [](const Line& line) { return line.who; }},

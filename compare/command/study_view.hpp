@@ -3,6 +3,7 @@
 
 #include "report/row_pictures.hpp"
 #include "runs/view.hpp"
+#include "studies/bullet.hpp"
 #include "studies/prepared_studies.hpp"
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,8 @@ class StudyView {
     int cannot = 0;
     std::map<std::string, int> fails;  ///< Predicates that do not hold, in how many cases.
     std::string first_bad;             ///< Where the first case is that does not hold.
+    [[nodiscard]] int ran() const { return cases - cannot - failed; }
+    [[nodiscard]] Interval rate() const { return wilson(through, ran()); }  ///< Of tunnels.
   };
   using Scored = std::pair<std::string, Score>;  ///< By contender.
   struct Title {

@@ -3,7 +3,6 @@
 #include "command/compare_command.hpp"
 #include "command/progress.hpp"
 #include "report/row_pictures.hpp"
-#include "runs/contender.hpp"
 #include "runs/environment.hpp"
 #include "runs/view.hpp"
 #include "scenes/load.hpp"
@@ -21,10 +20,6 @@
 namespace paperproof::compare {
 namespace {
 
-std::string name_of_curve(const Row& row) {
-  return row.contender + (row.scalar == "float" && !is_reference(row.contender) ? " float" : "");
-}
-
 ChartPage page_of(const WorkPrecision& found) {
   std::vector<nlohmann::ordered_json> rows;
   for (const std::vector<Row>* part : {&found.points, &found.curves})
@@ -39,8 +34,8 @@ ChartPage page_of(const WorkPrecision& found) {
 std::string slopes(const WorkPrecision& found) {
   using Line = std::pair<std::string, std::vector<const Row*>>;
   std::vector<Line> lines;
-  for (const Row& curve : found.curves) entry_of(lines, name_of_curve(curve) + ' ' + curve.curve).push_back(&curve);
-  std::vector<Column<Line>> columns{{"contender", [](const Line& line) { return name_of_curve(*line.second.front()); }},
+  for (const Row& curve : found.curves) entry_of(lines, called(curve) + ' ' + curve.curve).push_back(&curve);
+  std::vector<Column<Line>> columns{{"contender", [](const Line& line) { return called(*line.second.front()); }},
                                     {"over", [](const Line& line) { return line.second.front()->curve; }}};
   for (const Motion& motion : motions())
     columns.push_back({std::string(motion.name), [&motion](const Line& line) -> Cell {

@@ -10,20 +10,27 @@ using Group = Metric::Group;
 using Of = Metric::Of;
 
 constexpr std::array all{
-    Metric{"finite", "Finite", "", Group::study, Of::one, "Every position and velocity is a number", &Row::finite},
+    Metric{"finite", "Finite", "", Group::study, Of::one, "Whether every position and velocity is a number",
+           &Row::finite},
     Metric{"penetration_ok", "No penetration", "", Group::study, Of::one,
-           "Whether the character passes and enters nothing, and no body is deeper than 5 mm in a solid",
+           "Whether the character passes nothing, and ends no step inside anything by more than an ulp, and bodies by "
+           "at most 5 mm",
            &Row::penetration_ok},
     Metric{"drift_ok", "No drift", "", Group::study, Of::one,
-           "Whether it stays at rest within 1e-6 m (octagon_sweep in double) or 1e-4 m, or two ulp of its place if "
-           "that is more",
+           "Whether at rest it stays within 1e-6 m (octagon_sweep in double) or 1e-4 m (others), or two ulp of its "
+           "place if that is more; not asked in a crowd, nor of Box2D on slopes",
            &Row::drift_ok},
     Metric{"energy_ok", "No energy gained", "", Group::study, Of::one,
-           "Whether neither the characters nor bodies gain more energy than their bound", &Row::energy_ok},
+           "Whether the energy never rises, where nothing is put in, by more than gravity times the contender's reach "
+           "(1e-6 m; Box2D's skin, 20 mm) and rounding; of bodies by more than 1 % of what moves and the weight of "
+           "loose ones times 20 mm",
+           &Row::energy_ok},
     Metric{"hanging_ok", "No hanging", "", Group::study, Of::one,
-           "Whether it never hangs, and is never stuck beside a way out", &Row::hanging_ok},
+           "Whether no step that could fall hangs, and none is stuck beside a way out", &Row::hanging_ok},
     Metric{"events_ok", "Same events", "", Group::study, Of::one,
-           "Whether it has the sequence of events of the case that it is a replica of", &Row::events_ok},
+           "Whether it has the sequence of events of the case that it is a replica of: the same contacts and supports "
+           "in order",
+           &Row::events_ok},
     Metric{"border_low", "Holds up to", "", Group::study, Of::one,
            "Largest value of the bisected parameter that is known to hold; absent where none does", &Row::border_low},
     Metric{"border_high", "Fails from", "", Group::study, Of::one,

@@ -28,11 +28,6 @@ std::function<Cell(const Row&)> shares(std::optional<double> Row::*precision, st
   };
 }
 
-std::string contender_and_knobs(const Row& row) {
-  const bool says_float = row.scalar == "float" && !row.contender.starts_with("box2d");
-  return row.contender + (says_float ? " (float)" : "") + (row.knob.empty() ? "" : " " + row.knob);
-}
-
 Cell cost(const Row& row) {
   if (!row.ns_per_step) return std::nullopt;
   return fmt::format("{:.0f}..{:.0f}", *row.ns_per_step, row.ns_per_step_median.value_or(*row.ns_per_step));
@@ -54,7 +49,7 @@ Cell memory(const Row& row) {
 /// What a reader looks for first. The rest of a row stands in the report and in the rows' JSON.
 const std::vector<Column<Row>>& columns_of_table() {
   static const std::vector<Column<Row>> all{
-      {"contender", contender_and_knobs},
+      {"contender", called},
       {"verdict", [](const Row& row) { return std::string(name_of(row.verdict)); }},
       {"tunnels", number(&Row::tunnels)},
       {"inside", number(&Row::steps_ending_inside)},

@@ -1,5 +1,6 @@
 #include "studies/stability.hpp"
 
+#include "records/metric.hpp"
 #include "records/verdict.hpp"
 #include "runs/contender.hpp"
 #include "runs/run_case.hpp"
@@ -269,20 +270,12 @@ std::vector<StudyPart> stability_parts(GridSize size, const std::vector<std::str
 }
 
 std::vector<std::string> stability_paragraphs() {
-  return {
+  std::vector<std::string> all{
       "Stiff and extreme cases, judged step by step by exact arithmetic. A case does not hold where one of the "
-      "predicates below fails, the scene's exact answer is missed, or the contender's limits are passed.",
-      "finite: every position and velocity is a number.",
-      "penetration: passes nothing, and ends no step inside anything by more than an ulp; bodies by at most 5 mm.",
-      "drift: at rest it stays within 1e-6 m (octagon_sweep in double) or 1e-4 m (others), or two ulp of its place "
-      "where that is more; not asked in a crowd, nor of Box2D on slopes.",
-      "energy: where nothing is put in the energy never rises by more than gravity times the contender's reach (1e-6 "
-      "m; "
-      "Box2D's skin, 20 mm) and rounding; of bodies by more than 1 % of what moves and the weight of loose ones times "
-      "20 mm.",
-      "hanging: no step that could fall hangs, and none is stuck beside a way out.",
-      "events: the sequence of events is that of the first of the replicas: the same contacts and supports in order.",
-  };
+      "predicates below fails, the scene's exact answer is missed, or the contender's limits are passed."};
+  for (const char* predicate : {"finite", "penetration_ok", "drift_ok", "energy_ok", "hanging_ok", "events_ok"})
+    all.push_back(fmt::format("{}: {}.", predicate, find_metric(predicate)->meaning));
+  return all;
 }
 
 void judge_stability(Row& row, bool has_slopes) {
