@@ -1,10 +1,10 @@
 /// Verdicts, and what is said of many rows: outcomes in plain words, all scenes in one table, and the gallery: who
 /// fails where, and who is the cheapest of those that do not.
-#include "runs/row_views.hpp"
 #include "compare/scene_files.hpp"
 #include "compare/scene_runs.hpp"
 #include "records/verdict.hpp"
 #include "runs/gallery.hpp"
+#include "runs/row_views.hpp"
 #include "words.hpp"
 
 #include <algorithm>
