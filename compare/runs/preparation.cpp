@@ -36,7 +36,7 @@ Scene sample_of(const Scene& scene, const Scenery& scenery, std::size_t stride) 
   sample.scenery = {};
   sample.ids.clear();
   sample.movers.clear();
-  sample.tile_level = {};
+  sample.tiles = nullptr;
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); piece += static_cast<PieceIndex>(stride)) {
     const ColliderDef& whole = scene.scenery.colliders[scenery.pieces()[piece].collider];
     const auto vertices = scenery.vertices_of(piece);

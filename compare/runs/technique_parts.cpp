@@ -39,20 +39,14 @@ void refuse_coarser_drawing(const TechniqueEntry& technique, const Scene& scene,
                                     technique.name, finest_raster, scene.pixels_per_metre));
 }
 
-/// A level of tiles is complete, has pixels of its own, and is in the way through its tiles alone.
+/// A level of tiles is complete and has pixels of its own.
 std::shared_ptr<const PixelTileSet> tiles_for(const TechniqueEntry& technique, const Scene& scene,
                                               std::span<const KnobSetting> knobs) {
-  if (technique.name != "pixel_tile" || !scene.tile_level.tiles) return nullptr;
+  if (technique.name != "pixel_tile" || !scene.tiles) return nullptr;
   for (const std::string_view knob : {"raster_pixels_per_metre", "pixels_per_tile"})
     if (is_turned(knobs, knob))
-      throw NotApplicable(fmt::format("pixel_tile has its tiles from the scene's file, where {} is no knob", knob));
-  const std::vector<ColliderDef>& all = scene.scenery.colliders;
-  const auto solids = std::count_if(all.begin(), all.end(), [](const ColliderDef& each) { return !each.sensor; });
-  if (const std::size_t others = static_cast<std::size_t>(solids) - scene.tile_level.colliders; others > 0)
-    throw NotApplicable(
-        fmt::format("pixel_tile sees the tiles of the scene's file alone, and {} in the way beside them",
-                    others == 1 ? "1 collider is" : fmt::format("{} colliders are", others)));
-  return scene.tile_level.tiles;
+      throw NotApplicable(fmt::format("pixel_tile has its tiles from the scene, where {} is no knob", knob));
+  return scene.tiles;
 }
 
 std::shared_ptr<const SceneryDef> decoration_for(const TechniqueEntry& technique, const Scene& scene) {

@@ -13,8 +13,8 @@ namespace paperproof::compare {
 [[nodiscard]] Vec2d as_run(const Vec2d& value, ScalarKind scalar) noexcept;
 [[nodiscard]] SceneryDef as_run(SceneryDef scenery, ScalarKind scalar);
 
-/// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile where it
-///   would see only the part of the scenery that is in a file of tiles, or with other pixels than those of the file.
+/// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile with
+///   other pixels than those of the scene's tiles.
 [[nodiscard]] TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Planning& planning);
 
 /// The scene's character with the jumping rules in force. The knob `jump_rules` comes first, then the scene's own word,

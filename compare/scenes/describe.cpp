@@ -137,7 +137,7 @@ std::string describe(const Scene& scene) {
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));
   if (!scene.joints.empty()) line("joints", std::to_string(scene.joints.size()));
   for (const Joint& each : scene.joints) line("", joint(scene, each));
-  if (const PixelTileSet* tiles = scene.tile_level.tiles.get()) {
+  if (const PixelTileSet* tiles = scene.tiles.get()) {
     // The first of the types is no tile.
     line("tiles", fmt::format("{} of {} x {} px, {} x {} in the map", counted(tiles->types.size() - 1, "type"),
                               tiles->pixels_per_tile, tiles->pixels_per_tile, tiles->columns,

@@ -12,7 +12,6 @@
 #include "scenes/json_motion.hpp"
 #include "scenes/load.hpp"
 #include "scenes/picture.hpp"
-#include "scenes/pixel_tile_file.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
 
@@ -128,8 +127,8 @@ class SceneryReader {
   void read_entry(const JsonCursor& entry, std::size_t index) {
     if (entry.find("decoration")) return read_decoration(entry, index);
     entry.refuse_other_keys({"id", "polygon", "holes", "chain", "circle", "one_way", "sensor", "surface_speed", "tiled",
-                             "picture", "solid", "background", "pixel_tiles"});
-    const std::string shape = only_shape(entry, {"polygon", "chain", "circle", "tiled", "picture", "pixel_tiles"});
+                             "picture", "solid", "background"});
+    const std::string shape = only_shape(entry, {"polygon", "chain", "circle", "tiled", "picture"});
     refuse_key_beside(entry, "solid", shape, "picture");
     refuse_key_beside(entry, "background", shape, "picture");
     const std::string id = take_id(entry, "scenery", index);
@@ -142,10 +141,8 @@ class SceneryReader {
       }
       if (shape == "tiled")
         add_map(id, at);
-      else if (shape == "picture")
-        add_picture(id, entry, at);
       else
-        add_tiles(id, at);
+        add_picture(id, entry, at);
     } else {
       add(id, read_collider(entry, shape, step_seconds_), at.where());
     }
@@ -186,20 +183,6 @@ class SceneryReader {
     const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
       return scenery_of(picture, rule, scene_.pixels_per_metre, file);
     });
-    add_pixels(id, at, pixels);
-  }
-
-  void add_tiles(const std::string& id, const JsonCursor& at) {
-    if (scene_.tile_level.tiles) at.refuse("expected one file of tiles in a scene; this is the second");
-    auto tiles = std::make_shared<const PixelTileSet>(read_beside(at, read_pixel_tiles));
-    const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
-      return scenery_of(*tiles, scene_.pixels_per_metre, file);
-    });
-    add_pixels(id, at, pixels);
-    scene_.tile_level = {std::move(tiles), pixels.ids.size()};
-  }
-
-  void add_pixels(const std::string& id, const JsonCursor& at, const PixelScenery& pixels) {
     for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
       const std::string own = id + "/" + pixels.ids[i];
       claim(own, at);

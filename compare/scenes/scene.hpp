@@ -41,12 +41,6 @@ struct OtherCharacter {
   std::vector<InputEvent> input;  ///< Sorted by step.
 };
 
-/// Part of the scenery as a file has it whose pixels say what a collision does: for the technique that can read that.
-struct TileLevel {
-  std::shared_ptr<const PixelTileSet> tiles{};  ///< None: there is no such part.
-  std::size_t colliders = 0;                    ///< That its solid pixels are for everybody else.
-};
-
 /// The scene's own word on the article's two jumping rules. Where it has none, contender and knob decide.
 struct JumpRules {
   std::optional<bool> no_jump_toward_wall{};  ///< See `CharacterDef`, both.
@@ -88,7 +82,9 @@ struct Scene {
   /// Part of the scenery is made of pixels: a contender that draws the level draws these, `pixels_per_metre` of them,
   /// or none.
   bool has_pixels = false;
-  TileLevel tile_level{};
+  /// Its solid pixels are the scenery, for everybody. What else its pixels say of a collision is for the technique that
+  /// can read that. None: the scenery has no tiles.
+  std::shared_ptr<const PixelTileSet> tiles{};
   std::vector<Decoration> decoration{};
   /// The picture of the character, rows from the top, `#` for a pixel that collides: for a contender that compares
   /// pictures. Its size is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.

@@ -1,7 +1,6 @@
 /// Runs over levels of pixels.
 #include "compare/png_files.hpp"
 #include "compare/scene_runs.hpp"
-#include "compare/tile_levels.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -35,33 +34,17 @@ TEST(PictureRuns, are_not_drawn_with_fewer_pixels_than_the_picture_has) {
   EXPECT_EQ(row_of(too_fine, "octagon_sweep").verdict, Verdict::holds);
 }
 
-/// A scene over `level.json`, without gravity: 2 m/s is a pixel in each step.
-std::string tile_scene(const std::string& more = "") {
-  return R"({ "paperproof_scene": 1, "name": "tiles", "gravity": [0, 0], "dt": 0.015625, "steps": 60, "character": {
-              "position": [-0.9375, 0.875], "velocity": [2, 0] }, "scenery": [
-              { "id": "level", "pixel_tiles": "level.json" })" +
-         more + " ] }";
-}
-
-TEST(TileFileRuns, are_for_every_contender_and_pixel_tile_says_where_it_would_miss_something) {
-  const SceneFiles files;
-  files.write("level.json", hill_of_tiles);
-  const ReportScene alone = run_scene(files.load("scene.json", tile_scene()), quick());
-  for (const Row& row : alone.rows) {
-    EXPECT_EQ(row.verdict == Verdict::not_applicable, row.contender == "grid") << row.contender << ": " << row.reason;
-    EXPECT_NE(row.verdict, Verdict::failed) << row.contender << ": " << row.reason;
+TEST(TileRuns, have_the_pixels_of_the_tiles) {
+  const Scene scene = load_scene("pixel_hill", {});
+  for (const std::string knob : {"raster_pixels_per_metre", "pixels_per_tile"}) {
+    RunOptions options = quick({"pixel_tile"});
+    options.knobs = {parse_knob(knob + "=16")};
+    const Row row = row_of(run_scene(scene, options), "pixel_tile");
+    EXPECT_EQ(row.verdict, Verdict::not_applicable);
+    EXPECT_EQ(row.reason, "pixel_tile has its tiles from the scene, where " + knob + " is no knob");
   }
-  EXPECT_EQ(row_of(alone, "octagon_sweep").verdict, Verdict::holds);
-  EXPECT_EQ(row_of(alone, "pixel_tile").steps, 60);
-  const auto beside = [&](const std::string& more) {
-    return row_of(run_scene(files.load("scene.json", tile_scene(more)), quick({"pixel_tile"})), "pixel_tile");
-  };
-  const std::string block = R"({ "polygon": [[1,1],[2,1],[2,2]])";
-  EXPECT_EQ(beside(", " + block + R"(, "sensor": true })").steps, 60) << "it is in nobody's way";
-  const Row missed = beside(", " + block + "}");
-  EXPECT_EQ(missed.verdict, Verdict::not_applicable);
-  EXPECT_EQ(missed.reason,
-            "pixel_tile sees the tiles of the scene's file alone, and 1 collider is in the way beside them");
+  const ReportScene all = run_scene(scene, quick());
+  for (const Row& row : all.rows) EXPECT_NE(row.verdict, Verdict::failed) << row.contender << ": " << row.reason;
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
-/// Levels of pixels: pictures, and tiles whose pixels say what a collision does.
+/// Levels of pixels: pictures, and the hill of tiles whose pixels say what a collision does.
 #include "scenes/picture.hpp"
-#include "scenes/pixel_tile_file.hpp"
 
 #include "campaign/random.hpp"
 #include "compare/png_files.hpp"
 #include "compare/scene_files.hpp"
-#include "compare/tile_levels.hpp"
 #include "scenes/describe.hpp"
 
 #include <cmath>
@@ -16,7 +14,6 @@ namespace paperproof::compare {
 namespace {
 
 using Picture = SceneFilesTest;
-using PixelTileFile = SceneFilesTest;
 
 /// White, black, grass, glass, and glass that is frosted.
 const std::map<char, Rgba> colours{{'#', {255, 255, 255, 255}},
@@ -177,116 +174,20 @@ TEST_F(Picture, that_cannot_be_used_is_refused_in_one_line) {
             ": /scenery/0/solid: expected only beside \"picture\"");
 }
 
-const std::string names_level = "{ 'id': 'level', 'pixel_tiles': 'level.json' }";
-
-/// A tile of two by two pixels with the given rows, once, at the origin.
-std::string one_tile(const std::string& upper, const std::string& lower) {
-  return R"({ "paperproof_pixel_tiles": 1, "pixels_per_tile": 2, "tiles": { "x": [")" + upper + "\", \"" + lower +
-         R"("] }, "map": ["x"] })";
-}
-
-TEST_F(PixelTileFile, has_a_letter_for_everything_that_a_pixel_may_do) {
-  using enum PixelAction;
-  const auto read = [&](const std::string& upper, const std::string& lower) {
-    return read_pixel_tiles(files.write("level.json", one_tile(upper, lower)), "level.json");
-  };
-  const PixelTileSet solid = read("#L", "RB");
-  EXPECT_EQ(solid.at(0, -1), (PixelCollision{.moving_left = block, .moving_right = block}));
-  EXPECT_EQ(solid.at(1, -1), (PixelCollision{.moving_left = up, .moving_right = block}));
-  EXPECT_EQ(solid.at(0, -2), (PixelCollision{.moving_left = block, .moving_right = up}));
-  EXPECT_EQ(solid.at(1, -2), (PixelCollision{.moving_left = up, .moving_right = up}));
-  const PixelTileSet free = read("#l", "rb");
-  EXPECT_EQ(free.at(1, -1), (PixelCollision{.moving_left = down, .moving_right = nothing}));
-  EXPECT_EQ(free.at(0, -2), (PixelCollision{.moving_left = nothing, .moving_right = down}));
-  EXPECT_EQ(free.at(1, -2), (PixelCollision{.moving_left = down, .moving_right = down}));
-  EXPECT_EQ(read("#.", "..").at(1, -1), PixelCollision{});
-  for (const auto& [x, y] : {std::pair{-1, -1}, std::pair{2, -1}, std::pair{0, 0}, std::pair{0, -3}})
-    EXPECT_EQ(solid.at(x, y), PixelCollision{}) << "outside is nothing";
-}
-
-TEST_F(PixelTileFile, of_a_hill_says_what_is_generated_from_its_solid_pixels_and_is_scenery_as_a_picture_is) {
-  files.write("level.json", hill_of_tiles);
-  const Scene scene = files.load("scene.json", scene_with(names_level));
-  ASSERT_NE(scene.tile_level.tiles, nullptr);
-  const PixelTileSet& written = *scene.tile_level.tiles;
-  written.validate();
+TEST(PixelHill, is_solid_where_its_tiles_are_and_says_of_itself_what_is_generated_from_the_solid_pixels) {
+  const Scene scene = load_scene("pixel_hill", {});
+  ASSERT_NE(scene.tiles, nullptr);
   const PixelTileSet generated = make_pixel_tiles(scene.scenery, 32, 32);
   int marked = 0;
-  for (int y = -10; y < 40; ++y) {
-    for (int x = -60; x < 60; ++x) {
-      ASSERT_EQ(written.at(x, y), generated.at(x, y)) << x << ' ' << y;
-      const bool inside = x >= -48 && x < 48 && y >= 0 && y <= hill_top(x);
-      ASSERT_EQ(written.at(x, y).is_solid(), inside) << x << ' ' << y;
-      marked += written.at(x, y).moving_left != written.at(x, y).moving_right ? 1 : 0;
+  for (int y = -40; y < 80; ++y) {
+    for (int x = -110; x < 210; ++x) {
+      ASSERT_EQ(scene.tiles->at(x, y), generated.at(x, y)) << x << ' ' << y;
+      marked += generated.at(x, y).moving_left != generated.at(x, y).moving_right ? 1 : 0;
     }
   }
-  EXPECT_EQ(marked, 16 + 16) << "up and down on the slope's 16 columns";
+  EXPECT_EQ(marked, 32 + 32) << "up and down on the slope's 32 columns";
   EXPECT_TRUE(scene.has_pixels);
-  EXPECT_EQ(scene.tile_level.colliders, scene.scenery.colliders.size());
-  ASSERT_EQ(scene.ids.size(), 17U) << "a row for each of the slope's pixels, and the ground";
-  const std::string solids = solids_of(scene);
-  EXPECT_TRUE(begins(solids, "level/79,8: box 0.96875 0.71875 1.5 0.75; ")) << "the plateau's top";
-  EXPECT_TRUE(holds(solids, "; level/0,24: box -1.5 0 1.5 0.25"));
-  EXPECT_EQ(scene.respawn_box->lower, Vec2d(-1.5, 0));
-  EXPECT_EQ(scene.respawn_box->upper, Vec2d(1.5, 1));
-  EXPECT_TRUE(holds(describe(scene), "5 types of 8 x 8 px, 12 x 4 in the map"));
-}
-
-TEST_F(PixelTileFile, lies_with_its_upper_left_corner_at_the_origin_unless_it_says_where) {
-  const std::string tile = one_tile("##", "##");
-  files.write("level.json", tile);
-  EXPECT_EQ(solids_of(files.load("scene.json", scene_with(names_level, 2))), "level/0,0: box 0 -1 1 0");
-  files.write("level.json", with(tile, R"("map")", R"("at": [3, -5], "map")"));
-  EXPECT_EQ(solids_of(files.load("scene.json", scene_with(names_level, 2))), "level/0,0: box 3 -6 4 -5");
-}
-
-std::string repeated(int times, const std::string& text) {
-  std::string all = "[" + text;
-  for (int i = 1; i < times; ++i) all += ", " + text;
-  return all + "]";
-}
-
-TEST_F(PixelTileFile, that_cannot_be_used_is_refused_in_one_line_with_the_place) {
-  const std::string good = one_tile("##", "#.");
-  const auto complaint = [&](const std::string& tiles, const std::string& entry = names_level) {
-    files.write("level.json", tiles);
-    return files.complaint("scene.json", scene_with(entry));
-  };
-  const std::string start = ": /scenery/0/pixel_tiles: level.json: ";
-  const std::string no_name = ": expected a tile named by one character of ASCII, and not by '.', which is no tile";
-  for (const auto& [from, to, said] : std::initializer_list<std::array<std::string, 3>>{
-           {"'##'", "'#'", "/tiles/x/0: expected a row of 2 characters of ASCII, not 1"},
-           {"'##'", "'#\\u00e9'", "/tiles/x/0: expected a row of 2 characters of ASCII, not 3"},
-           {"'##'", "'#?'", "/tiles/x/0: expected pixels from . # L R B l r b; number 2 is none of them"},
-           {"'##'", "12", "/tiles/x/0: expected a text that is not empty and has no control characters"},
-           {"'##', ", "", "/tiles/x: expected 2 rows, one for each pixel, not 1"},
-           {"'x':", "'xy':", "/tiles/xy" + no_name},
-           {"'x':", "'.':", "/tiles/." + no_name},
-           {"['x']", "['x', 'xx']", "/map/1: expected a row of 1 characters of ASCII, not 2"},
-           {"['x']", "['.y']", "/map/0: expected names of tiles, and '.' for none; number 2 is neither"},
-           {"['x']", "[]", "/map: expected at least one row of tiles"},
-           {"['x']", "['.']", "/map: expected a solid pixel; no tile here has one"},
-           {"'map'", "'at': [0.5, 0], 'map'", "/at/0: expected a whole number from -100000 to 100000"},
-           {"'map'", "'at': [1], 'map'", "/at: expected two whole numbers, [column, row]"},
-           {"'map'", "'maps'", "/maps: unknown key; expected one of $schema, paperproof_pixel_tiles, description, "},
-           {"_tiles': 1", "_tiles': 2", "/paperproof_pixel_tiles: expected 1, the version of the format"},
-           {"_tile': 2", "_tile': 0", "/pixels_per_tile: expected a whole number from 1 to 4096"}})
-    EXPECT_TRUE(begins(complaint(with(good, quoted(from), quoted(to))), start + said));
-  EXPECT_TRUE(begins(complaint(with(good, "]", "}")), start.substr(0, start.size() - 2) + ":1:"));
-  std::string large = with(good, R"(["##", "#."])", repeated(64, '"' + std::string(64, '#') + '"'));
-  large = with(large, R"(_tile": 2)", R"(_tile": 64)");
-  EXPECT_EQ(complaint(with(large, R"(["x"])", repeated(129, '"' + std::string(128, 'x') + '"'))),
-            start + "/map: expected a map of at most 67108864 pixels, not 8192 x 8256");
-  for (const auto& [entry, said] : std::initializer_list<std::pair<std::string, std::string>>{
-           {names_level + ", { 'pixel_tiles': 'level.json' }",
-            "1/pixel_tiles: expected one file of tiles in a scene; this is the second"},
-           {"{ 'pixel_tiles': 'none.json' }", "0/pixel_tiles: none.json: expected a file that exists; there is none"},
-           {"{ 'pixel_tiles': 'level.json', 'solid': 1 }", "0/solid: expected only beside 'picture'"},
-           {"{ 'pixel_tiles': 'level.json', 'sensor': true }",
-            "0/sensor: expected only beside 'polygon', 'chain' or 'circle'"},
-           {"{ 'pixel_tiles': 'level.json', 'picture': 'a.png' }",
-            "0: expected exactly one shape; here are 'picture' and 'pixel_tiles'"}})
-    EXPECT_EQ(complaint(good, entry), ": /scenery/" + quoted(said));
+  EXPECT_TRUE(holds(describe(scene), "4 types of 32 x 32 px, 9 x 3 in the map"));
 }
 
 }  // namespace

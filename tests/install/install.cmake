@@ -11,7 +11,7 @@ set(expected
   "${LIBDIR}/cmake/paperproof/paperproofConfigVersion.cmake")
 if(WITH_COMMAND)
   list(APPEND expected "${BINDIR}/paperproof" share/paperproof/paperproof_scene.schema.json
-       share/paperproof/paperproof_pixel_tiles.schema.json share/paperproof/paperproof_rows.schema.json
+       share/paperproof/paperproof_rows.schema.json
        share/paperproof/paperproof_trace.schema.json)
 endif()
 foreach(file IN LISTS expected)

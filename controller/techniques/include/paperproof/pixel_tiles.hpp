@@ -29,7 +29,7 @@ struct PixelCollision {
   friend bool operator==(const PixelCollision&, const PixelCollision&) = default;
 };
 
-/// A level made of a few types of tiles; outside of it is nothing. Fill it by hand, from a file, or with
+/// A level made of a few types of tiles; outside of it is nothing. Fill it by hand or with
 /// `make_pixel_tiles`. Reading is thread-safe.
 struct PixelTileSet {
   using Tile = std::vector<PixelCollision>;  ///< Row by row from the lowest, left to right.
