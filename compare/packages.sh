@@ -8,7 +8,7 @@ build_packages=(
   libbox2d-dev                                         # box2d_adapter
   libpolyclipping-dev                                  # box2d_adapter/twin
   libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
-  nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev libjs-chart.js
+  nlohmann-json3-dev zlib1g-dev libzstd-dev liblodepng-dev libjs-chart.js
   libgtest-dev libmuparser-dev  # tests
 )
 # To run every test.

@@ -1,4 +1,4 @@
-/// PNG files of every kind, written chunk by chunk: libpng is what is tested.
+/// PNG files of every kind, written chunk by chunk: the reader is what is tested, and the library that it asks.
 #pragma once
 
 #include <gtest/gtest.h>
