@@ -142,36 +142,48 @@ json parse_json(const std::string& text, const std::string& file) {
   return builder.take();
 }
 
-void JsonCursor::refuse(const std::string& expected) const { compare::refuse(where(), expected); }
+JsonCursor JsonCursor::of_converted(const json& document, const std::string& file) {
+  JsonCursor root(document, file);
+  root.line_ = document.at(line_key).get<std::size_t>();
+  return root;
+}
 
-std::string JsonCursor::where() const { return *file_ + ": " + (pointer_.empty() ? "/" : pointer_); }
+void JsonCursor::refuse(const std::string& expected) const {
+  // A line does not say which of its attributes is meant.
+  const std::string key = pointer_.substr(pointer_.rfind('/') + 1);
+  const bool is_named = line_ > 0 && key.find_first_not_of("0123456789") != std::string::npos;
+  compare::refuse(where(), is_named ? fmt::format("{} in \"{}\"", expected, key) : expected);
+}
+
+std::string JsonCursor::where() const {
+  return line_ > 0 ? at_line(*file_, line_) : *file_ + ": " + (pointer_.empty() ? "/" : pointer_);
+}
+
+JsonCursor JsonCursor::below(const json& value, std::string_view name) const {
+  JsonCursor inner(value, *file_, child(pointer_, name));
+  inner.line_ = line_;
+  if (line_ > 0 && value.is_object()) inner.line_ = value.value(line_key, line_);
+  return inner;
+}
 
 std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
   if (!value_->is_object()) refuse("expected an object");
   const auto found = value_->find(key);
   if (found == value_->end()) return std::nullopt;
-  return JsonCursor(*found, *file_, child(pointer_, escaped(key)));
+  return below(*found, escaped(key));
 }
 
 JsonCursor JsonCursor::require(std::string_view key) const {
   if (std::optional<JsonCursor> found = find(key)) return *std::move(found);
-  JsonCursor(*value_, *file_, child(pointer_, escaped(key))).refuse("expected this key, which is missing");
+  below(*value_, escaped(key)).refuse("expected this key, which is missing");
 }
 
 void JsonCursor::refuse_other_keys(std::initializer_list<std::string_view> known) const {
   if (!value_->is_object()) refuse("expected an object");
   for (const auto& [key, value] : value_->items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    JsonCursor(value, *file_, child(pointer_, escaped(key)))
-        .refuse(fmt::format("unknown key; expected one of {}", listed(known)));
+    below(value, escaped(key)).refuse(fmt::format("unknown key; expected one of {}", listed(known)));
   }
-}
-
-std::vector<std::string> JsonCursor::keys() const {
-  if (!value_->is_object()) refuse("expected an object");
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : value_->items()) keys.push_back(key);
-  return keys;
 }
 
 std::size_t JsonCursor::size() const {
@@ -179,9 +191,7 @@ std::size_t JsonCursor::size() const {
   return value_->size();
 }
 
-JsonCursor JsonCursor::element(std::size_t i) const {
-  return JsonCursor((*value_)[i], *file_, child(pointer_, std::to_string(i)));
-}
+JsonCursor JsonCursor::element(std::size_t i) const { return below((*value_)[i], std::to_string(i)); }
 
 bool JsonCursor::is_number() const noexcept { return value_->is_number(); }
 

@@ -18,15 +18,21 @@ namespace paperproof::compare {
 /// @throws InputError as "file:line:column: ..." or "file: /pointer: ...".
 [[nodiscard]] nlohmann::json parse_json(const std::string& text, const std::string& file);
 
+/// Where a document was made from another format, its objects have under this key the line that they come from.
+inline constexpr std::string_view line_key = " line";
+
 /// A view of one value inside a document; the document and the file's name must outlive it.
 class JsonCursor {
  public:
   JsonCursor(const nlohmann::json& value, const std::string& file, std::string pointer = {})
       : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
 
-  /// @throws InputError "file: /pointer: expected"
+  /// The root of a document whose objects have lines (`line_key`): places are lines of the file that was read.
+  [[nodiscard]] static JsonCursor of_converted(const nlohmann::json& document, const std::string& file);
+
+  /// @throws InputError "file: /pointer: expected", or with the line where the document has it.
   [[noreturn]] void refuse(const std::string& expected) const;
-  /// "file: /pointer"
+  /// "file: /pointer" or "file:line"
   [[nodiscard]] std::string where() const;
   [[nodiscard]] const nlohmann::json& value() const noexcept { return *value_; }
 
@@ -36,9 +42,6 @@ class JsonCursor {
   [[nodiscard]] JsonCursor require(std::string_view key) const;
   /// @throws InputError naming the first key that is not listed, and those that are.
   void refuse_other_keys(std::initializer_list<std::string_view> known) const;
-
-  /// The keys of an object, in the order of their characters. @throws InputError unless this is an object.
-  [[nodiscard]] std::vector<std::string> keys() const;
 
   /// Elements of an array. @throws InputError unless this is an array.
   [[nodiscard]] std::size_t size() const;
@@ -64,9 +67,13 @@ class JsonCursor {
   [[nodiscard]] bool flag(std::string_view key) const;
 
  private:
+  /// The cursor on a member or an element of this one.
+  [[nodiscard]] JsonCursor below(const nlohmann::json& value, std::string_view name) const;
+
   const nlohmann::json* value_;
   const std::string* file_;
   std::string pointer_;
+  std::size_t line_ = 0;  ///< 0: the document has no lines.
 };
 
 }  // namespace paperproof::compare

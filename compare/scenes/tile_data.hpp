@@ -13,8 +13,8 @@ namespace paperproof::compare {
 using TileNumber = std::uint32_t;
 
 /// Numbers separated by commas.
-/// @throws InputError at `where` unless there are exactly `count` of them.
-[[nodiscard]] std::vector<TileNumber> decode_csv(std::string_view text, std::size_t count, const std::string& where);
+/// @throws InputError at `where` for anything else.
+[[nodiscard]] std::vector<TileNumber> decode_csv(std::string_view text, const std::string& where);
 
 /// Base64 of little-endian 32-bit numbers.
 /// @param compression "" (none), "zlib", "gzip" or "zstd".

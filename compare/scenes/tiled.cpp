@@ -6,11 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "scenes/input_error.hpp"
-#include "scenes/json_text.hpp"
 #include "scenes/map_defaults.hpp"
 #include "scenes/spawn.hpp"
 #include "scenes/tiled_model.hpp"
@@ -333,12 +331,6 @@ class MapBuilder {
   std::set<std::string> ids_;
 };
 
-TiledMap read_map(const std::string& path, const std::string& given) {
-  if (std::filesystem::path(path).extension() == ".tmx") return read_tmx_map(path, given);
-  const nlohmann::json document = parse_json(read_file(path, given), given);
-  return read_json_map(document, path, given);
-}
-
 Scene whole_scene(const TiledMap& map, const std::string& given) {
   return MapBuilder(map, given, map.tile_size.y()).whole();
 }
@@ -346,15 +338,15 @@ Scene whole_scene(const TiledMap& map, const std::string& given) {
 }  // namespace
 
 Scene read_tiled(const std::string& path, const std::string& given) {
-  return whole_scene(read_map(path, given), given);
+  return whole_scene(read_tiled_map(path, given), given);
 }
 
 Scene read_tiled_json(const nlohmann::json& document, const std::string& path, const std::string& given) {
-  return whole_scene(read_json_map(document, path, given), given);
+  return whole_scene(read_tiled_map(document, path, given), given);
 }
 
 Scene read_tiled_part(const std::string& path, const std::string& given, double pixels_per_metre) {
-  return MapBuilder(read_map(path, given), given, pixels_per_metre).part();
+  return MapBuilder(read_tiled_map(path, given), given, pixels_per_metre).part();
 }
 
 }  // namespace paperproof::compare

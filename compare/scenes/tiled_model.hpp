@@ -1,4 +1,4 @@
-/// A Tiled map as it is written: one model for TMX and for Tiled JSON. What counts as solid is decided elsewhere.
+/// A Tiled map as it is written, in TMX or in JSON. What counts as solid is decided elsewhere.
 #pragma once
 
 #include "scenes/tile_data.hpp"
@@ -83,33 +83,12 @@ inline constexpr TileNumber flipped_vertically = 0x40000000U;
 inline constexpr TileNumber flipped_diagonally = 0x20000000U;
 inline constexpr TileNumber tile_number_mask = 0x0fffffffU;
 
-/// Maps with more than this in all their layers are refused before memory is taken [tiles].
-inline constexpr double most_tiles_of_a_map = 1 << 24;
 /// Groups within groups deeper than this are refused.
 inline constexpr int deepest_group = 32;
 
-/// @throws InputError
-[[nodiscard]] TiledMap read_tmx_map(const std::string& path, const std::string& given);
-[[nodiscard]] TiledMap read_json_map(const nlohmann::json& document, const std::string& path, const std::string& given);
-
-/// An external tileset, in either format: where the map says, else beside the map under the same file name (maps are
-/// passed on without their folders). @param file as the map names it, relative to `map_path`.
-/// @param where the map names it. @throws InputError
-[[nodiscard]] TiledTileset read_external_tileset(const std::string& map_path, const std::string& file,
-                                                 const std::string& where);
-[[nodiscard]] TiledTileset read_xml_tileset(const std::string& path, const std::string& given);
-[[nodiscard]] TiledTileset read_json_tileset(const std::string& path, const std::string& given);
-
-/// Refuses what no map may be: other projections, no size, tilesets that do not ascend.
-void check_map(const TiledMap& map, const std::string& orientation, const std::string& where);
-/// Counts the tiles of a map against `most_tiles_of_a_map`. A packed layer of a few kilobytes could fill the memory.
-class TileBudget {
- public:
-  /// @throws InputError for a chunk without a size, or one too many.
-  void spend(const TiledChunk& chunk, const std::string& where);
-
- private:
-  double spent_ = 0;
-};
+/// A map in either format, by the ending of its name. @throws InputError
+[[nodiscard]] TiledMap read_tiled_map(const std::string& path, const std::string& given);
+[[nodiscard]] TiledMap read_tiled_map(const nlohmann::json& document, const std::string& path,
+                                      const std::string& given);
 
 }  // namespace paperproof::compare
