@@ -113,8 +113,7 @@ class SceneryReader {
   std::string take_id(const JsonCursor& entry, const char* list, std::size_t index) {
     const auto at = entry.find("id");
     std::string id = at ? at->text() : fmt::format("{}/{}", list, index);
-    if (!ids_.insert(id).second)
-      (at ? *at : entry).refuse(fmt::format("expected an id of its own; \"{}\" is taken", id));
+    claim(id, at ? *at : entry);
     return id;
   }
 
@@ -133,19 +132,17 @@ class SceneryReader {
     refuse_key_beside(entry, "background", shape, "picture");
     const std::string id = take_id(entry, "scenery", index);
     const JsonCursor at = entry.require(shape);
-    if (shape != "polygon" && shape != "chain" && shape != "circle") {
-      refuse_key_beside(entry, "holes", shape, "polygon");
-      for (const char* key : {"one_way", "sensor", "surface_speed"}) {
-        if (const auto found = entry.find(key))
-          found->refuse("expected only beside \"polygon\", \"chain\" or \"circle\"");
-      }
-      if (shape == "tiled")
-        add_map(id, at);
-      else
-        add_picture(id, entry, at);
-    } else {
-      add(id, read_collider(entry, shape, step_seconds_), at.where());
+    if (shape == "polygon" || shape == "chain" || shape == "circle")
+      return add(id, read_collider(entry, shape, step_seconds_), at.where());
+    refuse_key_beside(entry, "holes", shape, "polygon");
+    for (const char* key : {"one_way", "sensor", "surface_speed"}) {
+      if (const auto found = entry.find(key))
+        found->refuse("expected only beside \"polygon\", \"chain\" or \"circle\"");
     }
+    if (shape == "tiled")
+      add_map(id, at);
+    else
+      add_picture(id, entry, at);
   }
 
   void read_decoration(const JsonCursor& entry, std::size_t index) {
@@ -157,17 +154,21 @@ class SceneryReader {
     scene_.decoration.push_back({id, drawn.points});
   }
 
+  /// Of what the file named at `at` holds.
+  void add_part(const std::string& id, ColliderDef collider, const JsonCursor& at) {
+    claim(id, at);
+    add(id, std::move(collider), at.where());
+  }
+
   void add_map(const std::string& id, const JsonCursor& at) {
     const Scene map = read_beside(at, [this](const std::string& beside, const std::string& file) {
       return read_tiled_part(beside, file, scene_.pixels_per_metre);
     });
     const auto movers_before = static_cast<MoverIndex>(scene_.movers.size());
     for (std::size_t i = 0; i < map.ids.size(); ++i) {
-      const std::string own = id + "/" + map.ids[i];
-      claim(own, at);
       ColliderDef collider = map.scenery.colliders[i];
       if (collider.mover != no_mover) collider.mover += movers_before;
-      add(own, std::move(collider), at.where());
+      add_part(id + "/" + map.ids[i], std::move(collider), at);
     }
     for (MoverDef mover : map.movers) {
       mover.id = id + "/" + mover.id;
@@ -183,11 +184,8 @@ class SceneryReader {
     const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
       return scenery_of(picture, rule, scene_.pixels_per_metre, file);
     });
-    for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
-      const std::string own = id + "/" + pixels.ids[i];
-      claim(own, at);
-      add(own, pixels.scenery.colliders[i], at.where());
-    }
+    for (std::size_t i = 0; i < pixels.ids.size(); ++i)
+      add_part(id + "/" + pixels.ids[i], pixels.scenery.colliders[i], at);
     extend_respawn_box(pixels.box);
     scene_.has_pixels = true;
   }

@@ -53,12 +53,10 @@ void set_speed(Start& start, double speed) {
 }
 
 template <class Change>
-void for_each_point(SceneryDef& scenery, const Change& change) {
-  for (ColliderDef& collider : scenery.colliders) {
-    for (Vec2d& point : collider.points) change(point);
-    for (std::vector<Vec2d>& hole : collider.holes)
-      for (Vec2d& point : hole) change(point);
-  }
+void for_each_point(ColliderDef& collider, const Change& change) {
+  for (Vec2d& point : collider.points) change(point);
+  for (std::vector<Vec2d>& hole : collider.holes)
+    for (Vec2d& point : hole) change(point);
 }
 
 void scale_character(CharacterDef& character, double scale) {
@@ -85,8 +83,8 @@ void scale_by(Scene& scene, double scale) {
   };
   scale_start(scene.start);
   for (OtherCharacter& other : scene.others) scale_start(other.start);
-  for_each_point(scene.scenery, [scale](Vec2d& point) { point *= scale; });
   for (ColliderDef& collider : scene.scenery.colliders) {
+    for_each_point(collider, [scale](Vec2d& point) { point *= scale; });
     collider.surface_speed *= scale;
     collider.radius *= scale;
   }
@@ -109,10 +107,7 @@ void shift_by(Scene& scene, double along) {
   // What turns does so about the point that it is written around: its path is shifted instead.
   for (ColliderDef& collider : scene.scenery.colliders) {
     const bool turns = collider.mover != no_mover && !scene.movers[collider.mover].turns.empty();
-    if (turns) continue;
-    for (Vec2d& point : collider.points) point += way;
-    for (std::vector<Vec2d>& hole : collider.holes)
-      for (Vec2d& point : hole) point += way;
+    if (!turns) for_each_point(collider, [&](Vec2d& point) { point += way; });
   }
   for (MoverDef& mover : scene.movers)
     if (!mover.turns.empty())

@@ -32,7 +32,6 @@ struct SExpression {
 class SReader {
  public:
   explicit SReader(std::string file) : file_(std::move(file)) {}
-  [[nodiscard]] const std::string& file() const noexcept { return file_; }
   [[nodiscard]] std::string where(const SExpression& at) const;
   [[noreturn]] void refuse(const SExpression& at, const std::string& expected) const;
 

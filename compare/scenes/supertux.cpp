@@ -199,33 +199,6 @@ class SectorBuilder {
   int next_platform_ = 0;
 };
 
-void count_tilemap(const SuperTuxTilemap& map, const SuperTuxTiles& tiles, SuperTuxCounts& counts) {
-  for (const std::uint32_t number : map.tiles) {
-    if (number == 0) continue;
-    const auto found = tiles.find(number);
-    if (found == tiles.end()) {
-      ++counts.unknown;
-      continue;
-    }
-    const SuperTuxTile& tile = found->second;
-    switch (tile.kind()) {
-      case SuperTuxTile::Kind::nothing:
-        break;
-      case SuperTuxTile::Kind::solid:
-        ++counts.solid;
-        break;
-      case SuperTuxTile::Kind::slope:
-        ++counts.slopes;
-        ++counts.slopes_by_steepness[static_cast<std::size_t>(tile.steepness())];
-        break;
-      case SuperTuxTile::Kind::one_way:
-        ++counts.one_way;
-        ++counts.one_way_by_direction[static_cast<std::size_t>(tile.direction())];
-        break;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<Scene> read_supertux(const std::string& path, const std::string& given) {
@@ -241,39 +214,6 @@ std::vector<Scene> read_supertux(const std::string& path, const std::string& giv
   }
   if (scenes.empty()) refuse(given, "expected a sector with solid tiles and a spawn point");
   return scenes;
-}
-
-SuperTuxCounts& SuperTuxCounts::operator+=(const SuperTuxCounts& other) {
-  levels += other.levels;
-  sectors += other.sectors;
-  solid += other.solid;
-  slopes += other.slopes;
-  one_way += other.one_way;
-  unknown += other.unknown;
-  moving_tilemaps += other.moving_tilemaps;
-  platforms += other.platforms;
-  path_nodes += other.path_nodes;
-  for (std::size_t i = 0; i < slopes_by_steepness.size(); ++i) slopes_by_steepness[i] += other.slopes_by_steepness[i];
-  for (std::size_t i = 0; i < one_way_by_direction.size(); ++i)
-    one_way_by_direction[i] += other.one_way_by_direction[i];
-  return *this;
-}
-
-SuperTuxCounts count_supertux(const std::string& path, const std::string& given) {
-  const SuperTuxLevel level = read_supertux_level(path, given);
-  SuperTuxCounts counts;
-  counts.levels = 1;
-  counts.sectors = static_cast<long>(level.sectors.size());
-  for (const SuperTuxSector& sector : level.sectors) {
-    counts.platforms += static_cast<long>(sector.platforms.size());
-    counts.path_nodes += sector.path_nodes;
-    for (const SuperTuxTilemap& map : sector.tilemaps) {
-      if (!map.solid) continue;
-      if (map.path) ++counts.moving_tilemaps;
-      count_tilemap(map, level.tiles, counts);
-    }
-  }
-  return counts;
 }
 
 }  // namespace paperproof::compare

@@ -17,7 +17,6 @@
 
 #include "scenes/scene.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -27,25 +26,5 @@ namespace paperproof::compare {
 /// several sectors.
 /// @throws InputError "file:line: what was expected", also where no sector gives a scene.
 [[nodiscard]] std::vector<Scene> read_supertux(const std::string& path, const std::string& given);
-
-/// What is in a level, for those who want to compare with another reader.
-struct SuperTuxCounts {
-  long levels = 0;
-  long sectors = 0;
-  long solid = 0;  ///< Tiles of solid tilemaps, moving ones included.
-  long slopes = 0;
-  std::array<long, 3> slopes_by_steepness{};  ///< Rise in run: 1 in 2, 1 in 1, 2 in 1.
-  long one_way = 0;
-  std::array<long, 4> one_way_by_direction{};  ///< North, south, west, east.
-  long unknown = 0;                            ///< Placed tiles that tiles.strf does not have.
-  long moving_tilemaps = 0;                    ///< Solid ones with a path.
-  long platforms = 0;
-  long path_nodes = 0;
-
-  SuperTuxCounts& operator+=(const SuperTuxCounts& other);
-};
-
-/// @throws InputError as `read_supertux`; a level without solids is counted, not refused.
-[[nodiscard]] SuperTuxCounts count_supertux(const std::string& path, const std::string& given);
 
 }  // namespace paperproof::compare

@@ -7,6 +7,7 @@
 
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
+#include "scenes/png_file.hpp"
 #include "scenes/s_expression.hpp"
 
 namespace paperproof::compare {
@@ -36,7 +37,6 @@ class LevelReader {
     sector.where = reader_.where(list);
     paths_.clear();
     for (const SExpression& entry : list.items) {
-      sector.path_nodes += nodes_in(entry);
       if (entry.head() != "path") continue;
       const SExpression* inner = entry.find("path");
       paths_[std::string(reader_.text(entry, "name"))] = inner == nullptr ? SuperTuxPath() : path(*inner);
@@ -50,12 +50,6 @@ class LevelReader {
       }
     }
     return sector;
-  }
-
-  static long nodes_in(const SExpression& list) {
-    long count = list.head() == "node" ? 1 : 0;
-    for (const SExpression& item : list.items) count += nodes_in(item);
-    return count;
   }
 
   SuperTuxPath path(const SExpression& list) const {
@@ -173,17 +167,8 @@ std::optional<Vec2d> sprite_size(const std::string& root, const std::string& spr
     const SExpression* action = file.items.front().find("action");
     const SExpression* images = action == nullptr ? nullptr : action->find("images");
     if (images == nullptr || images->items.size() < 2) return std::nullopt;
-    const std::string picture = read_file((sprite_path.parent_path() / images->items[1].text).string(), sprite);
-    // PNG: 8 bytes of signature, then the header chunk: length, "IHDR", width and height as big-endian 32 bits.
-    constexpr std::size_t width_at = 16;
-    if (picture.size() < width_at + 8 || picture.compare(1, 3, "PNG") != 0) return std::nullopt;
-    const auto big_endian = [&](std::size_t at) {
-      double value = 0;
-      for (std::size_t i = at; i < at + 4; ++i) value = value * 256 + static_cast<unsigned char>(picture[i]);
-      return value;
-    };
-    const Vec2d size{big_endian(width_at), big_endian(width_at + 4)};
-    return size.minCoeff() > 0 ? std::optional(size) : std::nullopt;
+    const PngPicture picture = read_png((sprite_path.parent_path() / images->items[1].text).string(), sprite);
+    return Vec2d(picture.width, picture.height);
   } catch (const InputError&) {
     return std::nullopt;  // not clear what it looks like: the caller counts it
   }

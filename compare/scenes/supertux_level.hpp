@@ -46,7 +46,6 @@ struct SuperTuxSector {
   std::vector<SuperTuxTilemap> tilemaps;
   std::vector<SuperTuxPlatform> platforms;
   std::vector<SuperTuxSpawn> spawns;
-  long path_nodes = 0;
   std::string where;
 };
 

@@ -72,20 +72,6 @@ SuperTuxTile::Kind SuperTuxTile::kind() const noexcept {
   return (attributes & one_way_bits) != 0 ? Kind::one_way : Kind::solid;
 }
 
-SuperTuxTile::Steepness SuperTuxTile::steepness() const noexcept {
-  switch (static_cast<Half>(data >> 4U & 7U)) {
-    case Half::bottom:
-    case Half::top:
-      return Steepness::one_in_two;
-    case Half::left:
-    case Half::right:
-      return Steepness::two_in_one;
-    case Half::whole:
-      break;
-  }
-  return Steepness::one_in_one;
-}
-
 std::vector<Vec2d> SuperTuxTile::solid_part() const {
   const auto half = static_cast<Half>(data >> 4U & 7U);
   const double left = half == Half::right ? 0.5 : 0;

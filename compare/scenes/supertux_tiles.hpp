@@ -19,9 +19,6 @@ struct SuperTuxTile {
   /// A slope must be solid too; one-way is written together with solid, and a slope is never one-way.
   [[nodiscard]] Kind kind() const noexcept;
 
-  /// Slopes: the slope's steepness, in the way that tiles have it.
-  enum class Steepness : std::uint8_t { one_in_two, one_in_one, two_in_one };
-  [[nodiscard]] Steepness steepness() const noexcept;
   /// Slopes: the solid part within the unit square, x right, y **down**; convex, vertices in order.
   [[nodiscard]] std::vector<Vec2d> solid_part() const;
 
