@@ -123,6 +123,14 @@ TEST_F(PngFiles, with_an_index_beyond_their_palette_are_refused) {
   EXPECT_TRUE(begins(complaint_about(files, file.bytes()), "a.png: expected a PNG picture ("));
 }
 
+TEST_F(PngFiles, that_unpack_to_more_than_their_size_are_refused_on_the_way) {
+  const std::string large = PngFile{PngColour::grey, 8, false, 300, 300, std::vector<std::uint16_t>(90'000)}.bytes();
+  const std::string one_pixel = big_endian(1) + big_endian(1) + large.substr(24, 5);
+  EXPECT_EQ(complaint_about(files, large.substr(0, 8) + png_chunk("IHDR", one_pixel) + large.substr(33)),
+            "a.png: expected a PNG picture (tried to decompress zlib or deflate data larger than desired "
+            "max_output_size)");
+}
+
 TEST_F(PngFiles, cut_off_anywhere_or_with_a_spoilt_byte_are_refused_or_read) {
   const std::string whole = PngFile{PngColour::grey, 16, true, 3, 2, {0, 1, 2, 3, 4, 65535}}.bytes();
   for (std::size_t length = 0; length < whole.size(); ++length)
