@@ -15,8 +15,8 @@ namespace paperproof::compare {
 
 /// How the cases are run, and where what they give goes.
 struct RunArguments {
-  std::string rows_path;  ///< Empty: none.
-  std::string report_path;
+  std::string rows_path;             ///< Empty: none.
+  std::string report_path;           ///< Empty: none.
   std::string log_path;              ///< Of the progress; empty: none.
   int jobs = 0;                      ///< 0: one for each core.
   std::optional<int> limit_s;        ///< Of one case; absent: see `StudyCases`. A search of lowest speeds is one.
