@@ -143,6 +143,8 @@ Findings run_family(const Family& family, int steps, const RunSettings& settings
     const Findings one = run_and_judge(family.draw(seed), family.name_of_run(seed), settings);
     if (each) each(seed, one);
     all.add(one);
+    ++all.runs;
+    if (one.steps == 0 && one.failed.empty()) ++all.left_out;
   }
   return all;
 }

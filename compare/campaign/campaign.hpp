@@ -26,6 +26,8 @@ struct Findings {
   /// What steps broke of the guarantee. A launch continues no step: `continuity` is not asked for.
   Breaches breaches{};
   std::vector<int> happened = std::vector<int>(happenings().size());  ///< Records of each happening.
+  int runs = 0;                                                       ///< Of a family.
+  int left_out = 0;      ///< Of them those that would begin inside something, and must not.
   std::string failed{};  ///< Why the run could not be made; empty where it could.
 
   void add(const Findings& other);

@@ -13,7 +13,8 @@
 
 namespace paperproof::compare {
 
-/// How large a share of a family's records a happening has, at least and at most.
+/// How large a share of a family's records a happening has, at least and at most. Few records scatter: a test fails
+/// below half of the least share, and where a happening never is.
 struct Coverage {
   std::string_view happening;  ///< By its name.
   double least = 0;
@@ -24,7 +25,7 @@ struct Family {
   std::string kind;    ///< `movers`: runs that are drawn alike.
   std::string name{};  ///< `tiles`: the scenery, or what moves in it.
   std::function<RandomRun(std::uint64_t)> draw;
-  std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow.
+  std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow; any, but no other family's.
   double share = 1;              ///< Of the steps that are asked for: some are slow.
   std::vector<Coverage> covers{};
 

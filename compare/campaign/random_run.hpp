@@ -31,11 +31,7 @@ class InputNotes {
  public:
   explicit InputNotes(std::vector<InputEvent>& events) : events_(&events) {}
   /// From this step on.
-  void note(int step, const Input& input) {
-    if (input.move == last_.move && input.jump == last_.jump && input.drop == last_.drop) return;
-    events_->push_back({.step = step, .move = input.move, .jump = input.jump, .drop = input.drop});
-    last_ = input;
-  }
+  void note(int step, const Input& input);
 
  private:
   std::vector<InputEvent>* events_;

@@ -225,6 +225,7 @@ SceneryDef random_terrain(Terrain terrain, Random& random, const Vec2d& origin) 
   constexpr std::array build{&tiles,  &slopes,  &spikes,  &papers,  &chains,  &wedges,         &stairs, &ceilings,
                              &shafts, &needles, &concave, &one_way, &lattice, &one_way_solids, &circles};
   TerrainBuilder builder(origin);
+  static_assert(build.size() == terrain_names.size());
   build[static_cast<std::size_t>(terrain)](builder, random);
   return std::move(builder.def);
 }

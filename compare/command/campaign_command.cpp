@@ -39,6 +39,9 @@ std::string table_of(const std::vector<Ran>& all) {
     const auto happened = [i](const Ran& ran) { return ran.findings.happened[i] > 0; };
     if (std::any_of(all.begin(), all.end(), happened)) columns.push_back({std::string(happenings()[i].name), share});
   }
+  columns.push_back({"left out", [](const Ran& ran) {
+                       return fmt::format("{} of {} runs", ran.findings.left_out, ran.findings.runs);
+                     }});
   columns.push_back({"breaks, in steps", [](const Ran& ran) {
                        const std::string names = names_of(ran.findings.breaches);
                        return names.empty() ? "-" : names;
