@@ -108,34 +108,23 @@ TEST_F(CommandSweep, finds_a_border_for_each_contender_and_merges_them_with_the_
   EXPECT_EQ(rows_of("m.jsonl").size(), 6U);
 }
 
-TEST_F(CommandStudy, of_several_parts_is_sharded_merged_and_gone_on_with) {
-  const std::string study = "study squeeze --contender octagon_sweep --quiet --rows ";
-  runs(study + "r.jsonl --report r.html");
-  const std::string whole = written("r.jsonl");
-  for (const std::string part : {"1", "2"}) runs(study + "s" + part + ".jsonl --shard " + part + "/2");
-  runs("merge s1.jsonl s2.jsonl --rows m.jsonl");
-  EXPECT_EQ(rows_in(written("m.jsonl")), rows_in(whole));
-  place.write("k.jsonl", whole.substr(0, whole.size() / 2));
-  runs(study + "k.jsonl --resume --report k.html");
-  EXPECT_EQ(written("k.jsonl"), whole);
-  EXPECT_EQ(written("k.html"), written("r.html")) << "rows from before the kill count in the maps";
-}
-
-TEST_F(CommandStudy, of_disagreement_and_of_stability_are_sharded_and_gone_on_with_too) {
-  const std::string disagreement = "study disagreement flush_tiles article_bullet --quiet --rows ";
-  runs(disagreement + "r.jsonl");
-  const std::string whole = written("r.jsonl");
-  for (const std::string part : {"1", "2"}) runs(disagreement + "s" + part + ".jsonl --shard " + part + "/2");
-  runs("merge s2.jsonl s1.jsonl --rows m.jsonl");
-  EXPECT_EQ(rows_in(written("m.jsonl")), rows_in(whole));
-  place.write("k.jsonl", whole.substr(0, whole.size() / 2));
-  runs(disagreement + "k.jsonl --resume");
-  EXPECT_EQ(written("k.jsonl"), whole);
-  place.write("k.jsonl", whole);
+TEST_F(CommandStudy, of_any_kind_is_sharded_merged_and_gone_on_with) {
+  for (const std::string name : {"squeeze --contender octagon_sweep", "disagreement flush_tiles article_bullet"}) {
+    const std::string study = "study " + name + " --quiet --rows ";
+    runs(study + "r.jsonl --report r.html");
+    const std::string whole = written("r.jsonl");
+    for (const std::string part : {"1", "2"}) runs(study + "s" + part + ".jsonl --shard " + part + "/2");
+    runs("merge s2.jsonl s1.jsonl --rows m.jsonl");
+    EXPECT_EQ(rows_in(written("m.jsonl")), rows_in(whole));
+    place.write("k.jsonl", whole.substr(0, whole.size() / 2));
+    runs(study + "k.jsonl --resume --report k.html");
+    EXPECT_EQ(written("k.jsonl"), whole);
+    EXPECT_EQ(written("k.html"), written("r.html")) << "rows from before the kill count in the page";
+  }
   EXPECT_EQ(place.run("study disagreement article_bullet --rows k.jsonl --resume").status, 2);
-  const std::string out = runs("stability --grid quick --shard 1/150 --rows b.jsonl").out;
+  EXPECT_TRUE(
+      holds(runs("stability --grid quick --shard 1/150 --rows b.jsonl").out, "rest and steps: A drop of 0.25 m"));
   EXPECT_EQ(rows_of("b.jsonl").size(), 3U);
-  EXPECT_TRUE(holds(out, "rest and steps: A drop of 0.25 m"));
 }
 
 TEST_F(CommandStudy, bullet_counts_and_gives_the_lowest_speeds) {

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""The committed pictures are those of what the command writes today: the same bytes, where the matplotlib of this machine is
-the one that drew them, else the same words. Of the one with times, which differ from run to run, the words and the curves are:
-who has one, over how many points, with which slope.
+"""The table in controller/README.md is that of its figures, and the committed pictures are what the command writes today: the same
+bytes where this machine's matplotlib drew them, else the same words. Of the one with times the words and the curves are.
 
 usage: committed_pictures.py COMMAND REPOSITORY FOLDER_TO_WORK_IN    (exit status 77: skipped, with the reason)
 """
@@ -34,20 +33,19 @@ def facts(path):
     return [one for one in words if re.search("[a-z]{2}", one)], points
 
 
-def drawn_by(path):
-    return re.search(r"Matplotlib v[\d.]*", path.read_text(encoding="utf-8"))[0]
-
-
 def same(name, committed, written):
     if committed.read_bytes() == written.read_bytes():
         return True
-    may_differ = name == TIMED or drawn_by(committed) != drawn_by(written)
-    return may_differ and facts(committed) == facts(written)
+    drawn_by = {re.search(r"Matplotlib v[\d.]*", path.read_text(encoding="utf-8"))[0] for path in (committed, written)}
+    return (name == TIMED or len(drawn_by) == 2) and facts(committed) == facts(written)
 
 
 def main(command, repository, folder):
-    committed, folder = Path(repository, "compare/report/pictures"), Path(folder)
+    committed, folder, benchmarks = Path(repository, "compare/report/pictures"), Path(folder), Path(repository, "compare/benchmarks")
     folder.mkdir(parents=True, exist_ok=True)
+    table = subprocess.check_output([benchmarks / "table.py", benchmarks / "table.json"], text=True)
+    if table.strip() not in Path(repository, "controller/README.md").read_text(encoding="utf-8"):
+        sys.exit(f"controller/README.md has not this table:\n{table}")
     subprocess.run([command, "compare", STRIP, "--no-timing", "--quiet", "--strip", folder / f"{STRIP}.svg"], check=True)
     xml.parse(folder / f"{STRIP}.svg")
     if (committed / f"{STRIP}.svg").read_bytes() != (folder / f"{STRIP}.svg").read_bytes():
@@ -56,7 +54,7 @@ def main(command, repository, folder):
         print("skipped: there is no matplotlib here, which draws the other pictures")
         sys.exit(77)
     pictures = {**OF_ROWS, **(LONG if os.environ.get("PAPERPROOF_LONG_TESTS") == "1" else {})}
-    sources = {"table": Path(repository, "compare/benchmarks/table.json")}
+    sources = {"table": benchmarks / "table.json"}
     for name, arguments in pictures.items():
         sources[name] = folder / f"{name}.jsonl"
         subprocess.run([command, *shlex.split(arguments), "--quiet", "--rows", sources[name]], check=True)

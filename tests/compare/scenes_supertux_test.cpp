@@ -5,7 +5,6 @@
 
 #include "scene_files.hpp"
 #include "scenes/input_error.hpp"
-#include "scenes/s_expression.hpp"
 #include "scenes/supertux_level.hpp"
 
 namespace paperproof::compare {
@@ -170,63 +169,36 @@ TEST(SuperTux, bad_levels_are_refused_with_their_line) {
 
 const std::filesystem::path installed = "/usr/share/games/supertux2/levels";
 
-using Counts = std::map<std::string, long>;
-
-void count_nodes(const SExpression& list, Counts& counts) {
-  if (list.head() == "node") ++counts["nodes of paths"];
-  for (const SExpression& item : list.items) count_nodes(item, counts);
-}
-
-void count_tiles(const SuperTuxTilemap& map, const SuperTuxTiles& known, Counts& counts) {
-  const std::map<double, const char*> slopes{{0.5, "slopes, 1 in 2"}, {1, "slopes, 1 in 1"}, {2, "slopes, 2 in 1"}};
-  const std::array one_way{"one-way, north", "one-way, south", "one-way, west", "one-way, east"};
-  for (const std::uint32_t number : map.tiles) {
-    const auto found = known.find(number);
-    if (found == known.end()) {
-      if (number != 0) ++counts["unknown"];
-    } else if (const SuperTuxTile& tile = found->second; tile.kind() == SuperTuxTile::Kind::solid) {
-      ++counts["solid"];
-    } else if (tile.kind() == SuperTuxTile::Kind::slope) {
-      ++counts[slopes.at(steepness(tile.solid_part()))];
-    } else if (tile.kind() == SuperTuxTile::Kind::one_way) {
-      ++counts[one_way.at(std::size_t(tile.direction()))];
-    }
-  }
-}
-
 TEST(SuperTuxData, is_counted_as_by_an_independent_reader) {
   if (!std::filesystem::exists(installed)) GTEST_SKIP() << "Debian's package supertux-data is not installed";
-  Counts counts;
+  std::map<std::string, std::size_t> counts;
+  using Kind = SuperTuxTile::Kind;
+  std::map<Kind, std::size_t> kinds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(installed)) {
     if (entry.path().extension() != ".stl") continue;
-    const std::string path = entry.path().string();
-    const std::string source = read_text(path, path);
-    count_nodes(parse_s_expressions(source, path), counts);
-    const SuperTuxLevel read = read_supertux_level(path, path);
+    const SuperTuxLevel read = read_supertux_level(entry.path().string(), entry.path().string());
     ++counts["levels"];
+    counts["sectors"] += read.sectors.size();
     for (const SuperTuxSector& sector : read.sectors) {
-      ++counts["sectors"];
-      counts["platforms"] += static_cast<long>(sector.platforms.size());
+      counts["platforms"] += sector.platforms.size();
       for (const SuperTuxTilemap& map : sector.tilemaps) {
-        if (map.solid && map.path) ++counts["moving tilemaps"];
-        if (map.solid) count_tiles(map, read.tiles, counts);
+        if (!map.solid) continue;
+        counts["moving tilemaps"] += map.path ? 1 : 0;
+        for (const std::uint32_t number : map.tiles) {
+          const auto found = read.tiles.find(number);
+          if (found != read.tiles.end()) ++kinds[found->second.kind()];
+          counts["unknown tiles"] += found == read.tiles.end() && number != 0 ? 1 : 0;
+        }
       }
     }
   }
-  EXPECT_EQ(counts, (Counts{{"levels", 221},
-                            {"sectors", 274},
-                            {"solid", 1226542},
-                            {"slopes, 1 in 2", 5052},
-                            {"slopes, 1 in 1", 812},
-                            {"slopes, 2 in 1", 795},
-                            {"one-way, north", 5558},
-                            {"one-way, south", 17},
-                            {"one-way, west", 111},
-                            {"one-way, east", 31},
-                            {"unknown", 85},
-                            {"moving tilemaps", 43},
-                            {"platforms", 340},
-                            {"nodes of paths", 2283}}));
+  EXPECT_EQ(
+      counts,
+      (std::map<std::string, std::size_t>{
+          {"levels", 221}, {"sectors", 274}, {"platforms", 340}, {"moving tilemaps", 43}, {"unknown tiles", 85}}));
+  EXPECT_EQ(kinds[Kind::solid], 1226542U);
+  EXPECT_EQ(kinds[Kind::slope], 6659U);
+  EXPECT_EQ(kinds[Kind::one_way], 5717U);
 }
 
 }  // namespace
