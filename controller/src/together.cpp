@@ -208,7 +208,7 @@ struct TogetherScratch::Turns {
   std::vector<std::size_t> group;  ///< Those that may meet.
   std::vector<std::size_t> first;  ///< Those of the group that go before the others.
   std::vector<TurnTaker::Other> others;
-  std::vector<Axes> axes;  ///< Of the pairs of outlines that were asked for in this step.
+  std::vector<Axes> axes;  ///< Of the pairs of outlines that were asked for last in this step.
   std::size_t turns = 0;
   std::size_t begun = 0;
 };
@@ -220,12 +220,16 @@ std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) 
   return owner == near.end() ? nobody : *owner;
 }
 
+/// Most characters have one of a few shapes, whichever controllers they have. @return valid until the next call.
 const Axes& TogetherScratch::Turns::axes_between(std::size_t i, std::size_t other) {
+  constexpr std::size_t most_pairs = 16;
   const auto are_they = [&](const Axes& known) {
-    return known.first.data() == hull(i).data() && known.second.data() == hull(other).data();
+    return std::ranges::equal(known.first, hull(i)) && std::ranges::equal(known.second, hull(other));
   };
   const auto known = std::find_if(axes.begin(), axes.end(), are_they);
-  return known != axes.end() ? *known : axes.emplace_back(hull(i), hull(other));
+  if (known != axes.end()) return *known;
+  if (axes.size() == most_pairs) axes.clear();
+  return axes.emplace_back(hull(i), hull(other));
 }
 
 /// Whether one that has gone came no nearer to where another begins, and did not fly past it.
@@ -277,9 +281,9 @@ Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
 bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, double within) {
   const std::vector<PathPoint>& path = report_of(i).move.path;
   const Vec2d& place = members[other].to;
+  const Axes& between = axes_between(i, other);
   for (std::size_t k = 1; k < path.size(); ++k) {
-    const Passing passing =
-        pass(axes_between(i, other), path[k - 1].position - place, path[k].position - place, within);
+    const Passing passing = pass(between, path[k - 1].position - place, path[k].position - place, within);
     if (passing.enters <= passing.leaves) return false;
   }
   return true;
@@ -427,9 +431,11 @@ void TogetherScratch::Turns::end_turn(std::size_t i) {
     if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
   }
   me.to = all[i]->state().position;
-  const Vec2d way = highest_way(i);
-  me.went_elsewhere = !me.carried.empty() && !((way - me.foreseen).norm() <= Tolerances{}.touch);
-  if (me.went_elsewhere) me.known = way;
+  if (!me.carried.empty()) {
+    const Vec2d way = highest_way(i);
+    me.went_elsewhere = !((way - me.foreseen).norm() <= Tolerances{}.touch);
+    if (me.went_elsewhere) me.known = way;
+  }
   me.has_gone = true;
   turn_of[i] = turns++;
 }
