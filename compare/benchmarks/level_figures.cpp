@@ -23,7 +23,7 @@ double allocated() noexcept {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// What `make` takes: the least time of all rounds, and the bytes for each piece of what it returns.
+/// Calls `make` in several rounds. @return the least time [ms], and the bytes for each piece that the result keeps.
 template <class Make>
 std::pair<double, double> made(const Make& make) {
   double milliseconds = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 // Measures the controller beside Box2D, and prints the figures as one JSON object: "measurement figure": number.
 // table.py makes the table of controller/README.md of them.
 //   paperproof_benchmarks          all
-//   paperproof_benchmarks edit     those whose name holds this word
+//   paperproof_benchmarks edit     those with this word in their name
 #include "figures.hpp"
 
 #include <nlohmann/json.hpp>

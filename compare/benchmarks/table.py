@@ -12,7 +12,7 @@ import math
 import subprocess
 import sys
 
-# Words, measurement, what is measured where it is not a time in nanoseconds, unit.
+# Words, measurement, end of the figure's name (none: nanoseconds), unit.
 ROWS = [
     ("one character, 100 pieces", "pieces/100", "", "ns"),
     ("one character, 10,000 pieces", "pieces/10000", "", "ns"),

@@ -24,8 +24,8 @@ class StudyView {
   void add(const StudyPart& part, const nlohmann::ordered_json& row);
   /// A table for each title, and one of the borders.
   [[nodiscard]] std::string text() const;
-  /// The heat maps; in one table the borders, the rates of what is asked for tunnels alone, and of all else the cases
-  /// that do not hold, up to a number.
+  /// The heat maps, and one table: first the borders, then the rates where only tunnels count, then the cases that do
+  /// not hold where every clause counts, up to a number.
   [[nodiscard]] ChartPage page() const;
 
  private:
