@@ -22,7 +22,7 @@ test_packages=(
 # of clang (in older releases it comes with clang itself), the prover of bounds of rounding, and what draws pictures for
 # documents (compare/plots.py).
 optional_test_packages=(chromium libclang-rt-dev gappa python3-matplotlib)
-# A compiler for Windows, and what runs its programs: for one slow test. 170 MB to download, half a minute to install.
+# A compiler for Windows, and what runs its programs: for the one test that `tests/run.sh --windows` adds. 170 MB to download, half a minute to install.
 windows_test_packages=(g++-mingw-w64-x86-64-posix wine64)
 
 missing_packages() {
