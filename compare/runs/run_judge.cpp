@@ -207,6 +207,7 @@ void RunJudge::add(std::span<TraceStep> all) {
       const SolidsInStep there(header_, scenery(), asked[k]);
       judge_velocity(there, judgements_[k], follower);  // says more than that a bound is broken
       judge_clauses(asked[k], judgements_[k]);
+      judge_times(asked[k], judgements_[k], follower.wanted);
       judge_drops(records[k]);
       judge_met(all[k]);
       judge_rest(asked[k], follower);
@@ -537,7 +538,7 @@ void RunJudge::judge_movers(std::span<TraceStep> records) {
 
 /// Whether a contact was met when it says so: the first one where the exact motion meets it, and each where the way
 /// comes to it.
-void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
+void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged, const Wanted& wanted) {
   if (judged.beside_another || record.contacts.empty() || !record.start_overlap.empty()) return;
   const auto check = [&](const Contact& contact, double off, double allowed) {
     if (off > allowed && off < std::numeric_limits<double>::infinity())
@@ -586,10 +587,15 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
       return has_face(scenery().near_parts(at, guaranteed_gap), contact);
     };
     if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
-      // It gives way from the start, and meets no later than what was requested touches.
+      // It gives way from the start, and meets no later than what was requested touches. What begins at rest on its
+      // ground goes with it from the start, and meets it by its own motion.
+      const Vec2d up = up_in(record, header_);
+      const bool rests = wanted.carried.isZero(0) && right_of(up).dot(record.requested) == 0 &&
+                         up.dot(record.requested) <= 0 && detail::is_walkable(contact.normal, header_, up);
+      const Vec2d way = rests ? Vec2d(record.requested + carried) : record.requested;
       const Place start(record.path.front(), record.movers);
-      const double approach = (carried - record.requested).dot(contact.normal);
-      const auto touch = scenery().time_of_impact(start, record.requested, contact.collider);
+      const double approach = (carried - way).dot(contact.normal);
+      const auto touch = scenery().time_of_impact(start, way, contact.collider);
       const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
                            static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
       if (at_once && approach > 0)
@@ -724,7 +730,6 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
-  judge_times(record, judged);
   judge_places(record, judged);
 }
 

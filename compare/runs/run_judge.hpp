@@ -74,7 +74,7 @@ class RunJudge {
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(std::span<TraceStep> records);
-  void judge_times(const TraceStep& record, const StepJudgement& judged);
+  void judge_times(const TraceStep& record, const StepJudgement& judged, const Wanted& wanted);
   void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
   void judge_met(const TraceStep& record);
