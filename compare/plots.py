@@ -184,17 +184,26 @@ def curves_of(rows):
     return curves
 
 
+def falls_short(row, axis):
+    """Whether its reason names a fault on an axis: `safety: …; validity: …`."""
+    return any(fault.startswith(f"{axis}: ") for fault in row.get("reason", "").split("; "))
+
+
 def draw_curve(axes, points, ink, mark, theme):
-    """The least of the measured times, with a bar to the largest. Points on the front are larger. A point whose run does not
-    hold is struck out."""
+    """The least of the measured times, with a bar to the largest; of an engine by itself the least alone. Points on the front
+    are larger. A point whose run goes beyond what the contender documents is hollow, one that passes something or ends inside
+    is struck out: neither counts for the front and the slope."""
     dts = [row["parameters"]["dt_s"] for row in points]
-    times = [row["ns_per_step"] / dt for row, dt in zip(points, dts)]  # ns per second of motion
-    spread = [row.get("ns_per_step_max", row["ns_per_step"]) / dt - time for row, dt, time in zip(points, dts, times)]
+    least = [row.get("ns_per_step_bare", row["ns_per_step"]) for row in points]
+    most = [time if "ns_per_step_bare" in row else row.get("ns_per_step_max", time) for row, time in zip(points, least)]
+    times = [time / dt for time, dt in zip(least, dts)]  # ns per second of motion
+    spread = [(high - low) / dt for high, low, dt in zip(most, least, dts)]
     errors = [max(row["error_max_m"], LEAST_ERROR) for row in points]
     axes.errorbar(times, errors, xerr=[[0] * len(times), spread], fmt="none", ecolor=ink, elinewidth=0.8)
     line, = axes.plot(times, errors, mark + "-", color=ink, markersize=4, linewidth=1.2)
     for chosen, how in ((lambda row: row.get("on_front"), {"marker": mark, "color": ink, "markersize": 8}),
-                        (lambda row: row["verdict"] != "holds", {"marker": "x", "color": theme["text"], "markersize": 10})):
+                        (lambda row: falls_short(row, "validity"), {"marker": mark, "color": ink, "markersize": 6, "fillstyle": "none"}),
+                        (lambda row: falls_short(row, "safety"), {"marker": "x", "color": theme["text"], "markersize": 10})):
         places = [(time, error) for time, error, row in zip(times, errors, points) if chosen(row)]
         if places:
             axes.plot(*zip(*places), linestyle="none", **how)

@@ -14,10 +14,15 @@ namespace paperproof::compare {
 /// Of a line through points, by least squares. Nothing for less than two points with different `x`.
 [[nodiscard]] std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points);
 
-/// What a second of motion takes [ns]; nothing for a row without time or length of a step.
+/// What a second of motion takes [ns], of an engine by itself where the harness adds something to it; nothing for a row
+/// without time or length of a step.
 [[nodiscard]] std::optional<double> time_per_second(const Row& row);
 
-/// Sets `on_front` of every row that has an error and a time: no other of the rows has less error for less time, or the
+/// Whether a row has an error and a time, and they mean something: its run passes nothing, ends inside nothing, and
+/// stays within the limits that the contender documents.
+[[nodiscard]] bool counts(const Row& row);
+
+/// Sets `on_front` of every row that counts: no other of the rows has less error for less time, or the
 /// same of one and less of the other.
 /// @param rows of one motion.
 void mark_front(std::vector<Row>& rows);

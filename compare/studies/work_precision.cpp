@@ -1,10 +1,7 @@
 #include "studies/work_precision.hpp"
 
 #include "runs/contender.hpp"
-#include "runs/continuous_error.hpp"
-#include "runs/cost.hpp"
-#include "runs/input_cursor.hpp"
-#include "runs/scene_plan.hpp"
+#include "runs/run.hpp"
 #include "studies/front.hpp"
 #include "studies/motions.hpp"
 
@@ -13,8 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <memory>
+#include <iterator>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -44,172 +40,105 @@ const std::vector<CurveKnob>& curve_knobs() {
   return all;
 }
 
-/// One run: a contender with one value of a knob.
+/// The runs of contenders with one length of a step and one value of a knob: they are judged, and take turns where they
+/// are timed.
+struct Runs {
+  std::vector<std::string> contenders{};
+  ScalarKind scalar = ScalarKind::binary64;
+  double dt = usual_dt;
+  std::string_view over = "dt_s";  ///< The key in `parameters` that the curve is over,
+  double value = usual_dt;         ///< and what it is there.
+  std::vector<KnobSetting> knobs{};
+};
+
+std::vector<Runs> runs_of(const std::vector<std::string>& contenders) {
+  std::vector<Runs> all;
+  for (const double dt : lengths) all.push_back({.contenders = contenders, .dt = dt, .value = dt});
+  if (std::find(contenders.begin(), contenders.end(), "octagon_sweep") != contenders.end())
+    for (const double dt : lengths)
+      all.push_back({.contenders = {"octagon_sweep"}, .scalar = ScalarKind::binary32, .dt = dt, .value = dt});
+  for (const CurveKnob& knob : curve_knobs()) {
+    std::vector<std::string> having;
+    std::copy_if(contenders.begin(), contenders.end(), std::back_inserter(having),
+                 [&](const std::string& name) { return has_knob(name, knob.name); });
+    if (having.empty()) continue;
+    for (const double value : knob.values)
+      all.push_back({.contenders = having,
+                     .over = knob.key,
+                     .value = knob.inverted ? 1 / value : value,
+                     .knobs = {{std::string(knob.name), fmt::format("{}", value)}}});
+  }
+  return all;
+}
+
+/// A point of a curve.
 struct Point {
   Row row;
-  std::string knob;  ///< The key in `parameters` that the curve is over.
+  std::string over;
   double value = 0;
-  double dt = usual_dt;
-  std::vector<KnobSetting> knobs;
-  std::unique_ptr<Contender> contender;
 };
 
-Point point_of(const Motion& motion, const std::string& contender, const std::string& scalar, double dt) {
-  Point point;
-  point.row.scene = motion.name;
-  point.row.contender = contender;
-  point.row.scalar = scalar;
-  point.row.mode = "work_precision";
-  point.row.parameters.emplace_back("dt_s", dt);
-  point.knob = "dt_s";
-  point.value = dt;
-  point.dt = dt;
-  return point;
-}
-
-void add_curves(const Motion& motion, const std::string& contender, std::vector<Point>& points) {
-  const std::string scalar = is_reference(contender) ? "float" : "double";
-  for (const double dt : lengths) points.push_back(point_of(motion, contender, scalar, dt));
-  if (contender == "octagon_sweep")
-    for (const double dt : lengths) points.push_back(point_of(motion, contender, "float", dt));
-  for (const CurveKnob& knob : curve_knobs()) {
-    if (!has_knob(contender, knob.name)) continue;
-    for (const double value : knob.values) {
-      Point point = point_of(motion, contender, scalar, usual_dt);
-      point.knob = knob.key;
-      point.value = knob.inverted ? 1 / value : value;
-      point.row.parameters.emplace_back(knob.key, point.value);
-      point.knobs = {{std::string(knob.name), fmt::format("{}", value)}};
-      points.push_back(std::move(point));
-    }
-  }
-}
-
-class MotionStudy {
- public:
-  MotionStudy(const Motion& motion, const std::vector<std::string>& contenders) : motion_(motion) {
-    for (const std::string& contender : contenders) add_curves(motion, contender, points_);
-    for (const Point& point : points_)
-      if (!scenes_.contains(point.dt)) {
-        auto scene = std::make_unique<Level>(scene_of(motion, point.dt));
-        scenes_.emplace(point.dt, std::move(scene));
-      }
-  }
-
-  void measure_errors() {
-    for (Point& point : points_) {
-      try {
-        measure_error(point);
-      } catch (const NotApplicable& reason) {
-        point.row.verdict = Verdict::not_applicable;
-        point.row.reason = reason.what();
-      } catch (const std::exception& error) {
-        point.row.verdict = Verdict::failed;
-        point.row.reason = error.what();
-      }
-    }
-  }
-
-  void measure_costs_of_all() {
-    for (const auto& [dt, level] : scenes_) {
-      std::vector<Point*> timed;
-      std::vector<TimedRun> runs;
-      for (Point& point : points_) {
-        if (point.dt != dt || !point.contender || point.row.verdict == Verdict::failed) continue;
-        timed.push_back(&point);
-        runs.push_back({point.contender.get(), {}});
-      }
-      if (runs.empty()) continue;
-      const std::vector<Costs> costs = measure_costs(runs, level->scene, level->script, level->scene.steps);
-      for (std::size_t i = 0; i < timed.size(); ++i) {
-        Row& row = timed[i]->row;
-        row.ns_per_step = costs[i].full.ns_per_step_min;
-        row.ns_per_step_median = costs[i].full.ns_per_step_median;
-        row.ns_per_step_max = costs[i].full.ns_per_step_max;
-      }
-    }
-    for (Point& point : points_) point.contender.reset();
-  }
-
-  void report(WorkPrecision& found) {
-    std::vector<Row> rows;
-    for (const Point& point : points_) rows.push_back(point.row);
-    mark_front(rows);
-    for (std::size_t i = 0; i < rows.size(); ++i) points_[i].row.on_front = rows[i].on_front;
-    std::vector<const Point*> firsts;  // of each curve
-    for (const Point& point : points_)
-      if (std::none_of(firsts.begin(), firsts.end(), [&](const Point* first) { return same_curve(*first, point); }))
-        firsts.push_back(&point);
-    for (const Point* first : firsts) found.curves.push_back(curve_of(*first));
-    found.sentences.push_back(words_of_front(std::string(motion_.name), rows));
-    found.points.insert(found.points.end(), rows.begin(), rows.end());
-  }
-
- private:
-  struct Level {
-    explicit Level(Scene made)
-        : scene(std::move(made)),
-          script(script_of(scene)),
-          scenery(scene.scenery),
-          courses(scene, scene.input, scene.steps) {}
-    Scene scene;
-    Script script;
-    Scenery scenery;
-    ContinuousCourses courses;
-  };
-
-  void measure_error(Point& point) {
-    const Level& level = *scenes_.at(point.dt);
-    const Planning planning{.knobs = point.knobs};
-    const ScalarKind scalar = point.row.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64;
-    point.contender = make_contender(point.row.contender, scalar, level.scene, level.scenery, planning);
-    point.row.knob = point.contender->header().knob;
-    ContinuousError error(level.courses.of(point.row.contender));
-    InputCursor cursor(level.scene, level.script);
-    std::vector<TraceStep> records(1);
-    for (int step = 0; step < level.scene.steps; ++step) {
-      records.front() = {};
-      point.contender->step(cursor.at(step), records);
-      const Vec2d made = records.front().path.back().position + records.front().remainder;
-      if (!made.allFinite()) throw std::runtime_error(fmt::format("step {}: a position that is no number", step));
-      error.add(made, level.courses.end(step));
-    }
-    point.row.steps = level.scene.steps;
-    error.write(point.row);
-  }
-
-  [[nodiscard]] static bool same_curve(const Point& a, const Point& b) {
-    return a.row.contender == b.row.contender && a.row.scalar == b.row.scalar && a.knob == b.knob;
-  }
-
-  [[nodiscard]] Row curve_of(const Point& first) const {
-    std::vector<std::pair<double, double>> logs;
-    bool on_front = false;
-    for (const Point& point : points_) {
-      if (!same_curve(point, first)) continue;
-      on_front = on_front || point.row.on_front.value_or(false);
-      if (point.row.error_max_m && *point.row.error_max_m > least_error)
-        logs.emplace_back(std::log(point.value), std::log(*point.row.error_max_m));
-    }
-    Row row;
-    row.scene = first.row.scene;
-    row.contender = first.row.contender;
-    row.scalar = first.row.scalar;
+std::vector<Point> points_of(const Motion& motion, const Runs& runs) {
+  RunOptions options;
+  options.contenders = runs.contenders;
+  options.scalars = {runs.scalar};
+  options.knobs = runs.knobs;
+  options.reference = false;
+  options.continuous = true;
+  std::vector<Point> points;
+  for (Row& row : run_scene(scene_of(motion, runs.dt), options).rows) {
     row.mode = "work_precision";
-    row.curve = first.knob;
-    row.slope = slope_of(logs);
-    if (first.row.ns_per_step) row.on_front = on_front;
-    if (first.row.verdict == Verdict::not_applicable) {
-      row.verdict = first.row.verdict;
-      row.reason = first.row.reason;
-    }
-    return row;
+    row.parameters = {{"dt_s", runs.dt}};
+    if (runs.over != "dt_s") row.parameters.emplace_back(runs.over, runs.value);
+    points.push_back({std::move(row), std::string(runs.over), runs.value});
   }
+  return points;
+}
 
-  const Motion& motion_;
-  std::vector<Point> points_;
-  std::map<double, std::unique_ptr<Level>> scenes_;
-};
+bool same_curve(const Point& a, const Point& b) {
+  return a.row.contender == b.row.contender && a.row.scalar == b.row.scalar && a.over == b.over;
+}
+
+Row curve_of(const Point& first, const std::vector<Point>& points) {
+  std::vector<std::pair<double, double>> logs;
+  bool on_front = false;
+  for (const Point& point : points) {
+    if (!same_curve(point, first)) continue;
+    on_front = on_front || point.row.on_front.value_or(false);
+    if (counts(point.row) && *point.row.error_max_m > least_error)
+      logs.emplace_back(std::log(point.value), std::log(*point.row.error_max_m));
+  }
+  Row row;
+  row.scene = first.row.scene;
+  row.contender = first.row.contender;
+  row.scalar = first.row.scalar;
+  row.mode = "work_precision";
+  row.curve = first.over;
+  row.slope = slope_of(logs);
+  if (first.row.ns_per_step) row.on_front = on_front;
+  if (first.row.verdict == Verdict::not_applicable) {
+    row.verdict = first.row.verdict;
+    row.reason = first.row.reason;
+  }
+  return row;
+}
+
+void add_motion(const Motion& motion, const std::vector<Runs>& all, WorkPrecision& found) {
+  std::vector<Point> points;
+  for (const Runs& runs : all)
+    for (Point& point : points_of(motion, runs)) points.push_back(std::move(point));
+  std::vector<Row> rows;
+  for (const Point& point : points) rows.push_back(point.row);
+  mark_front(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) points[i].row.on_front = rows[i].on_front;
+  std::vector<const Point*> firsts;  // of each curve
+  for (const Point& point : points)
+    if (std::none_of(firsts.begin(), firsts.end(), [&](const Point* first) { return same_curve(*first, point); }))
+      firsts.push_back(&point);
+  for (const Point* first : firsts) found.curves.push_back(curve_of(*first, points));
+  found.sentences.push_back(words_of_front(std::string(motion.name), rows));
+  found.points.insert(found.points.end(), rows.begin(), rows.end());
+}
 
 }  // namespace
 
@@ -227,13 +156,11 @@ WorkPrecision study_work_precision(const std::vector<std::string>& wanted, const
   std::vector<std::string> names = contenders;
   if (names.empty())
     for (const std::string_view name : contender_names()) names.emplace_back(name);
+  const std::vector<Runs> all = runs_of(names);
   WorkPrecision found;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (progress) progress(static_cast<double>(i) / static_cast<double>(chosen.size()));
-    MotionStudy study(*chosen[i], names);
-    study.measure_errors();
-    study.measure_costs_of_all();
-    study.report(found);
+    add_motion(*chosen[i], all, found);
   }
   return found;
 }

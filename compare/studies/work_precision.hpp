@@ -17,13 +17,16 @@ struct WorkPrecision {
 };
 
 /// Each contender over the length of a step, and over its own knobs at 1/60 s: unit, pixels per metre, square,
-/// iterations, substeps. Errors are measured first, at the end of every step, against the continuous reference: Box2D's
-/// against the course of a body without friction, all others' against that of design §4. Costs are measured in a phase
-/// of their own, the contenders of one length of a step taking turns, minimum of nine runs after a warm-up.
+/// iterations, substeps. Runs are those of `compare`: every step is judged, and measured at its end against the
+/// continuous reference, Box2D's against the course of a body without friction, all others' against that of design §4.
+/// Costs are measured in a phase of their own, the contenders of one length of a step or value of a knob taking turns,
+/// minimum of nine runs after a warm-up.
 /// - `error_max_m`, `error_rms_m`: distance from the continuous motion. Box2D's includes its skin of 15 mm.
-/// - `slope`: of log error over log knob, least squares over the points whose error is above 1e-9 m; two at least.
-/// - `on_front`: no other point of the motion has less error for less time per second of motion. Of a curve: of any of
-///   its points.
+/// - `slope`: of log error over log knob, least squares over the points that count (`counts`) and whose error is above
+///   1e-9 m; two at least.
+/// - `on_front`: no other point of the motion that counts has less error for less time per second of motion. Of a
+/// curve:
+///   of any of its points.
 /// @param wanted names of motions (studies/motions.hpp). @param contenders those asked for. Empty: all.
 /// @throws std::invalid_argument for a motion that there is not.
 [[nodiscard]] WorkPrecision study_work_precision(const std::vector<std::string>& wanted,

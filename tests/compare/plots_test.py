@@ -85,9 +85,12 @@ class Curves(unittest.TestCase):
         self.assertEqual([bar.tolist() for bar in bars.get_segments()], [[[500, 0.01], [1000, 0.01]], [[1000, 1e-9], [2000, 1e-9]]])
         self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], ["mask, slope 0.00"])
 
-    def test_what_failed_is_struck_out_at_its_place_or_else_in_the_legend(self):
-        axes = self.figure([precise("mask", 0.1, 0.01, 50), precise("mask", 0.05, 0.5, 50, verdict="flagged"),
+    def test_what_failed_is_struck_out_at_its_place_or_else_in_the_legend_and_what_goes_beyond_a_limit_is_hollow(self):
+        axes = self.figure([precise("mask", 0.1, 0.01, 50), precise("mask", 0.05, 0.5, 50, reason="safety: step 1: passed it"),
+                            precise("mask", 0.01, 0.2, 60, ns_per_step_bare=40, reason="progress: hangs; validity: too fast"),
                             failed("mask", 0.01), failed("grid", 0.1), failed("grid", 0.01)])
+        hollow = [line.get_xydata().tolist() for line in axes.lines if line.get_fillstyle() == "none"]
+        self.assertEqual(hollow, [[[4000, 0.2]]])
         crosses = [line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "x" and len(line.get_xdata())]
         self.assertEqual(crosses, [[[1000, 0.5]]])
         self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],

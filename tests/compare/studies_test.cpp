@@ -48,7 +48,7 @@ Vec2d formula(std::string_view name, int n, double h, double lead, double gap, b
   if (name == "slide") return Vec2d(0.5, -root_3 / 2) * (5 * root_3 / 2 * t_squared) + Vec2d(root_3 / 2, 0.5) * gap;
   if (name == "corridor") return {std::min(6 * t, 2 - gap), 2 * t};
   if (name == "bullet")
-    return {0, std::max(10 - (box2d ? std::min(200.0, box2d::max_travel_per_step / lead) : 200) * t, gap)};
+    return {0, std::max(10 - (box2d ? std::min(93.75, box2d::max_travel_per_step / lead) : 93.75) * t, gap)};
   if (name == "lift") return {0, 1.5 * t + gap};
   double behind = 0;
   if (box2d && name == "uphill") behind = 5 * t_squared / 2;
@@ -106,14 +106,16 @@ TEST(Front, is_who_has_less_error_for_less_time) {
     made.ns_per_step = ns;
     return made;
   };
-  // Times per second of motion: 1000, 2000, 4000, 4000, and one that has no time.
-  std::vector<Row> rows{row("mask", 0.1, 0.5, 100), row("octagon_sweep", 0.1, 0.5, 200),
-                        row("discrete", 0.05, 0.1, 200), row("wind_back", 0.05, 0.2, 200), row("grid", 0.1, 0, 0)};
-  rows.back().ns_per_step.reset();
+  // Times per second of motion: 1000, 2000, 4000, 4000, one that has no time, and one beyond a limit.
+  std::vector<Row> rows{row("mask", 0.1, 0.5, 100),      row("octagon_sweep", 0.1, 0.5, 200),
+                        row("discrete", 0.05, 0.1, 200), row("wind_back", 0.05, 0.2, 200),
+                        row("grid", 0.1, 0, 0),          row("box2d", 0.1, 0, 1)};
+  rows[4].ns_per_step.reset();
+  rows[5].faults = {{Axis::validity, Verdict::flagged, "beyond a limit"}};
   mark_front(rows);
   std::vector<std::optional<bool>> front;
   for (const Row& one : rows) front.push_back(one.on_front);
-  EXPECT_EQ(front, (std::vector<std::optional<bool>>{true, false, true, false, {}}));
+  EXPECT_EQ(front, (std::vector<std::optional<bool>>{true, false, true, false, {}, {}}));
   EXPECT_EQ(
       words_of_front("fall", rows),
       "fall: on the front: mask, discrete. octagon_sweep is not: where its error is least, 0.5 m, mask has 0.5 m in "
