@@ -232,7 +232,10 @@ std::unique_ptr<Technique> make_bounding_box(const TechniqueDef& def, const Scen
 }  // namespace
 
 TechniqueEntry bounding_box_entry() {
-  return {.name = "bounding_box", .make = make_bounding_box, .knobs = {knob::iterations}, .knows_movers = true};
+  return {.name = "bounding_box",
+          .make = make_bounding_box,
+          .knobs = {knob::iterations, knob::broad_phase},
+          .knows_movers = true};
 }
 
 }  // namespace paperproof

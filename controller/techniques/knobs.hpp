@@ -3,6 +3,8 @@
 
 #include <paperproof/techniques.hpp>
 
+#include <stdexcept>
+
 namespace paperproof::knob {
 
 inline constexpr Knob unit{"unit", "step of every search [m]; without it a pixel of the scene",
@@ -38,8 +40,18 @@ inline constexpr Knob raster_pixels_per_metre{
     "raster_pixels_per_metre", "resolution of the level, at most 1000; without it the scene's",
     [](const std::string& value, TechniqueDef& def) { def.article.raster_pixels_per_metre = real_in(value); }};
 
+inline constexpr Knob broad_phase{
+    "broad_phase", "tree, buckets, or all_pairs: every piece is looked at; how the pieces near it are found",
+    [](const std::string& value, TechniqueDef& def) {
+      for (const BroadPhaseKind kind : {BroadPhaseKind::tree, BroadPhaseKind::buckets, BroadPhaseKind::all_pairs})
+        if (value == name_of(kind)) return void(def.broad_phase = kind);
+      throw std::invalid_argument("expected tree, buckets or all_pairs");
+    }};
+
 /// Of the techniques that search.
-[[nodiscard]] inline std::vector<Knob> of_search() { return {unit, iterations, points, pairs, objects, response}; }
+[[nodiscard]] inline std::vector<Knob> of_search() {
+  return {unit, iterations, points, pairs, objects, response, broad_phase};
+}
 
 [[nodiscard]] inline double unit_of_search(const ArticleKnobs& knobs) { return knobs.unit; }
 [[nodiscard]] inline double pixel(const ArticleKnobs& knobs) { return 1 / knobs.raster_pixels_per_metre; }

@@ -169,7 +169,7 @@ void Mask::move(const MoveRequest& request, Scratch& scratch, MoveResult& result
 }  // namespace
 
 TechniqueEntry mask_entry() {
-  TechniqueEntry entry = entry_of<Mask>("mask", {knob::response, knob::raster_pixels_per_metre});
+  TechniqueEntry entry = entry_of<Mask>("mask", {knob::response, knob::raster_pixels_per_metre, knob::broad_phase});
   entry.draws_level = true;
   entry.unit = knob::pixel;
   return entry;

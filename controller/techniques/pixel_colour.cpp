@@ -64,7 +64,7 @@ std::unique_ptr<Technique> make_pixel_colour(const TechniqueDef& def, const Scen
 TechniqueEntry pixel_colour_entry() {
   return {.name = "pixel_colour",
           .make = make_pixel_colour,
-          .knobs = {knob::raster_pixels_per_metre},
+          .knobs = {knob::raster_pixels_per_metre, knob::broad_phase},
           .draws_level = true,
           .unit = knob::pixel};
 }

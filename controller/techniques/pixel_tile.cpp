@@ -98,6 +98,7 @@ TechniqueEntry pixel_tile_entry() {
       .name = "pixel_tile",
       .make = make_pixel_tile,
       .knobs = {knob::raster_pixels_per_metre,
+                knob::broad_phase,
                 {"pixels_per_tile", "along a side of a tile: more take more memory, nothing else changes",
                  [](const std::string& value, TechniqueDef& def) { def.article.pixels_per_tile = whole_in(value); }}},
       .draws_level = true,

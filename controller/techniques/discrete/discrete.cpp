@@ -393,7 +393,7 @@ void Discrete::measure_gaps(const Vec2d& position, MoveResult& result) const noe
 }  // namespace
 
 TechniqueEntry discrete_entry() {
-  TechniqueEntry entry = entry_of<Discrete>("discrete", {knob::iterations});
+  TechniqueEntry entry = entry_of<Discrete>("discrete", {knob::iterations, knob::broad_phase});
   entry.knows_movers = entry.moves_crowds = true;
   return entry;
 }
