@@ -1,5 +1,5 @@
-/// Runs every row of the two tables in controller/techniques/README.md: the statements of the article, and its six
-/// demands by technique.
+/// Runs every row of the three tables in controller/techniques/README.md: the lessons, the statements of the article,
+/// and its six demands by technique.
 ///
 /// A check is a code span: `SCENE CONTENDER [KNOB=VALUE]... [full] => CONDITION, ...`, or two runs with `|` between
 /// them and `rows equal` or `rows differ`. A condition is `KEY = LOW..HIGH`, or `KEY = VALUE` with a whole number or a
@@ -132,6 +132,18 @@ std::string fault_of(const std::string& check, Runs& runs) {
   return fault;
 }
 
+/// @return how many checks a cell has. One at least must be there, and all must hold.
+std::size_t run_checks(const std::string& cell, Runs& runs) {
+  std::size_t ran = 0;
+  for (const std::string& span : code_spans(cell)) {
+    if (span.find("=>") == std::string::npos) continue;
+    ++ran;
+    EXPECT_EQ(fault_of(span, runs), "") << span;
+  }
+  EXPECT_GT(ran, 0U) << "nothing is checked: " << cell;
+  return ran;
+}
+
 TEST(ArticleTable, has_a_check_in_every_row_and_all_of_them_hold) {
   Runs runs;
   const std::vector<Cells> rows = table_below("## The statements");
@@ -141,16 +153,19 @@ TEST(ArticleTable, has_a_check_in_every_row_and_all_of_them_hold) {
     ASSERT_EQ(rows[i].size(), 4U) << rows[i].front();
     const std::string& result = rows[i][2];
     EXPECT_TRUE(result == "shown" || result == "refuted" || result == "reading") << result << " in " << rows[i][1];
-    std::size_t here = 0;
-    for (const std::string& span : code_spans(rows[i][3])) {
-      if (span.find("=>") == std::string::npos) continue;
-      ++here;
-      EXPECT_EQ(fault_of(span, runs), "") << rows[i][1] << "\n  " << span;
-    }
-    EXPECT_GT(here, 0U) << "nothing is checked: " << rows[i][1];
-    ran_checks += here;
+    ran_checks += run_checks(rows[i][3], runs);
   }
   EXPECT_EQ(ran_checks, checks);
+}
+
+TEST(ArticleTable, has_a_lesson_of_each_technique) {
+  Runs runs;
+  const std::vector<Cells> rows = table_below("## Lessons");
+  ASSERT_EQ(rows.size() - 1, all_techniques().size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_EQ(code_spans(rows[i][1]).at(0), all_techniques()[i - 1].name);
+    run_checks(rows[i][2], runs);
+  }
 }
 
 TEST(ArticleTable, has_each_of_the_six_demands_for_each_technique) {
