@@ -15,6 +15,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
+std::string dumped(const ordered_json& value) {
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 ordered_json plan_json(const std::optional<LevelPlan>& plan) {
   ordered_json object = ordered_json::object();
   if (plan) object["broad_phase"] = name_of(plan->search);
@@ -68,29 +72,6 @@ void add_terms(const TraceHeader& header, ordered_json& object) {
   if (header.substeps > 1) object["substeps"] = header.substeps;
   object["guarantees"] = ordered_json::array();
   for (const Clause clause : header.guarantees) object["guarantees"].push_back(name_of(clause));
-}
-
-ordered_json header_json(const TraceHeader& header) {
-  ordered_json object;
-  object["paperproof_trace"] = 1;
-  object["scene"] = header.scene;
-  object["contender"] = header.contender;
-  object["scalar"] = header.scalar;
-  if (!header.knob.empty()) object["knob"] = header.knob;
-  object["mode"] = header.mode;
-  object["dt"] = header.dt;
-  if (header.steps) object["steps"] = *header.steps;
-  if (header.characters > 1) object["characters"] = header.characters;
-  object["points"] = points_json(header.points);
-  object["max_climb_degrees"] = header.character.max_climb_degrees;
-  add_terms(header, object);
-  object["colliders"] = ordered_json::array();
-  for (std::size_t i = 0; i < header.ids.size(); ++i)
-    object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
-  if (!header.box2d.empty()) object["box2d"] = header.box2d;
-  object["plan"] = plan_json(header.plan);
-  for (const NamedTolerance& tolerance : header.tolerances) object["tolerances"][tolerance.name] = tolerance.metres;
-  return object;
 }
 
 using Buffer = fmt::memory_buffer;
@@ -260,18 +241,38 @@ std::string twin_stem(const std::string& stem, std::string_view contender) {
   return fmt::format("{}.twin_of_{}", stem, contender);
 }
 
-TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
-    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1) {
+ordered_json trace_header_json(const TraceHeader& header) {
+  ordered_json object;
+  object["paperproof_trace"] = 1;
+  object["scene"] = header.scene;
+  object["contender"] = header.contender;
+  object["scalar"] = header.scalar;
+  if (!header.knob.empty()) object["knob"] = header.knob;
+  object["mode"] = header.mode;
+  object["dt"] = header.dt;
+  if (header.steps) object["steps"] = *header.steps;
+  if (header.characters > 1) object["characters"] = header.characters;
+  object["points"] = points_json(header.points);
+  object["max_climb_degrees"] = header.character.max_climb_degrees;
+  add_terms(header, object);
+  object["colliders"] = ordered_json::array();
+  for (std::size_t i = 0; i < header.ids.size(); ++i)
+    object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
+  if (!header.box2d.empty()) object["box2d"] = header.box2d;
+  object["plan"] = plan_json(header.plan);
+  for (const NamedTolerance& tolerance : header.tolerances) object["tolerances"][tolerance.name] = tolerance.metres;
+  return object;
+}
+
+TraceLines::TraceLines(const TraceHeader& header) : path_exact_(header.path_exact), several_(header.characters > 1) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   for (ColliderIndex i = 0; i < colliders.size(); ++i) {
     if (colliders[i].mover != no_mover) moving_.push_back({i, colliders[i].mover});
   }
-  for (const std::string& id : header.ids)
-    ids_.push_back(ordered_json(id).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-  file_.write(header_json(header).dump(-1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+  for (const std::string& id : header.ids) ids_.push_back(dumped(id));
 }
 
-void TraceWriter::write(const TraceStep& step) {
+std::string TraceLines::line_of(const TraceStep& step) const {
   Buffer out;
   fmt::format_to(std::back_inserter(out), "{{\"step\":{},", step.step);
   if (step.dt) {
@@ -280,7 +281,13 @@ void TraceWriter::write(const TraceStep& step) {
     out.push_back(',');
   }
   if (several_) fmt::format_to(std::back_inserter(out), "\"character\":{},", step.character);
-  if (!step.refused.empty()) return write_refused(step, out);
+  if (!step.refused.empty()) {
+    put_text(out, "\"refused\":");
+    put_text(out, dumped(step.refused));
+    put_input(out, step.input);
+    put_text(out, "}\n");
+    return fmt::to_string(out);
+  }
   if (step.turn) fmt::format_to(std::back_inserter(out), "\"turn\":{},", *step.turn);
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
@@ -341,16 +348,11 @@ void TraceWriter::write(const TraceStep& step) {
             {{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}});
   if (step.from) put_state(out, *step.from, ids_);
   put_text(out, "}\n");
-  file_.write({out.data(), out.size()});
+  return fmt::to_string(out);
 }
 
-/// @param out the line so far.
-void TraceWriter::write_refused(const TraceStep& step, fmt::memory_buffer& out) {
-  put_text(out, "\"refused\":");
-  put_text(out, ordered_json(step.refused).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-  put_input(out, step.input);
-  put_text(out, "}\n");
-  file_.write({out.data(), out.size()});
+TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header) : file_(path), lines_(header) {
+  file_.write(dumped(trace_header_json(header)) + '\n');
 }
 
 }  // namespace paperproof::compare

@@ -4,7 +4,11 @@
 #include "records/output_file.hpp"
 #include "records/trace.hpp"
 
-#include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -15,28 +19,41 @@ namespace paperproof::compare {
 /// The stem of the twin that runs in lockstep with a contender.
 [[nodiscard]] std::string twin_stem(const std::string& stem, std::string_view contender);
 
-/// Numbers are printed so that they read back to the same bits. Not thread-safe.
-class TraceWriter {
+/// The first line of a trace.
+[[nodiscard]] nlohmann::ordered_json trace_header_json(const TraceHeader& header);
+
+/// The further lines of a trace. Numbers are printed so that they read back to the same bits.
+class TraceLines {
  public:
-  /// Writes the header.
-  /// @throws std::runtime_error naming the path.
-  TraceWriter(const std::string& path, const TraceHeader& header);
-  void write(const TraceStep& step);
-  /// @throws std::runtime_error naming the path.
-  void commit() { file_.commit(); }
+  explicit TraceLines(const TraceHeader& header);
+  /// With the end of the line.
+  [[nodiscard]] std::string line_of(const TraceStep& step) const;
 
  private:
   struct Moving {
     ColliderIndex collider = 0;
     MoverIndex mover = 0;
   };
-  void write_refused(const TraceStep& step, fmt::memory_buffer& out);
 
-  OutputFile file_;
   std::vector<std::string> ids_;  ///< As JSON strings.
   std::vector<Moving> moving_;
   bool path_exact_;
   bool several_;  ///< Characters.
+};
+
+/// A trace as a file. Not thread-safe.
+class TraceWriter {
+ public:
+  /// Writes the header.
+  /// @throws std::runtime_error naming the path.
+  TraceWriter(const std::string& path, const TraceHeader& header);
+  void write(const TraceStep& step) { file_.write(lines_.line_of(step)); }
+  /// @throws std::runtime_error naming the path.
+  void commit() { file_.commit(); }
+
+ private:
+  OutputFile file_;
+  TraceLines lines_;
 };
 
 }  // namespace paperproof::compare
