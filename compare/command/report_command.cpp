@@ -87,7 +87,7 @@ class PageOfRecords {
         for (const auto& [name, value] : header["environment"].items())
           facts_.environment.emplace_back(name, value.get<std::string>());
     }
-    for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "");
+    for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "null");
     for (ChartPage& page : pictures.pages()) {
       add_cell_replays(page, 0);
       writer_.add_study(page);

@@ -20,7 +20,7 @@ struct ReportEvent {
   std::optional<ColliderIndex> collider{};  ///< The collider of the event.
 };
 
-/// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.
+/// One run, for drawing.
 struct ReportRun {
   TraceHeader header;
   std::vector<TraceStep> steps;  ///< Ascending by `step`; there may be fewer than ran: see `thin_for_replay`.
@@ -33,15 +33,12 @@ struct ReportRun {
 /// A step on which two sides differ.
 struct Disagreement {
   struct Statement {
-    std::size_t run = 0;        ///< Position in `ReportScene::runs`: gives the name, the octagon and the scenery.
-    Vec2d from{Vec2d::Zero()};  ///< Where the step began [m].
-    Vec2d to{Vec2d::Zero()};    ///< Where it ended [m].
-    std::vector<Contact> contacts;
+    std::size_t run = 0;  ///< Position in `ReportScene::runs`.
+    TraceStep record;     ///< It may be missing in the run's `steps`.
   };
   int step = 0;
-  std::vector<Statement> statements;          ///< What each side says, usually controller and Box2D.
-  std::optional<std::vector<Contact>> exact;  ///< What exact arithmetic says, where it was asked.
-  std::string who_is_right;                   ///< One sentence with the reason.
+  std::vector<Statement> statements;  ///< What each side says, usually controller and Box2D.
+  std::string who_is_right;           ///< One sentence with the reason.
 };
 
 struct ReportScene {
@@ -55,7 +52,8 @@ struct ReportScene {
 };
 
 /// Drops steps until at most `max_steps` (at least 8) are left: every k-th stays, with the first, the last, those with
-/// an event, the first contact and their neighbours.
+/// an event, the first contact and their neighbours. The beginning stays whole, so that it can be judged as a trace: a
+/// quarter of what is left, or half of it, if so it comes up to the step that matters (see `cut_to_excerpt`).
 void thin_for_replay(ReportRun& run, int max_steps);
 
 /// Leaves the step that matters, and so many before and after it: the first passage of a solid, else of a one-way

@@ -18,11 +18,28 @@ std::vector<int> telling_steps(const ReportRun& run) {
   return steps;
 }
 
-/// The telling steps with their neighbours, as many as fit into half of the room.
+int step_that_matters(const ReportRun& run) {
+  using Kind = ReportEvent::Kind;
+  for (const Kind kind : {Kind::tunnel, Kind::one_way, Kind::inside, Kind::crush})
+    for (const ReportEvent& event : run.events)
+      if (event.kind == kind) return event.step;
+  for (const TraceStep& step : run.steps)
+    if (!step.contacts.empty()) return step.step;
+  return run.steps.front().step;
+}
+
+/// How many steps from the first one on stay whole.
+std::size_t length_of_beginning(const ReportRun& run, std::size_t room) {
+  const auto matters = static_cast<std::size_t>(step_that_matters(run) + 2 - run.steps.front().step);  // and one more
+  return matters > room / 4 && matters <= room / 2 ? matters : room / 4;
+}
+
+/// The beginning, then telling steps with their neighbours, as many as fit into three quarters of the room.
 std::set<int> steps_to_keep(const ReportRun& run, std::size_t room) {
   std::set<int> keep{run.steps.front().step, run.steps.back().step};
+  for (std::size_t i = 0; i < length_of_beginning(run, room); ++i) keep.insert(run.steps[i].step);
   for (const int step : telling_steps(run)) {
-    if (keep.size() + 3 > room / 2) break;
+    if (keep.size() + 3 > room * 3 / 4) break;
     keep.insert({step - 1, step, step + 1});
   }
   return keep;
@@ -33,16 +50,6 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<TraceStep>& ste
     if (kept[i] != i) steps[i] = std::move(steps[kept[i]]);
   }
   steps.resize(kept.size());
-}
-
-int step_that_matters(const ReportRun& run) {
-  using Kind = ReportEvent::Kind;
-  for (const Kind kind : {Kind::tunnel, Kind::one_way, Kind::inside, Kind::crush})
-    for (const ReportEvent& event : run.events)
-      if (event.kind == kind) return event.step;
-  for (const TraceStep& step : run.steps)
-    if (!step.contacts.empty()) return step.step;
-  return run.steps.front().step;
 }
 
 }  // namespace

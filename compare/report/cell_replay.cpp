@@ -1,8 +1,8 @@
 #include "report/cell_replay.hpp"
 
-#include "report/replay_json.hpp"
+#include "report/json_text.hpp"
+#include "report/replay.hpp"
 #include "report/row_pictures.hpp"
-#include "report/run_json.hpp"
 
 #include <fmt/format.h>
 
@@ -29,17 +29,10 @@ std::vector<ChartGrid::Cell*> cells_to_replay(ChartGrid& grid, std::size_t most)
 }
 
 std::string cell_replay_json(const ReportScene& excerpt) {
-  JsonArray parameters;
-  for (const auto& [key, value] : excerpt.rows.front().parameters) {
-    JsonArray pair;
-    pair.add_raw(json_string(axis_words(key))).add_raw(json_string(fmt::format("{:.6g}", value)));
-    parameters.add_raw(std::move(pair).take());
-  }
-  ReportScene slim = excerpt;
-  for (ReportRun& run : slim.runs) run.header.plan.reset();  // half of the text, and the same for all
-  JsonObject object;
-  object.put("parameters", std::move(parameters).take()).put("replay", replay_json(slim, {}));
-  return std::move(object).take();
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+  for (const auto& [key, value] : excerpt.rows.front().parameters)
+    parameters.push_back({axis_words(key), fmt::format("{:.6g}", value)});
+  return "{\"parameters\":" + script_safe(dumped(parameters)) + ",\"replay\":" + replay_json(excerpt, 0) + '}';
 }
 
 }  // namespace paperproof::compare

@@ -63,7 +63,7 @@ std::string chart_page_json(const ChartPage& page) {
                           {"grids", list_in_json(page.grids)},
                           {"heading", page.table.heading},
                           {"rows", page.table.rows}};
-  return script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  return script_safe(dumped(data));
 }
 
 }  // namespace paperproof::compare

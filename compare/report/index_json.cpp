@@ -33,10 +33,6 @@ nlohmann::json row_in_index(const nlohmann::ordered_json& row) {
   return object;
 }
 
-std::string dumped(const nlohmann::json& value) {
-  return script_safe(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-}
-
 }  // namespace
 
 std::string scene_index_json(const ReportScene& scene) {
@@ -47,14 +43,14 @@ std::string scene_index_json(const ReportScene& scene) {
                         {"disagreements", scene.disagreements.size()}};
   object["rows"] = nlohmann::json::array();
   for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row_json(row)));
-  return dumped(object);
+  return script_safe(dumped(object));
 }
 
 std::string scene_index_json(const std::string& name, const std::vector<nlohmann::ordered_json>& rows) {
   nlohmann::json object{{"name", name}, {"description", ""}, {"sentence", ""}, {"runs", 0}, {"disagreements", 0}};
   object["rows"] = nlohmann::json::array();
   for (const nlohmann::ordered_json& row : rows) object["rows"].push_back(row_in_index(row));
-  return dumped(object);
+  return script_safe(dumped(object));
 }
 
 std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
@@ -67,13 +63,10 @@ std::string index_json(const Environment& environment, const std::vector<NamedTo
   nlohmann::json titled = nlohmann::json::array();
   for (const ReportSection& section : sections)
     titled.push_back({{"title", section.title}, {"lines", section.lines}, {"table", section.table}});
-  JsonObject object;
-  object.put("environment", dumped(names)).put("tolerances", dumped(lengths));
-  object.put("guarantee_notes", dumped(guarantee_notes))
-      .put("sections", dumped(titled))
-      .put("scenes", list_of(scenes))
-      .put("studies", list_of(studies));
-  return std::move(object).take();
+  std::string text = script_safe(dumped(nlohmann::json{
+      {"environment", names}, {"tolerances", lengths}, {"guarantee_notes", guarantee_notes}, {"sections", titled}}));
+  text.back() = ',';
+  return text + "\"scenes\":" + list_of(scenes) + ",\"studies\":" + list_of(studies) + '}';
 }
 
 }  // namespace paperproof::compare

@@ -8,7 +8,7 @@ namespace paperproof::compare::page {
 extern const std::string_view page_html;  ///< The frame, with a marker for each of the other parts.
 extern const std::string_view style_css;
 extern const std::string_view time_js;
-extern const std::string_view decode_js;
+extern const std::string_view trace_js;
 extern const std::string_view draw_js;
 extern const std::string_view tables_js;
 extern const std::string_view disagreements_js;

@@ -29,7 +29,11 @@ std::string PageReader::element(const std::string& id) const {
   const std::size_t begin = text_.find(opening);
   if (begin == std::string::npos) throw std::runtime_error(path_ + ": expected a page that paperproof wrote");
   const std::size_t from = begin + opening.size();
-  return text_.substr(from, text_.find("</script>", from) - from);
+  std::string json = text_.substr(from, text_.find("</script>", from) - from);
+  // No page of today has this key; pages from before replays were traces do.
+  if (json.find("\"quantum\":") != std::string::npos)
+    throw std::runtime_error(path_ + ": expected a page whose replays are traces; an older paperproof wrote it");
+  return json;
 }
 
 }  // namespace paperproof::compare

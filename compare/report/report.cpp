@@ -5,7 +5,7 @@
 #include "report/index_json.hpp"
 #include "report/json_text.hpp"
 #include "report/page_parts.hpp"
-#include "report/replay_json.hpp"
+#include "report/replay.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -19,9 +19,6 @@ std::pair<std::string_view, std::string_view> split_at(std::string_view text, st
   if (at == std::string_view::npos) throw std::runtime_error("the report's page lacks " + std::string(marker));
   return {text.substr(0, at), text.substr(at + marker.size())};
 }
-
-/// A scene of which there are only rows.
-const std::string no_replay = R"({"quantum":1,"sceneries":[],"runs":[],"disagreements":[],"disagreements_in_all":0})";
 
 std::string head_of_page() {
   const auto [head, rest] = split_at(page::page_html, "/*STYLE*/");
@@ -39,7 +36,7 @@ std::string tail_of_page(bool charts) {
   const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
   text += before;
   for (const std::string_view part :
-       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js, page::cells_js,
+       {page::time_js, page::trace_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js, page::cells_js,
         page::disagreements_js, page::focus_js, page::controls_js, page::replay_js, page::first_js, page::main_js}) {
     text += part;
   }
@@ -68,11 +65,11 @@ void ReportWriter::add(const ReportScene& scene) {
   for (const ReportRun& run : scene.runs) {
     copy.runs.push_back(thinned(run, options_.max_replay_steps, scene.disagreements));
   }
-  add_scene(scene_index_json(copy), replay_json(copy, options_));
+  add_scene(scene_index_json(copy), replay_json(copy, options_.max_disagreements));
 }
 
 void ReportWriter::add_scene(std::string index, const std::string& replay) {
-  file_->write(data_element("replay-" + std::to_string(index_.size()), replay.empty() ? no_replay : replay));
+  file_->write(data_element("replay-" + std::to_string(index_.size()), replay));
   index_.push_back(std::move(index));
 }
 
@@ -97,7 +94,7 @@ std::string html_of(const ChartPage& page) {
 }
 
 ReportOptions options_for(std::size_t runs) noexcept {
-  constexpr std::size_t steps_in_all = 600'000;
+  constexpr std::size_t steps_in_all = 500'000;
   constexpr std::size_t fewest = 60;
   constexpr std::size_t most = 1200;
   const std::size_t share = std::clamp(steps_in_all / std::max<std::size_t>(runs, 1), fewest, most);

@@ -29,13 +29,13 @@ struct ReportSection {
   std::vector<std::vector<std::string>> table{};  ///< The first row is the heading; may be empty.
 };
 
-/// How much of the runs goes into the file. A stored step takes about 30 bytes.
+/// How much of the runs goes into the file. A stored step takes about 40 bytes.
 struct ReportOptions {
   int max_replay_steps = 1200;  ///< Per run [steps]. Small: jumps in the replay. Large: a file of hundreds of MB.
-  int max_disagreements = 24;   ///< Drawn per scene; the page says how many there were.
+  std::size_t max_disagreements = 24;  ///< Drawn per scene; the page says how many there were.
 };
 
-/// Options for a report with many runs: shares about 600,000 steps (some 20 MB) among them, 60 to 1,200 each.
+/// Options for a report with many runs: shares about 500,000 steps (some 20 MB) among them, 60 to 1,200 each.
 [[nodiscard]] ReportOptions options_for(std::size_t runs) noexcept;
 
 /// Writes a report scene by scene, so that no more than one has to be in memory. The page is written beside `path` and
@@ -50,8 +50,8 @@ class ReportWriter {
 
   /// Scenes appear in the page in the order in which they are added.
   void add(const ReportScene& scene);
-  /// A scene as a page has it. @param index its object in `scenes` of the index; @param replay see `replay_json`; empty
-  /// for none.
+  /// A scene as a page has it. @param index its object in `scenes` of the index; @param replay see `replay_json`;
+  /// `null` for none.
   void add_scene(std::string index, const std::string& replay);
   /// A study, in the order in which they are added.
   void add_study(const ChartPage& page);

@@ -1,12 +1,12 @@
 #include "report/strip_svg.hpp"
 
-#include "report/scenery_json.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -98,6 +98,18 @@ class View {
   Vec2d middle_;
   double scale_ = 1;
 };
+
+/// The points of a collider; of a circle, those of a polygon.
+std::vector<Vec2d> drawn_outline(const ColliderDef& collider) {
+  constexpr int corners = 64;
+  if (collider.shape != ColliderDef::Shape::circle) return collider.points;
+  std::vector<Vec2d> outline;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    outline.emplace_back(collider.points.front() + collider.radius * Vec2d(std::cos(angle), std::sin(angle)));
+  }
+  return outline;
+}
 
 std::string scenery(const View& view, const ReportRun& run, const TraceStep& record) {
   std::string svg;

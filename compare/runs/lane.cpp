@@ -10,12 +10,6 @@
 #include <cmath>
 
 namespace paperproof::compare {
-namespace {
-
-/// The first steps are kept for the replay one by one: a start is what people look at.
-constexpr int first_steps = 60;
-
-}  // namespace
 
 Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery& scenery,
            const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
@@ -182,8 +176,9 @@ void Lane::keep_for_replay() {
   const std::size_t before = replay_.events.size();
   for (std::size_t k = 0; k < records_.size(); ++k) note_events(k);
   const int step = records_.front().step;
+  // The beginning is kept whole: it is what people look at, and can be judged as a trace.
   const bool kept =
-      step < first_steps || step % replay_.every == 0 || step + 1 == limit_.steps || replay_.events.size() > before;
+      step < limit_.most / 2 || step % replay_.every == 0 || step + 1 == limit_.steps || replay_.events.size() > before;
   if (!kept) return;
   replay_.steps.push_back(records_.front());
   for (std::size_t k = 1; k < records_.size(); ++k) replay_.others[k - 1].push_back(records_[k]);

@@ -296,16 +296,11 @@ class SceneRun {
         if (result.disagreements.size() == most_disagreements) return;
         Disagreement told_one;
         told_one.step = one.step;
-        told_one.statements = {statement_of(one.mine, run_of(*pair.mine)),
-                               statement_of(one.reference, run_of(*pair.reference))};
+        told_one.statements = {{run_of(*pair.mine), one.mine}, {run_of(*pair.reference), one.reference}};
         told_one.who_is_right = who + one.who_is_right;
         result.disagreements.push_back(std::move(told_one));
       }
     }
-  }
-
-  static Disagreement::Statement statement_of(const TraceStep& step, std::size_t run) {
-    return {run, step.path.front().position, step.path.back().position, step.contacts};
   }
 
   const Scene& scene_;

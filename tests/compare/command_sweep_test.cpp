@@ -89,10 +89,9 @@ TEST_F(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_
   for (const nlohmann::json& grid : index.at("studies")[0].at("grids"))
     for (const nlohmann::json& line : grid.at("cells"))
       for (const nlohmann::json& cell : line) {
-        const nlohmann::json& run = replays.at(cell.at(4).get<std::size_t>()).at("replay").at("runs").at(0);
-        EXPECT_EQ(run.at("contender"), grid.at("title"));
-        bool through = false;
-        for (const nlohmann::json& event : run.at("events")) through = through || event.at(1) == "tunnel";
+        const std::string replay = unpacked(replays.at(cell.at(4).get<std::size_t>()).at("replay").dump());
+        EXPECT_NE(replay.find("\"contender\":" + grid.at("title").dump()), std::string::npos) << replay;
+        const bool through = replay.find(R"("kind":"tunnel")") != std::string::npos;
         EXPECT_EQ(through, begins(cell.at(2).get<std::string>(), "tunnels")) << cell;
       }
 }

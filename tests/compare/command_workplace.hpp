@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <zlib.h>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace paperproof::compare {
@@ -42,6 +44,30 @@ inline nlohmann::json element(const std::string& page, const std::string& id) {
   const std::string opening = "id=\"" + id + "\">";
   const std::size_t from = page.find(opening) + opening.size();
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+/// A replay that a page carries as a JSON string, as text: see `packed`.
+inline std::string unpacked(const std::string& json_string) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : json_string) {
+    if (digits.find(c) == std::string_view::npos) continue;
+    bits = bits << 6U | static_cast<unsigned>(digits.find(c));
+    if ((count += 6) >= 8) bytes += static_cast<char>(bits >> static_cast<unsigned>(count -= 8));
+  }
+  std::string text(std::size_t{1} << 24U, '\0');
+  z_stream stream{};
+  EXPECT_EQ(inflateInit2(&stream, MAX_WBITS + 16), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(text.data());
+  stream.avail_out = static_cast<uInt>(text.size());
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  text.resize(stream.total_out);
+  inflateEnd(&stream);
+  return text;
 }
 
 /// A folder in which the command runs.

@@ -44,7 +44,7 @@ TEST_F(ReportTest, the_page_refers_to_nothing_outside_of_itself_and_no_text_leav
   EXPECT_EQ(scene["name"], hostile_text);
   EXPECT_EQ(scene["description"],
             "\"quotes\", <b>tags</b> & a \xE2\x82\xAC, and bytes that are not UTF-8: \xEF\xBF\xBD\xEF\xBF\xBD.");
-  EXPECT_EQ(element(text, "replay-0")["sceneries"][0]["ids"]["2"], hostile_text);
+  EXPECT_NE(unpacked(element(text, "replay-0").dump()).find(json(hostile_text).dump()), std::string::npos);
 }
 
 TEST_F(ReportTest, a_metric_that_does_not_apply_is_absent_and_one_that_is_not_finite_says_so) {
@@ -61,7 +61,7 @@ TEST_F(ReportTest, a_metric_that_does_not_apply_is_absent_and_one_that_is_not_fi
   EXPECT_EQ(rows[0]["max_contact_gap_m"], 5e-7);
   EXPECT_EQ(rows[0]["max_penetration_m"], "not finite");
   EXPECT_EQ(rows[1]["verdict"], "not applicable");
-  EXPECT_TRUE(element(text, "replay-0")["runs"].empty()) << "a scene without runs keeps its rows";
+  EXPECT_TRUE(element(text, "replay-0").is_null()) << "a scene without runs keeps its rows";
   EXPECT_TRUE(element(page(Report{}), "index")["scenes"].empty());
 }
 
@@ -87,6 +87,8 @@ TEST_F(ReportTest, a_page_is_read_back_as_it_was_written) {
   EXPECT_EQ(json(reader.index()), element(text, "index"));
   for (std::size_t scene = 0; scene < 2; ++scene)
     EXPECT_EQ(json::parse(reader.replay(scene)), element(text, "replay-" + std::to_string(scene)));
+  std::ofstream(path()) << with(text, element(text, "replay-0").dump(), R"({"quantum":1})");
+  EXPECT_THROW(static_cast<void>(PageReader(path()).replay(0)), std::runtime_error) << "steps in another format";
   std::ofstream(path()) << "<html></html>";
   EXPECT_THROW(PageReader{path()}, std::runtime_error);
 }

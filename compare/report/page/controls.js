@@ -11,17 +11,14 @@ function usualSpeed(replay) {
 function keptInWords(replay) {
   const first = replay.timeline[0], last = replay.timeline[replay.timeline.length - 1];
   const every = Math.max(...replay.runs.map((run) => run.every));
-  const thinned = every > 1 ? `, every ${ordinal(every)} and those around an event` : '';
+  const thinned = every > 1 ? `, all of the beginning, then every ${ordinal(every)} and those around an event` : '';
   const sampled = replay.runs.filter((run) => !run.path_exact).map((run) => run.label);
-  const gliding = replay.runs.filter((run) => run.remainder).map((run) => run.label);
-  const lost = replay.runs.filter((run) => run.not_finite_from !== undefined)
-                   .map((run) => ` ${run.label}: no finite position from step ${run.not_finite_from} on.`);
-  return `Showing steps ${grouped(first)} to ${grouped(last)}${thinned}; positions rounded to ${
-             lengthInWords(replay.data.quantum)}.` +
+  const gliding = replay.runs.filter((run) => run.steps.some(({remainder}) => remainder.some((v) => v !== 0)))
+                      .map((run) => run.label);
+  return `Showing steps ${grouped(first)} to ${grouped(last)}${thinned}.` +
       (sampled.length ? ` The way within a step is sampled, not exact, for ${sampled.join(', ')} (dashed).` : '') +
       (gliding.length ? ` Of ${gliding.join(', ')} the filled figure stands in its square; dashed: drawn in between.` :
-                        '') +
-      lost.join('');
+                        '');
 }
 
 function legend(replay) {
@@ -41,7 +38,8 @@ function legend(replay) {
   });
   return el(
       'div', {class: 'bar legend', role: 'group', 'aria-label': 'Contenders shown'}, toggles,
-      replay.runs.length > 1 ? el('button', {type: 'button', onclick: () => replay.setVisible(replay.runs)}, 'All') : null);
+      replay.runs.length > 1 ? el('button', {type: 'button', onclick: () => replay.setVisible(replay.runs)}, 'All') :
+                               null);
 }
 
 function cameraBar(replay) {
@@ -68,7 +66,8 @@ function cameraBar(replay) {
       el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.setTogether(!replay.together)},
          'Side by side');
   return el(
-      'div', {class: 'bar', role: 'group', 'aria-label': 'View'}, replay.runs.length > 1 ? replay.layoutButton : null, [...replay.modeButtons.values()],
+      'div', {class: 'bar', role: 'group', 'aria-label': 'View'}, replay.runs.length > 1 ? replay.layoutButton : null,
+      [...replay.modeButtons.values()],
       el('button', {type: 'button', 'aria-label': 'Zoom in', onclick: () => replay.zoom(1.4)}, '+'),
       el('button', {type: 'button', 'aria-label': 'Zoom out', onclick: () => replay.zoom(1 / 1.4)}, '\u2212'),
       el('span', {class: 'gap'}), choice('trajectories', 'trajectories'), choice('start', 'start of step'),
@@ -97,7 +96,8 @@ function transport(replay) {
     replay.t = Number(replay.within.value);
     replay.draw();
   });
-  const speed = el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === replay.speed}, words)));
+  const speed =
+      el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === replay.speed}, words)));
   speed.addEventListener('change', () => {
     replay.speed = Number(speed.value);
   });
@@ -115,6 +115,18 @@ function jumps(replay) {
   return buttons.length === 0 ? null :
                                 el('div', {class: 'bar', role: 'group', 'aria-label': 'Jump to'},
                                    el('span', {class: 'quiet'}, 'Jump to'), buttons);
+}
+
+/// What they save can be judged: by `paperproof judge`, and by tests/compare/check_trace.py.
+function traces(replay) {
+  const buttons = replay.runs.filter((run) => stepsToSave(run) > 0).map((run) => {
+    const count = stepsToSave(run), part = count < run.steps.length ? ` (its first ${grouped(count)} steps)` : '';
+    return el('button', {type: 'button', onclick: () => saveTrace(run)}, run.label + part);
+  });
+  const words = 'Save the trace of';
+  return buttons.length === 0 ?
+      null :
+      el('div', {class: 'bar', role: 'group', 'aria-label': words}, el('span', {class: 'quiet'}, words), buttons);
 }
 
 /// First contact of anyone, the first event of each kind for each contender, the first disagreement.
@@ -152,36 +164,30 @@ function readoutRows(replay, run) {
 }
 
 function readoutRow(replay, run, character, label, events) {
-  const {record, ended} = replay.stateOf(character), names = run.scenery.colliders, [ahead, above] = record.remainder;
-  const pair = (x, y, unit) => `${fixedTo(x, unit)}, ${fixedTo(y, unit)}`;
+  const {record, ended} = replay.stateOf(character), {x, y} = positionAt(record, 1), [ahead, above] = record.remainder;
+  const unit = unitOf(run), pair = (a, b, to) => `${fixedTo(a, to)}, ${fixedTo(b, to)}`;
   // Before each step the twin is put to the controller: that is no respawn.
   const isTwin = run.mode === 'lockstep' && run.box2d !== '';
-  const flags = record.flags.filter((flag) => !(isTwin && flag === 'respawn'));
-  const list = (colliders) => colliders.map((i) => (names[i] ? names[i].id : i)).join(', ');
+  const flags =
+      Object.keys(FLAGS).filter((key) => record[key] && !(isTwin && key === 'respawn')).map((key) => FLAGS[key]);
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
     ...flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
-    record.startOverlap.length ? `began inside ${list(record.startOverlap)}` : null,
-    ahead || above ?
-        `drawn at ${pair(record.x + ahead, record.y + above, replay.data.quantum)}, in between two squares` :
-        null,
-    record.crush.length ? `crushed by ${list(record.crush)}` : null,
-    record.drop.length ? `drops through ${list(record.drop)}` : null
+    record.start_overlap.length ? `began inside ${record.start_overlap.join(', ')}` : null,
+    ahead || above ? `drawn at ${pair(x + ahead, y + above, unit)}, in between two squares` : null,
+    record.crush.length ? `crushed by ${record.crush.join(', ')}` : null,
+    record.drop.length ? `drops through ${record.drop.join(', ')}` : null
   ].filter(Boolean);
   const told = ['crush', 'drop'];  // by the record
   const now = events.filter((event) => event.step === record.step && !ended && !told.includes(event.kind));
-  const line = (what, {nx, ny, t}, rest) =>
-      el('div', {}, `${what}, (${measure(nx)}, ${measure(ny)}), ${measure(t)}${rest}`);
+  const line = ({side, normal, fraction}, whom, rest) =>
+      el('div', {}, `${side}, ${whom}, (${normal.map(measure).join(', ')}), ${measure(fraction)}${rest}`);
   const contacts = ended ? [] : [
-    ...record.contacts.map(
-        (contact) => line(
-            contactWords(contact, names), contact,
-            `, ${contact.separation === null ? '' : `${measure(contact.separation)} m`}`)),
-    ...record.met.map((met) => line(`${met.side}, character ${met.character}`, met, ''))
+    ...record.contacts.map((contact) => line(contact, contact.collider, `, ${measure(contact.separation)} m`)),
+    ...record.met.map((met) => line(met, `character ${met.character}`, ''))
   ];
   return el(
       'tr', {class: ended ? 'ended' : null}, el('th', {scope: 'row'}, label),
-      el('td', {class: 'number'}, pair(record.x, record.y, replay.data.quantum)),
-      el('td', {class: 'number'}, pair(record.vx, record.vy, replay.data.quantum * 10)),
+      el('td', {class: 'number'}, pair(x, y, unit)), el('td', {class: 'number'}, pair(...record.velocity, unit * 10)),
       el('td', {}, words.join(', '),
          now.map(
              (event) =>
@@ -190,7 +196,13 @@ function readoutRow(replay, run, character, label, events) {
       el('td', {}, contacts));
 }
 
-/// As many decimals as the unit it was rounded to has.
+/// To which positions of a character are shown: about a ten-thousandth of its size [m].
+function unitOf(run) {
+  const [left, bottom, right, top] = boxOf(run.hull);
+  return 10 ** Math.floor(Math.log10(Math.max(right - left, top - bottom) * 1e-4));
+}
+
+/// As many decimals as the unit has.
 function fixedTo(value, unit) {
   const decimals = Math.max(0, Math.min(12, Math.round(-Math.log10(unit))));
   return value.toFixed(decimals).replace('-', MINUS);

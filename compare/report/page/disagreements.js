@@ -1,21 +1,13 @@
 // Small pictures of the steps on which two sides differ.
 
-function contactWords(contact, colliders) {
-  const collider = colliders[contact.collider];
-  return `${contact.side}, ${collider ? collider.id : `collider ${contact.collider}`}`;
-}
-
-function contactsInWords(contacts, colliders) {
-  if (contacts.length === 0) return 'no contact';
-  return contacts.map((contact) => contactWords(contact, colliders)).join('; ');
+function contactsInWords(contacts) {
+  return contacts.map(({side, collider}) => `${side}, ${collider}`).join('; ') || 'no contact';
 }
 
 function boxOfStatements(disagreement) {
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const {run, from, to} of disagreement.statements) {
-    const hull = boxOf(run.hull);
-    for (const p of [from, to]) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], box);
-  }
+  const box = nothing();
+  for (const {run, record} of disagreement.statements)
+    for (const corner of [record.path[0], record.path.at(-1)]) boxOf(movedBox(boxOf(run.hull), corner), box);
   return box;
 }
 
@@ -23,30 +15,25 @@ function drawDisagreement(canvas, disagreement, names) {
   const painter = new Painter(canvas), camera = new Camera();
   camera.fit(boxOfStatements(disagreement), canvas.clientWidth, canvas.clientHeight, 0.16);
   painter.begin(camera, theme());
-  const {run: first} = disagreement.statements[0], record = first.steps[Math.max(indexAt(first, disagreement.step), 0)];
-  painter.scenery(first.scenery, record ? offsetsAt(record, 1) : []);
-  for (const {run, from, to, contacts} of disagreement.statements) {
+  const [first] = disagreement.statements;
+  painter.scenery(first.run.scenery, first.record, 1);
+  for (const {run, record: {path, contacts}} of disagreement.statements) {
     const {colour, dash} = inkOf(run, names);
-    painter.octagon(run.hull, from.x, from.y, {colour, dash: [2, 3], alpha: 0.45});
-    painter.octagon(run.hull, to.x, to.y, {colour, fill: true, dash});
+    painter.octagon(run.hull, path[0][0], path[0][1], {colour, dash: [2, 3], alpha: 0.45});
+    painter.octagon(run.hull, path.at(-1)[0], path.at(-1)[1], {colour, fill: true, dash});
     contacts.forEach((contact) => painter.contact(contact, colour, 22));
   }
-  for (const contact of disagreement.exact || []) painter.contact(contact, painter.colours.text, 14);
   painter.scaleBar();
 }
 
 function disagreementCard(disagreement, names, goTo) {
-  const canvas = el('canvas', {role: 'img', 'aria-label': `Step ${disagreement.step}: ${disagreement.whoIsRight}`});
+  const canvas = el('canvas', {role: 'img', 'aria-label': `Step ${disagreement.step}: ${disagreement.who_is_right}`});
   const says = disagreement.statements.map(
-      ({run, contacts}) =>
+      ({run, record}) =>
           el('p', {}, el('span', {class: 'swatch', style: `border-color:${inkOf(run, names).colour}`}),
-             `${run.label}: ${contactsInWords(contacts, run.scenery.colliders)}`));
-  const colliders = disagreement.statements[0].run.scenery.colliders;
-  const exact = disagreement.exact ? el('p', {}, el('span', {class: 'swatch', style: 'border-color:var(--text)'}),
-                                        `exact: ${contactsInWords(disagreement.exact, colliders)}`) :
-                                     null;
+             `${run.label}: ${contactsInWords(record.contacts)}`));
   const card =
-      el('div', {class: 'card'}, canvas, says, exact, el('p', {class: 'right'}, disagreement.whoIsRight),
+      el('div', {class: 'card'}, canvas, says, el('p', {class: 'right'}, disagreement.who_is_right),
          el('button', {type: 'button', onclick: () => goTo(disagreement)}, `Go to step ${disagreement.step}`));
   return {card, draw: () => drawDisagreement(canvas, disagreement, names)};
 }
@@ -62,8 +49,7 @@ function disagreementsSection(replay, names, goTo) {
     nodes: [
       el('h3', {}, 'Disagreements'),
       el('p', {class: 'quiet'},
-         `${said} Dotted: where the step began. Filled: where it ended. Arrows: contact normals; ` +
-             'short ones in the text colour are the exact contacts.'),
+         `${said} Dotted: where the step began. Filled: where it ended. Arrows: contact normals.`),
       el('div', {class: 'cards'}, cards.map(({card}) => card))
     ],
     draw: () => cards.forEach(({draw}) => draw()),

@@ -112,12 +112,13 @@ class Painter {
     if (close) this.context.closePath();
   }
 
-  /// @param offsets  of the movers, [x, y] each.
-  scenery(scenery, offsets) {
-    const visible = scenery.colliders.filter((collider) => collider.mover < 0 && this.sees(collider.box));
-    const moving = scenery.colliders.filter((collider) => collider.mover >= 0)
-                       .map((collider) => placed(collider, offsets))
-                       .filter((collider) => this.sees(collider.box));
+  /// As it is at a fraction of a step.
+  scenery({byId}, record, t) {
+    const visible = [], moving = [];
+    for (const defined of byId.values()) {
+      const collider = placed(defined, record, t);
+      if (this.sees(collider.box)) (collider === defined ? visible : moving).push(collider);
+    }
     this.solids(visible.filter((collider) => !collider.sensor), this.colours.solid);
     this.solids(moving.filter((collider) => !collider.sensor), this.colours.mover);
     for (const collider of [...visible, ...moving])
@@ -144,8 +145,10 @@ class Painter {
     c.lineWidth = 0.75;
     c.stroke();
     for (const collider of visible) {
-      if (collider.chain) this.chain(collider);
-      else if (collider.oneWay) this.blockingSides(collider);
+      if (collider.chain)
+        this.chain(collider);
+      else if (collider.oneWay)
+        this.blockingSides(collider);
     }
   }
 
@@ -183,7 +186,8 @@ class Painter {
     c.beginPath();
     for (let i = 0; i + 3 < flat.length; i += 2) {
       const [x0, y0, x1, y1] = flat.slice(i, i + 4);
-      if ((y1 - y0) * collider.oneWay[0] - (x1 - x0) * collider.oneWay[1] > 0) this.ticks([x0, y0, x1, y1], collider.oneWay);
+      if ((y1 - y0) * collider.oneWay[0] - (x1 - x0) * collider.oneWay[1] > 0)
+        this.ticks([x0, y0, x1, y1], collider.oneWay);
     }
     c.stroke();
   }
@@ -263,12 +267,12 @@ class Painter {
     c.lineWidth = 2.5;
     c.setLineDash(dashed ? [3, 3] : []);
     c.beginPath();
-    path.forEach((p, i) => (i === 0 ? c.moveTo(this.toX(p.x), this.toY(p.y)) : c.lineTo(this.toX(p.x), this.toY(p.y))));
+    path.forEach(([x, y], i) => (i === 0 ? c.moveTo(this.toX(x), this.toY(y)) : c.lineTo(this.toX(x), this.toY(y))));
     c.stroke();
     c.setLineDash([]);
     c.fillStyle = colour;
-    for (const p of path.slice(1, -1)) {
-      const x = this.toX(p.x), y = this.toY(p.y);
+    for (const corner of path.slice(1, -1)) {
+      const x = this.toX(corner[0]), y = this.toY(corner[1]);
       c.beginPath();
       c.moveTo(x - 4, y);
       c.lineTo(x, y - 4);
@@ -287,17 +291,16 @@ class Painter {
     c.setLineDash(dash);
     c.beginPath();
     for (let i = Math.max(from, 0); i < to; ++i) {
-      const jump = i === from || steps[i].flags.includes('respawn');
+      const jump = i === from || steps[i].respawn;
       steps[i].path.forEach(
-          (p, k) =>
-              (jump && k === 0 ? c.moveTo(this.toX(p.x), this.toY(p.y)) : c.lineTo(this.toX(p.x), this.toY(p.y))));
+          ([x, y], k) => (jump && k === 0 ? c.moveTo(this.toX(x), this.toY(y)) : c.lineTo(this.toX(x), this.toY(y))));
     }
     c.stroke();
     c.setLineDash([]);
     c.globalAlpha = 1;
   }
 
-  contact({x, y, nx, ny}, colour, length = 26) {
+  contact({point: [x, y], normal: [nx, ny]}, colour, length = 26) {
     const c = this.context, px = this.toX(x), py = this.toY(y), ex = px + nx * length, ey = py - ny * length;
     c.strokeStyle = colour;
     c.lineWidth = 2;
@@ -315,7 +318,7 @@ class Painter {
     c.stroke();
   }
 
-  velocity(x, y, vx, vy, colour) {
+  velocity(x, y, [vx, vy], colour) {
     const speed = Math.hypot(vx, vy);
     if (!(speed > 0)) return;
     const c = this.context, length = Math.min(60, 14 + 8 * Math.log1p(speed));

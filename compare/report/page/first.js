@@ -32,8 +32,8 @@ function firstScene() {
 
 /// One small picture for each contender: the step that matters, at the same fraction for all.
 class Strip {
-  constructor(scene) {
-    this.replay = decodeReplay(dataOf(`replay-${INDEX.scenes.indexOf(scene)}`));
+  constructor(scene, replay) {
+    this.replay = replay;
     this.names = namesWith(this.replay.runs);
     const focus = mainFocus(this.replay.runs);
     this.step = focus ? focus.step : 0;
@@ -60,11 +60,11 @@ class Strip {
 
   /// What all of them cover in this step, upright tiles being narrow.
   box() {
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    const box = nothing();
     for (const {run} of this.tiles) {
       if (!run) continue;
       const hull = boxOf(run.hull), record = run.steps[Math.max(indexAt(run, this.step), 0)];
-      for (const p of record.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], box);
+      for (const corner of record.path) boxOf(movedBox(hull, corner), box);
     }
     return box;
   }
@@ -99,12 +99,12 @@ class Strip {
       if (!run) continue;
       const camera = new Camera(), {canvas} = painter, ink = inkOf(run, this.names);
       camera.fit(box, canvas.clientWidth, canvas.clientHeight, 0.05);
-      const record = run.steps[Math.max(indexAt(run, this.step), 0)], first = record.path[0];
+      const record = run.steps[Math.max(indexAt(run, this.step), 0)], [first] = record.path;
       const {x, y} = positionAt(record, this.t);
       painter.begin(camera, colours);
-      painter.scenery(run.scenery, offsetsAt(record, this.t));
-      painter.trajectory([{...record, path: [...record.path.filter((p) => p.t < this.t), {x, y}]}], 0, 1, {colour: ink.colour, dash: [], alpha: 1});
-      painter.octagon(run.hull, first.x, first.y, {colour: ink.colour, dash: [2, 2], alpha: 0.6});
+      painter.scenery(run.scenery, record, this.t);
+      painter.trajectory([{...record, path: [...record.path.filter((corner) => corner[2] < this.t), [x, y]]}], 0, 1, {colour: ink.colour, dash: [], alpha: 1});
+      painter.octagon(run.hull, first[0], first[1], {colour: ink.colour, dash: [2, 2], alpha: 0.6});
       painter.octagon(run.hull, x, y, {colour: ink.colour, fill: true});
       painter.dot(x, y, 4, ink.colour);
     }
@@ -201,8 +201,8 @@ function studySection(study) {
 }
 
 /// What the first screen has: two questions, and their answers in pictures.
-function firstScreen(scene, costly) {
-  const strip = new Strip(scene), chart = costly ? new ChartPicture(costly.charts, 'bullet') : null;
+function firstScreen(scene, replay, costly) {
+  const strip = new Strip(scene, replay), chart = costly ? new ChartPicture(costly.charts, 'bullet') : null;
   const costs = costBars(scene);
   const accuracy = chart ? [
     el('h3', {}, costly.title), chart.root, ...folded('How to read this', costly.paragraphs.map((words) => el('p', {}, words))),
@@ -224,10 +224,10 @@ function firstScreen(scene, costly) {
 }
 
 /// The whole of the page without an address: what to put there, and what draws it once it is there.
-function summary() {
-  const scene = firstScene(), groups = byContender(INDEX.scenes);
+async function summary() {
+  const scene = firstScene(), replay = scene && await readReplay(replayOf(scene)), groups = byContender(INDEX.scenes);
   const costly = scene && INDEX.studies.find((study) => study.charts.length > 0);
-  const first = scene ? firstScreen(scene, costly) : {nodes: [], draw: () => {}};
+  const first = scene ? firstScreen(scene, replay, costly) : {nodes: [], draw: () => {}};
   const studies = INDEX.studies.filter((study) => study !== costly).map(studySection);
   return {
     nodes: [

@@ -32,20 +32,17 @@ function meeting(hull, start, way, [x0, y0, x1, y1]) {
 /// When a character meets the outline of a collider in a step: [first, last] as fractions of it, null if it does not.
 /// What turns is taken as it is turned half-way.
 function crossing(hull, record, collider) {
-  const mover = record.movers[collider.mover], turned = mover && (mover.fa || mover.ta);
-  const offsetAt = (t) => (mover ? offsetsAt(record, t)[collider.mover] : [0, 0]);
-  const rings = turned ?
-      placed(collider, [...record.movers.keys()].map((i) => [0, 0, offsetsAt(record, 0.5)[i][2]])).rings :
-      collider.rings;
+  const motion = motionOf(collider, record), at = (t) => offsetAt(motion, t), [hx, hy] = at(0.5);
+  const {rings} = !motion || Array.isArray(motion) ? collider : moved(placed(collider, record, 0.5), [-hx, -hy]);
   let found = null;
   for (let leg = 1; leg < record.path.length; ++leg) {
-    const [from, to] = [record.path[leg - 1], record.path[leg]], [ax, ay] = offsetAt(from.t), [bx, by] = offsetAt(to.t);
-    const start = {x: from.x - ax, y: from.y - ay}, way = {x: to.x - bx - start.x, y: to.y - by - start.y};
+    const [[x, y, from], [nextX, nextY, to]] = record.path.slice(leg - 1), [ax, ay] = at(from), [bx, by] = at(to);
+    const start = {x: x - ax, y: y - ay}, way = {x: nextX - bx - start.x, y: nextY - by - start.y};
     for (const ring of rings) {
       for (let i = 0; i < ring.length - (collider.chain ? 2 : 0); i += 2) {
         const j = (i + 2) % ring.length, span = meeting(hull, start, way, [ring[i], ring[i + 1], ring[j], ring[j + 1]]);
         if (!span) continue;
-        const [first, last] = span.map((part) => from.t + part * (to.t - from.t));
+        const [first, last] = span.map((part) => from + part * (to - from));
         found = found ? [Math.min(found[0], first), Math.max(found[1], last)] : [first, last];
       }
     }
@@ -57,7 +54,7 @@ function crossing(hull, record, collider) {
 function boxAround(run, record, t, collider) {
   const {x, y} = positionAt(record, t), box = movedBox(boxOf(run.hull), [x, y]);
   if (!collider) return box;
-  const met = placed(collider, offsetsAt(record, t)).box;
+  const met = placed(collider, record, t).box;
   const size = Math.max(box[2] - box[0], box[3] - box[1]), thickness = Math.min(met[2] - met[0], met[3] - met[1]);
   const reach = 0.3 * size + (thickness <= WHOLE_UP_TO * size ? thickness : 0);
   const near = [
@@ -82,11 +79,11 @@ function withNeighbours(replay, box) {
 
 function eventFocus(run, event) {
   const steps = run.characters[event.character].steps, record = steps[Math.max(indexAt({steps}, event.step), 0)];
-  const collider = run.scenery.colliders[event.collider];
+  const collider = run.scenery.byId.get(event.collider);
   // In the middle of a passage it is seen best: who holds has stopped, who does not is within.
   const passage =
       ['tunnel', 'one-way broken'].includes(event.kind) && collider ? crossing(run.hull, record, collider) : null;
-  const t = passage ? Math.round((passage[0] + passage[1]) / 2 * PARTS_OF_ONE) / PARTS_OF_ONE : 1;
+  const t = passage ? Math.round((passage[0] + passage[1]) / 2 * 10000) / 10000 : 1;
   return {step: event.step, t, box: boxAround(run, record, t, collider)};
 }
 
@@ -99,7 +96,7 @@ function firstContact(runs) {
       if (!record) continue;
       for (const contact of [...record.contacts, ...record.met])
         if (!first || record.step < first.record.step ||
-            (record.step === first.record.step && contact.t < first.contact.t))
+            (record.step === first.record.step && contact.fraction < first.contact.fraction))
           first = {run, record, contact};
     }
   }
@@ -107,8 +104,8 @@ function firstContact(runs) {
   const {run, record, contact} = first;
   return {
     step: record.step,
-    t: contact.t,
-    box: boxAround(run, record, contact.t, run.scenery.colliders[contact.collider])
+    t: contact.fraction,
+    box: boxAround(run, record, contact.fraction, run.scenery.byId.get(contact.collider))
   };
 }
 

@@ -31,16 +31,18 @@ function runDetails(replay) {
   const rows = replay.runs.map((run) => {
     const facts = [replay.times.inWords(), `${grouped(run.steps.length)} steps stored`];
     if (run.box2d) facts.push(`Box2D ${run.box2d}`);
-    if (run.plan_omitted.length) facts.push(`left out by the plan: ${run.plan_omitted.join('; ')}`);
+    const omitted = run.header.plan ? run.header.plan.omitted : [];
+    if (omitted.length)
+      facts.push(`left out by the plan: ${omitted.map(({stage, reason}) => `${stage}: ${reason}`).join('; ')}`);
     return [run.label, facts.join(', ')];
   });
   return el('details', {}, el('summary', {}, 'About the runs'), pairs(rows));
 }
 
-function replayNodes(index) {
-  const replay = decodeReplay(dataOf(`replay-${index}`));
-  if (!replay.runs.some((run) => run.steps.length > 0)) {
-    open.replay = open.pictures = null;
+const replayOf = (scene) => dataOf(`replay-${INDEX.scenes.indexOf(scene)}`);
+
+function replayNodes(replay) {
+  if (!replay || !replay.runs.some((run) => run.steps.length > 0)) {
     return {shown: [el('p', {class: 'quiet'}, 'No run of this scene was stored for replay.')], details: []};
   }
   const names = namesWith(replay.runs);
@@ -65,15 +67,18 @@ function countColours() {
   document.documentElement.dataset.colours = String(new Set(data).size);
 }
 
+/// What it shows is read later, and then something else may have been opened. @return whether nothing was.
 function begin(what) {
   if (open.replay) open.replay.pause();
-  open = {what, replay: null, pictures: null, back: null};
+  const begun = open = {what, replay: null, pictures: null, back: null};
+  return () => open === begun;
 }
 
-function showScene(index, wanted) {
-  const scene = INDEX.scenes[index];
-  begin(`scene ${index}`);
-  const replay = replayNodes(index);
+async function showScene(index, wanted) {
+  const scene = INDEX.scenes[index], isWanted = begin(`scene ${index}`), packed = replayOf(scene);
+  const read = packed && await readReplay(packed);
+  if (!isWanted()) return;
+  const replay = replayNodes(read);
   main.replaceChildren(
       ...[el('h2', {}, scene.name), scene.description ? el('p', {class: 'quiet'}, scene.description) : null,
           scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...replay.shown, ...safetyTable(scene),
@@ -106,23 +111,25 @@ function startReplay(replay, wanted) {
   }
 }
 
-function showCell(cell, wanted) {
-  begin('cell');
-  const {parameters, replay} = dataOf(`cells-${cell.index}`)[cell.replay], decoded = decodeReplay(replay);
+async function showCell(cell, wanted) {
+  const isWanted = begin('cell'), {parameters, replay} = dataOf(`cells-${cell.index}`)[cell.replay];
+  const read = await readReplay(replay);
+  if (!isWanted()) return;
   const {above, below} = cellNodes(cell, parameters);
   open.back = addressOfCell(cell.study, cell.grid, cell.at, 'at');
-  open.replay = new Replay(decoded, namesWith(decoded.runs), noteDrawn);
-  main.replaceChildren(...above, open.replay.root, ...below, runDetails(decoded));
+  open.replay = new Replay(read, namesWith(read.runs), noteDrawn);
+  main.replaceChildren(...above, open.replay.root, ...below, runDetails(read));
   document.title = `${cell.grid.title} - ${cell.study.title}`;
   startReplay(open.replay, wanted);
 }
 
-function showSummary(wanted) {
-  begin('summary');
-  const pictures = summary();
+async function showSummary(wanted) {
+  const isWanted = begin('summary'), pictures = await summary();
+  if (!isWanted()) return;
   open.pictures = pictures;
   main.replaceChildren(...pictures.nodes);
-  document.title = INDEX.scenes.length || INDEX.studies.length !== 1 ? 'paperproof report' : `paperproof: ${INDEX.studies[0].title}`;
+  document.title =
+      INDEX.scenes.length || INDEX.studies.length !== 1 ? 'paperproof report' : `paperproof: ${INDEX.studies[0].title}`;
   pictures.draw();
   document.documentElement.dataset.drawn = 'summary';
   window.scrollTo(0, 0);

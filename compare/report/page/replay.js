@@ -23,7 +23,7 @@ class Replay {
         el('div', {class: 'readout table-box', tabindex: '0', role: 'region', 'aria-label': 'State at this step'});
     this.root =
         el('section', {'aria-label': 'Replay'}, el('h3', {}, 'Replay'), el('p', {class: 'quiet'}, keptInWords(this)),
-           legend(this), cameraBar(this), this.box, transport(this), jumps(this), this.readout,
+           legend(this), cameraBar(this), this.box, transport(this), jumps(this), this.readout, traces(this),
            el('p', {class: 'quiet'},
               'Keys: space plays and pauses, left and right step, Home and End jump, + and \u2212 zoom, F follows. ' +
                   'The wheel zooms (with Ctrl held, or after a click into the picture), dragging moves the picture.'));
@@ -84,14 +84,13 @@ class Replay {
   look(mode) {
     this.mode = mode;
     const canvas = this.views[0].canvas, width = canvas.clientWidth, height = canvas.clientHeight;
-    const ways = [Infinity, Infinity, -Infinity, -Infinity], all = [Infinity, Infinity, -Infinity, -Infinity];
+    const ways = nothing(), all = nothing();
     for (const run of this.runs) {
       const hull = boxOf(run.hull);
       for (const {steps} of run.characters)
-        for (const step of steps)
-          for (const p of step.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], ways);
-      boxOf(run.scenery.box.filter(Number.isFinite), all);
-      boxOf(run.movingBox.filter(Number.isFinite), all);
+        for (const {path} of steps)
+          for (const corner of path) boxOf(movedBox(hull, corner), ways);
+      boxOf(run.box.filter(Number.isFinite), all);
     }
     if (mode === 'event' && this.focus) this.camera.fit(this.focus.box, width, height, 0.1);
     if (mode === 'ways') this.camera.fit(ways, width, height, 0.1);
@@ -263,11 +262,6 @@ class Replay {
     return {index, record, ended, t, position: positionAt(record, t), drawn: drawnAt(character.steps, index, t)};
   }
 
-  offsetsOf(run) {
-    const {record, t} = this.stateOf(run);
-    return offsetsAt(record, t);
-  }
-
   draw() {
     const colours = theme();
     for (const view of this.views) this.drawView(view, colours);
@@ -288,7 +282,8 @@ class Replay {
     for (const run of runs.length ? runs : this.runs.slice(0, 1)) {
       if (drawn.has(run.scenery)) continue;
       drawn.add(run.scenery);
-      painter.scenery(run.scenery, this.offsetsOf(run));
+      const {record, t} = this.stateOf(run);
+      painter.scenery(run.scenery, record, t);
     }
     if (this.show.trajectories)
       for (const run of runs) this.drawTrajectory(painter, run);
@@ -307,7 +302,7 @@ class Replay {
       if (HARMLESS.includes(event.kind)) continue;
       const at = run.byStep.get(event.step);
       if (at === undefined || (several && (at > index || at < index - RECENT))) continue;
-      const {x, y} = run.characters[event.character].steps[at];
+      const {x, y} = positionAt(run.characters[event.character].steps[at], 1);
       painter.cross(x, y);
     }
   }
@@ -318,17 +313,16 @@ class Replay {
 
   drawCharacter(painter, run, character, number) {
     const ink = inkOf(run, this.names), {record, ended, position, drawn} = this.stateOf(character);
-    const first = record.path[0];
+    const [first] = record.path;
     if (!ended) {
-      const offsets = this.offsetsOf(run);
-      const highlight = (index, colour, dash) => {
-        const collider = run.scenery.colliders[index];
-        if (collider) painter.highlight(placed(collider, offsets), colour, dash);
-      };
+      const world = this.stateOf(run);
+      const highlight = (id, colour, dash) =>
+          painter.highlight(placed(run.scenery.byId.get(id), world.record, world.t), colour, dash);
       for (const contact of record.contacts) highlight(contact.collider, ink.colour);
-      for (const index of record.crush) highlight(index, painter.colours.bad);
-      for (const index of record.drop) highlight(index, ink.colour, [3, 3]);
-      if (this.show.start) painter.octagon(run.hull, first.x, first.y, {colour: ink.colour, dash: [2, 3], alpha: 0.5});
+      for (const id of record.crush) highlight(id, painter.colours.bad);
+      for (const id of record.drop) highlight(id, ink.colour, [3, 3]);
+      if (this.show.start)
+        painter.octagon(run.hull, first[0], first[1], {colour: ink.colour, dash: [2, 3], alpha: 0.5});
       painter.way(record.path, ink.colour, !run.path_exact);
     }
     painter.octagon(
@@ -337,11 +331,11 @@ class Replay {
     if (run.characters.length > 1) painter.number(number, position.x, position.y, ink.colour);
     if (ended) return;
     if (record.crush.length > 0) painter.cross(position.x, position.y);
-    if (this.show.velocity) painter.velocity(position.x, position.y, record.vx, record.vy, ink.colour);
+    if (this.show.velocity) painter.velocity(position.x, position.y, record.velocity, ink.colour);
     record.contacts.forEach((contact) => painter.contact(contact, ink.colour));
-    for (const {nx, ny} of record.met) {
-      const [x, y] = farthest(run.hull, -nx, -ny);
-      painter.contact({x: position.x + x, y: position.y + y, nx, ny}, ink.colour, 16);
+    for (const {normal} of record.met) {
+      const [x, y] = farthest(run.hull, -normal[0], -normal[1]);
+      painter.contact({point: [position.x + x, position.y + y], normal}, ink.colour, 16);
     }
   }
 }
