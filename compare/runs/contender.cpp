@@ -1,14 +1,8 @@
 #include "runs/contender.hpp"
 
 #include "runs/box2d_contender.hpp"
-#include "runs/crowd_contender.hpp"
-#include "runs/level_contender.hpp"
-#include "runs/technique_contender.hpp"
-#include "runs/together_contender.hpp"
+#include "runs/own_contender.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -16,7 +10,6 @@ namespace {
 
 constexpr std::string_view box2d_name = "box2d";
 constexpr std::string_view box2d_pieces_name = "box2d_pieces";
-constexpr std::string_view sweep_name = "octagon_sweep";  ///< The one technique that takes what turns.
 
 }  // namespace
 
@@ -54,26 +47,8 @@ std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scal
       throw NotApplicable(error.what());
     }
   }
-  const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
-                                    [](const MoverDef& mover) { return !mover.turns.empty(); });
-  const bool turns = turning != scene.movers.end();
-  if (turns && (name != sweep_name || scalar != ScalarKind::binary64))
-    throw NotApplicable(fmt::format("{}{} is for movers that do not turn, and \"{}\" does", name,
-                                    name == sweep_name ? " in float" : "", turning->id));
-  if (const TechniqueEntry* technique = find_technique(name)) {
-    if (turns) return make_level_contender(*technique, scene, scenery, planning);
-    const bool crowd = !scene.others.empty();
-    if (crowd && scalar != ScalarKind::binary64) throw NotApplicable("several characters move in double alone");
-    if (crowd && name == sweep_name) return make_together_contender(*technique, scene, scenery, planning);
-    if (crowd && technique->moves_crowds) return make_crowd_contender(*technique, scene, scenery, planning);
-    if (crowd)
-      throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
-    try {
-      return make_technique_contender(*technique, scalar, scene, scenery, planning);
-    } catch (const NotExpressible& error) {
-      throw NotApplicable(error.what());
-    }
-  }
+  if (const TechniqueEntry* technique = find_technique(name))
+    return make_own_contender(*technique, scalar, scene, scenery, planning);
   throw std::invalid_argument("no contender is named " + std::string(name));
 }
 
