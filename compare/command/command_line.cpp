@@ -391,8 +391,8 @@ void add_demo_and_list(CLI::App& app, int& status) {
   const auto what = std::make_shared<std::string>();
   list.add_option("WHAT", *what, "Which names")
       ->required()
-      ->type_name("scenes|contenders|families|knobs|metrics|parameters")
-      ->check(expect_one_of({"scenes", "contenders", "families", "knobs", "metrics", "parameters"}));
+      ->type_name("scenes|contenders|families|knobs|metrics|parameters|schema")
+      ->check(expect_one_of({"scenes", "contenders", "families", "knobs", "metrics", "parameters", "schema"}));
   on_parsed(list, status, what, list_command);
 }
 

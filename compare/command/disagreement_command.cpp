@@ -13,8 +13,6 @@
 namespace paperproof::compare {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr const char* about_the_ledger =
     "Every event on which octagon_sweep and Box2D differ, with one cause. In lockstep the twin is put to the "
     "controller "
@@ -37,22 +35,19 @@ struct Total {
 /// The events of all rows, by mode.
 class Ledgers {
  public:
-  void add(const DisagreementCase& one, const ordered_json& row) {
-    Mode& mode = modes_[row.value("mode", "")];
-    const std::string verdict = row.value("verdict", "");
-    if (verdict == "failed") {
+  void add(const DisagreementCase& one, const Row& row) {
+    Mode& mode = modes_[row.mode];
+    if (row.verdict == Verdict::failed) {
       ++failed_;
-      text_ += fmt::format("{}: {}\n", row.value("scene", ""), row.value("reason", ""));
+      text_ += fmt::format("{}: {}\n", row.scene, row.reason);
     }
-    if (verdict == "failed" || verdict == "not_applicable") return;
+    if (!was_judged(row)) return;
     ++mode.scenes;
-    mode.steps += row.value("steps", 0);
-    if (!row.contains("disagreements")) return;
-    for (const auto& [key, some] : row["disagreements"].items()) {
+    mode.steps += row.steps;
+    for (const auto& [key, some] : row.disagreements) {
       Total& total = mode.totals[key];
-      if (total.count == 0)
-        total = {0, row.value("scene", ""), one.scene, some["first_step"].get<int>(), some["first"].get<std::string>()};
-      total.count += some["count"].get<int>();
+      if (total.count == 0) total = {0, row.scene, one.scene, some.first_step, some.first};
+      total.count += some.count;
     }
   }
 
@@ -132,7 +127,7 @@ int study_disagreement_command(const DisagreementArguments& arguments) {
       disagreement_cases(arguments.scenes.empty() ? registered_scenes() : arguments.scenes);
   Ledgers ledgers;
   StudyRun study(arguments.run, cases_of(all),
-                 [&](std::size_t index, const ordered_json& row) { ledgers.add(all[index], row); });
+                 [&](std::size_t index, const Row& row) { ledgers.add(all[index], row); });
   study.run();
   const Leftovers found = ledgers.leftovers();
   return study.finish([&] { return ledgers.page(); }, ledgers.text() + words_of(found) + '\n', found.any());

@@ -4,6 +4,7 @@
 #include "command/forecast.hpp"
 #include "records/metric.hpp"
 #include "records/output_file.hpp"
+#include "records/rows_json.hpp"
 #include "runs/contender.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/knobs.hpp"
@@ -77,6 +78,8 @@ int list_command(const std::string& what) {
   } else if (what == "metrics") {
     for (const Metric& metric : metrics())
       text += fmt::format("{:<32} {:<15} {} ({})\n", metric.key, metric.unit, metric.meaning, name_of(metric.of));
+  } else if (what == "schema") {
+    text = rows_schema_text();
   } else if (what == "knobs") {
     for (const std::string& line : describe_knobs()) text += line + '\n';
   } else if (what == "parameters") {

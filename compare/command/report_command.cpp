@@ -82,12 +82,17 @@ class PageOfRecords {
     RowPictures pictures;
     for (const std::string& input : inputs_) {
       if (input.ends_with(".html")) continue;
-      const ordered_json header = for_each_row(input, [&](ordered_json row) { pictures.add(std::move(row)); });
+      const ordered_json header = for_each_row(input, [&](Row row) { pictures.add(std::move(row)); });
       if (facts_.environment.empty() && header.contains("environment"))
         for (const auto& [name, value] : header["environment"].items())
           facts_.environment.emplace_back(name, value.get<std::string>());
     }
-    for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "null");
+    for (const auto& [scene, rows] : pictures.scenes()) {
+      ReportScene known;
+      known.name = scene;
+      known.rows = rows;
+      writer_.add_scene(scene_index_json(known), "null");
+    }
     for (ChartPage& page : pictures.pages()) {
       add_cell_replays(page, 0);
       writer_.add_study(page);

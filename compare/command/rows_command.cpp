@@ -44,13 +44,12 @@ std::vector<RowsReader*> in_order(const std::vector<std::unique_ptr<RowsReader>>
 }
 
 /// What tells a row from the others of its file.
-std::string name_of_row(const ordered_json& row) {
+std::string name_of_row(const Row& row, const ordered_json& object) {
   std::string name;
-  for (const char* key : {"scene", "contender", "scalar", "mode", "knob", "curve", "border"})
-    if (row.contains(key) && !(row[key] == "free" || row[key] == "double"))
-      name += fmt::format("{}{}", name.empty() ? "" : " ", row[key].get<std::string>());
-  if (row.contains("case")) return fmt::format("{} (case {})", name, row["case"].get<std::string>());
-  if (row.contains("parameters")) return fmt::format("{} {}", name, row["parameters"].dump());
+  for (const std::string& part : {row.scene, row.contender, row.scalar, row.mode, row.knob, row.curve, row.border})
+    if (!part.empty() && part != "free" && part != "double") name += (name.empty() ? "" : " ") + part;
+  if (!row.case_id.empty()) return fmt::format("{} (case {})", name, row.case_id);
+  if (!row.parameters.empty()) return fmt::format("{} {}", name, object["parameters"].dump());
   return name;
 }
 
@@ -60,8 +59,9 @@ Rows rows_of(const std::string& path) {
   Rows rows;
   RowsReader reader(path);
   while (std::optional<RowLine> line = reader.next()) {
-    std::string name = name_of_row(line->row);
-    rows.insert_or_assign(std::move(name), std::move(line->row));
+    ordered_json object = row_json(line->row);
+    std::string name = name_of_row(line->row, object);
+    rows.insert_or_assign(std::move(name), std::move(object));
   }
   return rows;
 }
@@ -120,7 +120,7 @@ int merge_command(const std::vector<std::string>& files, const std::string& rows
     std::set<std::string> known;
     for (const std::unique_ptr<RowsReader>& reader : readers)
       while (const std::optional<RowLine> line = reader->next()) {
-        const std::string id = line->row.value("case", "");
+        const std::string& id = line->row.case_id;
         if (id.empty() || known.insert(id).second) out.write(line->text);
       }
   }

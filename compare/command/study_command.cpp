@@ -55,9 +55,8 @@ void apply(const CaseArguments& arguments, std::vector<StudyPart>& parts) {
 int run_study(const RunArguments& arguments, const PreparedStudy& study, const std::vector<StudyPart>& parts,
               const StudyCases& cases) {
   StudyView view(study, parts);
-  StudyRun run(arguments, cases, [&](std::size_t index, const nlohmann::ordered_json& row) {
-    view.add(parts[part_case(parts, index).part], row);
-  });
+  StudyRun run(arguments, cases,
+               [&](std::size_t index, const Row& row) { view.add(parts[part_case(parts, index).part], row); });
   run.run();
   return run.finish([&] { return view.page(); }, view.text());
 }

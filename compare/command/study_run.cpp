@@ -96,8 +96,8 @@ bool StudyRun::goes_on() {
   return true;
 }
 
-void StudyRun::note(const ordered_json& row) {
-  trouble_ = trouble_ || row.value("verdict", "") == "failed" || breaks_guarantee(row);
+void StudyRun::note(const Row& row) {
+  trouble_ = trouble_ || row.verdict == Verdict::failed || breaks_guarantee(row);
   visit_(shard_.case_of(done_), row);
   ++done_;
 }
@@ -115,7 +115,7 @@ void StudyRun::run() {
   forecast.begin_scene(static_cast<double>(jobs.count));
   forecast.done(0);
   jobs.take = [&](std::size_t job, const std::string& line) {
-    note(ordered_json::parse(line));
+    note(row_of(ordered_json::parse(line)));
     rows_->add(line);
     const double share = static_cast<double>(job + 1) / static_cast<double>(jobs.count);
     forecast.done(share);

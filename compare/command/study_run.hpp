@@ -36,7 +36,7 @@ struct StudyOutputs {
 /// All the cases of a study, each in a child process; rows in `.jsonl` appear as they come.
 class StudyRun {
  public:
-  using Visit = std::function<void(std::size_t index, const nlohmann::ordered_json& row)>;
+  using Visit = std::function<void(std::size_t index, const Row& row)>;
   /// @param arguments is to live as long as this.
   /// @param visit is called for every row in order, those included that `--resume` finds in the file.
   /// @throws InputError before any output is touched; std::runtime_error if one cannot be written.
@@ -61,7 +61,7 @@ class StudyRun {
   /// Takes over the rows of an earlier run. @return whether there was one.
   bool goes_on();
   /// Counts and shows the row of the next case.
-  void note(const nlohmann::ordered_json& row);
+  void note(const Row& row);
 
   const RunArguments& arguments_;
   StudyCases cases_;

@@ -9,31 +9,28 @@
 namespace paperproof::compare {
 namespace {
 
-using nlohmann::ordered_json;
-
 /// Rows that a page lists one by one.
 constexpr std::size_t most_listed = 2000;
 
 /// Whether it is flagged for nothing but its validity: Box2D's travel cap, for example.
-bool is_beyond_limits(const ordered_json& row) {
-  const std::string reason = row.value("reason", "");
-  if (row.value("verdict", "") != "flagged" || !reason.starts_with("validity: ")) return false;
+bool is_beyond_limits(const Row& row) {
+  if (row.verdict != Verdict::flagged || !row.reason.starts_with("validity: ")) return false;
   for (const char* axis : {"safety: ", "progress: ", "answer: "})
-    if (reason.find(axis) != std::string::npos) return false;
+    if (row.reason.find(axis) != std::string::npos) return false;
   return true;
 }
 
 /// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.
-std::string values_of(const ordered_json& row, const std::vector<std::string>& keys) {
+std::string values_of(const Row& row, const std::vector<std::string>& keys) {
   std::string text;
   for (const std::string& key : keys)
-    if (row.contains("parameters") && row["parameters"].contains(key))
-      text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", key, row["parameters"][key].get<double>());
+    if (const std::optional<double> value = parameter_of(row, key))
+      text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", key, *value);
   return text;
 }
 
-std::string number_or_dash(const ordered_json& row, const char* key) {
-  return row.contains(key) ? fmt::format("{:.4g}", row[key].get<double>()) : "-";
+std::string number_or_dash(const std::optional<double>& number) {
+  return number ? fmt::format("{:.4g}", *number) : "-";
 }
 
 Cell unless_empty(const std::string& text) { return text.empty() ? std::nullopt : Cell(text); }
@@ -60,54 +57,43 @@ StudyView::StudyView(const PreparedStudy& study, const std::vector<StudyPart>& p
   }
 }
 
-void StudyView::add(const StudyPart& part, const ordered_json& row) {
+void StudyView::add(const StudyPart& part, const Row& row) {
   if (part.sweep.border) return add_border(part, row);
   Title& title = entry_of(titles_, part.title);
   if (title.grids) title.grids->add(row);
   Score& score = entry_of(title.scores, who_ran(row, title.keys));
   ++score.cases;
   for (const Metric& metric : metrics())
-    if (std::string key(metric.key); metric.group == Metric::Group::study && row.value(key, ordered_json{}) == false)
-      ++score.fails[key.substr(0, key.find("_ok"))];
-  const std::string verdict = row.value("verdict", "");
-  if (verdict == "holds") {
+    if (metric.group == Metric::Group::study && metric.kind == Metric::Kind::flag && value_of(metric, row) == 0.0)
+      ++score.fails[std::string(metric.key.substr(0, metric.key.find("_ok")))];
+  if (row.verdict == Verdict::holds) {
     ++score.holds;
     return;
   }
-  if (verdict == "not_applicable") {
+  if (row.verdict == Verdict::not_applicable) {
     ++score.cannot;
     return;
   }
   const std::string at = values_of(row, title.keys);
   if (title.bad == Bad::does_not_hold && faults_.size() < most_listed)
     faults_.push_back(
-        {part.title, who_ran(row), at, verdict, shortened(row.value("reason", "")), row.value("command", "")});
+        {part.title, who_ran(row), at, std::string(name_of(row.verdict)), shortened(row.reason), row.command});
   if (is_beyond_limits(row)) {
     ++score.beyond;
     return;
   }
-  ++(row.value("tunnels", 0) > 0 ? score.through : score.other);
-  score.failed += verdict == "failed";
+  ++(row.tunnels.value_or(0) > 0 ? score.through : score.other);
+  score.failed += row.verdict == Verdict::failed;
   if (score.first_bad.empty()) score.first_bad = at;
 }
 
-void StudyView::add_border(const StudyPart& part, const ordered_json& row) {
+void StudyView::add_border(const StudyPart& part, const Row& row) {
   const std::vector<std::string> keys = axis_keys_of(part.sweep);
-  Border& border = borders_.emplace_back();
-  border.title = part.title;
-  border.parameter = row.value("border", "");
+  Border& border = borders_.emplace_back(Border{part.title, {}, values_of(row, keys), {}, row});
   if (const auto& range = part.sweep.border_range)
     border.range = fmt::format("{:g} to {:g}", range->first, range->second);
-  border.who = who_ran(row);
-  border.at = values_of(row, keys);
-  border.low = number_or_dash(row, "border_low");
-  border.high = number_or_dash(row, "border_high");
-  const ordered_json parameters = row.value("parameters", ordered_json::object());
   if (study_.theory != nullptr && !keys.empty())
-    border.theory = study_.theory(border.who, parameters.value(keys.front(), 0.0));
-  const std::string verdict = row.value("verdict", "");
-  if (verdict == "failed" || verdict == "not_applicable") border.reason = shortened(row.value("reason", ""));
-  border.command = row.value("command", "");
+    border.theory = study_.theory(who_ran(row), parameter_of(row, keys.front()).value_or(0));
 }
 
 std::vector<Column<StudyView::Scored>> StudyView::score_columns(Bad bad) {
@@ -147,23 +133,26 @@ std::string StudyView::text() const {
   if (borders_.empty()) return text;
   return text + (text.empty() ? "" : "\n") +
          view<Border>(borders_, {{"border of", [](const Border& one) { return unless_empty(one.title); }},
-                                 {"parameter", [](const Border& one) { return one.parameter; }},
+                                 {"parameter", [](const Border& one) { return one.row.border; }},
                                  {"range", [](const Border& one) { return unless_empty(one.range); }},
-                                 {"contender", [](const Border& one) { return one.who; }},
+                                 {"contender", [](const Border& one) { return who_ran(one.row); }},
                                  {"at", [](const Border& one) { return unless_empty(one.at); }},
-                                 {"holds up to", [](const Border& one) { return one.low; }},
-                                 {"fails from", [](const Border& one) { return one.high; }},
+                                 {"holds up to", [](const Border& one) { return number_or_dash(one.row.border_low); }},
+                                 {"fails from", [](const Border& one) { return number_or_dash(one.row.border_high); }},
                                  {"theory", [](const Border& one) { return unless_empty(one.theory); }},
-                                 {"cannot run", [](const Border& one) { return unless_empty(one.reason); }}});
+                                 {"cannot run", [](const Border& one) {
+                                    return was_judged(one.row) ? std::nullopt : unless_empty(shortened(one.row.reason));
+                                  }}});
 }
 
 ChartPage StudyView::page() const {
   std::vector<Line> lines;
   for (const Border& one : borders_)
-    lines.push_back({one.title, one.who, one.at, "border",
-                     fmt::format("holds up to {}, fails from {}{}{}", one.low, one.high,
-                                 one.theory.empty() ? "" : ", theory ", one.theory),
-                     one.command});
+    lines.push_back(
+        {one.title, who_ran(one.row), one.at, "border",
+         fmt::format("holds up to {}, fails from {}{}{}", number_or_dash(one.row.border_low),
+                     number_or_dash(one.row.border_high), one.theory.empty() ? "" : ", theory ", one.theory),
+         one.row.command});
   for (const auto& [name, title] : titles_)
     for (const auto& [who, score] : title.bad == Bad::tunnels ? title.scores : std::vector<Scored>{})
       lines.push_back({name, who, "", "rate",

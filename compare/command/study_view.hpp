@@ -6,8 +6,6 @@
 #include "studies/bullet.hpp"
 #include "studies/prepared_studies.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <map>
 #include <optional>
 #include <string>
@@ -16,12 +14,13 @@
 
 namespace paperproof::compare {
 
-/// Counts the verdicts of each part and contender, as tables and as heat maps, and lists the borders. Keeps no row.
+/// Counts the verdicts of each part and contender, as tables and as heat maps, and lists the borders. Keeps the rows of
+/// borders alone.
 class StudyView {
  public:
   /// @param study,parts are to live as long as this.
   StudyView(const PreparedStudy& study, const std::vector<StudyPart>& parts);
-  void add(const StudyPart& part, const nlohmann::ordered_json& row);
+  void add(const StudyPart& part, const Row& row);
   /// A table for each title, and one of the borders.
   [[nodiscard]] std::string text() const;
   /// The heat maps, and one table: first the borders, then the rates where only tunnels count, then the cases that do
@@ -52,15 +51,10 @@ class StudyView {
   };
   struct Border {
     std::string title;
-    std::string parameter;
     std::string range;  ///< In which it is looked for; empty: all that the parameter takes.
-    std::string who;
     std::string at;
-    std::string low;   ///< The largest value that holds; `-`: none does.
-    std::string high;  ///< The smallest that does not; `-`: all hold.
     std::string theory;
-    std::string reason;  ///< Why it could not be looked for further.
-    std::string command;
+    Row row;
   };
   /// A line of the page's table.
   struct Line {
@@ -72,7 +66,7 @@ class StudyView {
     std::string command;
   };
 
-  void add_border(const StudyPart& part, const nlohmann::ordered_json& row);
+  void add_border(const StudyPart& part, const Row& row);
   static std::vector<Column<Scored>> score_columns(Bad bad);
 
   const PreparedStudy& study_;

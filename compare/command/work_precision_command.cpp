@@ -21,9 +21,8 @@ namespace paperproof::compare {
 namespace {
 
 ChartPage page_of(const WorkPrecision& found) {
-  std::vector<nlohmann::ordered_json> rows;
-  for (const std::vector<Row>* part : {&found.points, &found.curves})
-    for (const Row& row : *part) rows.push_back(row_json(row));
+  std::vector<Row> rows = found.points;
+  rows.insert(rows.end(), found.curves.begin(), found.curves.end());
   ChartPage page = precision_page(rows);
   page.paragraphs.insert(page.paragraphs.end(), found.sentences.begin(), found.sentences.end());
   page.environment = environment();

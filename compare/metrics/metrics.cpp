@@ -1,6 +1,7 @@
 #include "metrics/metrics.hpp"
 
 #include "contains.hpp"
+#include "records/metric.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -298,40 +299,11 @@ Metrics::Matches Metrics::all_matches(Breaches& breaches) const {
 void Metrics::end(Breaches& breaches) const { static_cast<void>(all_matches(breaches)); }
 
 void Metrics::write(Row& row) const {
-  row.tunnels = sums_.tunnels;
-  row.corner_cuts = sums_.corner_cuts;
-  row.steps_ending_inside = sums_.steps_ending_inside;
-  row.one_way_violations = sums_.one_way_violations;
-  row.max_penetration_m = sums_.max_penetration_m;
-  row.max_contact_gap_m = sums_.max_contact_gap_m;
-  row.first_contact_step = sums_.first_contact_step;
-  row.first_contact_fraction = sums_.first_contact_fraction;
-  row.exact_first_impact_step = sums_.exact_first_impact_step;
-  row.exact_first_impact_fraction = sums_.exact_first_impact_fraction;
+  take_numbers(sums_, row);
   row.exact_first_impact = sums_.exact_first_impact;
-  row.contact_steps = sums_.contact_steps;
-  row.colliders_touched = static_cast<int>(touched_.size());
-  row.respawns = sums_.respawns;
-  row.crushes = sums_.crushes;
-  row.crushes_refuted = sums_.crushes_refuted;
-  row.sensor_events = sums_.sensor_events;
-  row.sensor_errors = sums_.sensor_errors;
-  row.max_sensor_error = sums_.max_sensor_error;
-  row.steps_inside_after_crush = sums_.steps_inside_after_crush;
-  row.undecided_steps = sums_.undecided_steps;
-  row.hanging_steps = sums_.hanging_steps;
-  row.stuck_refuted = sums_.stuck_refuted;
-  row.ground_refuted = sums_.ground_refuted;
-  row.distance_m = sums_.distance_m;
-  row.normal_error_max_deg = sums_.normal_error_max_deg;
-  row.rounding = sums_.rounding;
-  if (motion_wanted_ > 0) row.wanted_motion_lost = motion_lost_ / motion_wanted_;
-  row.stuck_steps = sums_.stuck_steps;
-  row.dropped_steps = sums_.dropped_steps;
-  row.toi_error_max = sums_.toi_error_max;
-  row.ghost_speed_loss = sums_.ghost_speed_loss;
   row.first_tunnel = sums_.first_tunnel;
-  row.characters = sums_.characters;
+  row.colliders_touched = static_cast<int>(touched_.size());
+  if (motion_wanted_ > 0) row.wanted_motion_lost = motion_lost_ / motion_wanted_;
   energy_.write(row);
   events_.write(row);
 

@@ -1,4 +1,4 @@
-/// The numbers of a row, each described once: files, tables, pages and `paperproof list metrics` take them from here.
+/// The numbers of a row as data: what files, tables, pages and `paperproof list metrics` go over. See metric_table.hpp.
 #pragma once
 
 #include "records/row.hpp"
@@ -17,6 +17,7 @@ struct Metric {
   enum class Group : std::uint8_t { safety, progress, contacts, jitter, cost, study };
   /// How a row of several characters, or a summary of several rows, makes one number of many.
   enum class Of : std::uint8_t { sum, most, first, share, one };
+  enum class Kind : std::uint8_t { flag, count, measure, real, bytes };
   using Field = std::variant<std::optional<bool> Row::*, std::optional<int> Row::*, std::optional<double> Row::*,
                              std::optional<std::size_t> Row::*>;
 
@@ -26,6 +27,7 @@ struct Metric {
   Group group = Group::safety;
   Of of = Of::one;
   std::string_view meaning;  ///< One sentence without its full stop.
+  Kind kind = Kind::real;    ///< All but `real` are zero or more.
   Field field;
 };
 
@@ -44,15 +46,7 @@ struct Metric {
 /// @return nothing where the metric does not apply to the row; 0 or 1 for a truth value.
 [[nodiscard]] std::optional<double> value_of(const Metric& metric, const Row& row);
 
-/// Calls `visit(metric, value)` for each number that the row has.
-template <class Visit>
-void for_each_metric(const Row& row, const Visit& visit) {
-  for (const Metric& metric : metrics())
-    std::visit(
-        [&](const auto field) {
-          if (row.*field) visit(metric, *(row.*field));
-        },
-        metric.field);
-}
+/// Gives a row each number that another one has.
+void take_numbers(const Row& from, Row& row);
 
 }  // namespace paperproof::compare

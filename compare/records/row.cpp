@@ -1,39 +1,12 @@
 #include "records/row.hpp"
 
-#include <string_view>
-
 namespace paperproof::compare {
 
-std::string_view name_of(Verdict verdict) noexcept {
-  switch (verdict) {
-    case Verdict::holds:
-      return "holds";
-    case Verdict::tunnels:
-      return "tunnels";
-    case Verdict::violates:
-      return "violates";
-    case Verdict::not_applicable:
-      return "not_applicable";
-    case Verdict::flagged:
-      return "flagged";
-    case Verdict::failed:
-      return "failed";
-  }
-  return "failed";
-}
+std::string_view name_of(Verdict verdict) noexcept { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
 std::string_view name_of(Axis axis) noexcept {
-  switch (axis) {
-    case Axis::safety:
-      return "safety";
-    case Axis::progress:
-      return "progress";
-    case Axis::answer:
-      return "answer";
-    case Axis::validity:
-      return "validity";
-  }
-  return "validity";
+  constexpr std::array<std::string_view, 4> names{"safety", "progress", "answer", "validity"};
+  return names[static_cast<std::size_t>(axis)];
 }
 
 bool was_judged(const Row& row) noexcept {

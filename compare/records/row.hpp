@@ -1,6 +1,10 @@
 /// One result: a (scene, contender, scalar, mode) and its numbers. A metric that does not apply is absent.
 #pragma once
 
+#include "records/commit.hpp"
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +16,8 @@
 namespace paperproof::compare {
 
 enum class Verdict { holds, tunnels, violates, not_applicable, flagged, failed };
+inline constexpr std::array<std::string_view, 6> verdict_names{"holds",          "tunnels", "violates",
+                                                               "not_applicable", "flagged", "failed"};
 [[nodiscard]] std::string_view name_of(Verdict verdict) noexcept;
 
 /// A result is looked at along these, and none hides another.
@@ -43,6 +49,8 @@ struct FirstTunnel {
   double thickness_m = 0;  ///< At the crossing.
   double angle_deg = 0;    ///< Of the way to the face: 90 is head-on.
   std::string words;
+
+  friend bool operator==(const FirstTunnel&, const FirstTunnel&) = default;
 };
 
 /// Events of one kind and cause on which a contender and Box2D differ.
@@ -50,6 +58,8 @@ struct Disagreements {
   int count = 0;
   int first_step = 0;
   std::string first;  ///< What each side says there.
+
+  friend bool operator==(const Disagreements&, const Disagreements&) = default;
 };
 
 /// What is counted as bad where many rows stand together.
@@ -63,7 +73,18 @@ struct SweptIn {
   std::string question;           ///< Of a study that asks several; may be empty.
   std::vector<std::string> axes;  ///< Keys in `parameters`.
   Bad bad = Bad::does_not_hold;
+
+  friend bool operator==(const SweptIn&, const SweptIn&) = default;
 };
+
+/// What the numbers of a row are.
+namespace metric_kind {
+using flag = bool;
+using count = int;
+using measure = double;  ///< Never below zero.
+using real = double;
+using bytes = std::size_t;
+}  // namespace metric_kind
 
 struct Row {
   std::string scene;
@@ -76,91 +97,17 @@ struct Row {
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;
 
-  std::string case_id;  ///< Of a run that is a Case: see records/case.hpp.
-  std::string command;  ///< That runs it alone; of a border, the case at the upper end of the bracket.
+  std::string case_id;                 ///< Of a run that is a Case: see records/case.hpp.
+  std::string command;                 ///< That runs it alone; of a border, the case at the upper end of the bracket.
+  std::string commit{built_commit()};  ///< That the command was built from.
   std::optional<SweptIn> swept;
   std::string source;                                      ///< Of the scene: see `Scene::source`.
   std::vector<std::pair<std::string, double>> parameters;  ///< Of scene, input and knobs, by keys that end in units.
-  std::optional<std::string> border;                       ///< Key of the parameter that was bisected.
+  std::string border;                                      ///< Key of the parameter that was bisected; may be empty.
 
-  // The numbers: records/metric.cpp says what each means. A number that does not apply is absent.
-  std::optional<bool> finite;
-  std::optional<bool> penetration_ok;
-  std::optional<bool> drift_ok;
-  std::optional<bool> energy_ok;
-  std::optional<bool> hanging_ok;
-  std::optional<bool> events_ok;
-  std::optional<double> border_low;
-  std::optional<double> border_high;
-  std::optional<int> characters;
-  std::optional<int> tunnels;
-  std::optional<int> corner_cuts;
-  std::optional<int> steps_ending_inside;
-  std::optional<int> one_way_violations;
-  std::optional<double> max_penetration_m;
-  std::optional<double> max_contact_gap_m;
-  std::optional<int> first_contact_step;
-  std::optional<double> first_contact_fraction;
-  std::optional<int> exact_first_impact_step;
-  std::optional<double> exact_first_impact_fraction;
-  std::optional<double> contact_precision;
-  std::optional<double> contact_recall;
-  std::optional<double> contact_precision_box2d;
-  std::optional<double> contact_recall_box2d;
-  std::optional<double> contact_agreement_box2d;
-  std::optional<int> contact_steps;
-  std::optional<int> colliders_touched;
-  std::optional<int> respawns;
-  std::optional<int> crushes;
-  std::optional<int> crushes_refuted;
-  std::optional<int> body_tunnels;
-  std::optional<int> body_steps_inside;
-  std::optional<double> body_max_penetration_m;
-  std::optional<double> body_energy_gained_j;
-  std::optional<double> body_energy_bound_j;
-  std::optional<int> sensor_events;
-  std::optional<int> sensor_errors;
-  std::optional<double> max_sensor_error;
-  std::optional<int> steps_inside_after_crush;
-  std::optional<int> undecided_steps;
-  std::optional<int> hanging_steps;
-  std::optional<int> stuck_steps;
-  std::optional<int> stuck_refuted;
-  std::optional<int> ground_refuted;
-  std::optional<int> ground_missed;
-  std::optional<double> arc_error_max_m;
-  std::optional<int> dropped_steps;
-  std::optional<double> answer_error;
-  std::optional<bool> answer_ok;
-  std::optional<double> wanted_motion_lost;
-  std::optional<double> distance_m;
-  std::optional<int> contact_band;
-  std::optional<int> rounding;
-  std::optional<double> normal_error_max_deg;
-  std::optional<double> toi_error_max;
-  std::optional<double> ghost_speed_loss;
-  std::optional<double> energy_gained_j_kg;
-  std::optional<double> energy_bound_j_kg;
-  std::optional<int> events;
-  std::optional<double> rest_peak_to_peak_m;
-  std::optional<double> rest_rms_m;
-  std::optional<double> contact_toggles;
-  std::optional<double> rest_sign_changes;
-  std::optional<double> rest_upper_band;
-  std::optional<double> log_dimensionless_jerk;
-  std::optional<double> seam_hop_share;
-  std::optional<double> seam_hop_m;
-  std::optional<double> max_position_difference_box2d_m;
-  std::optional<int> first_difference_box2d_step;
-  std::optional<double> error_max_m;
-  std::optional<double> error_rms_m;
-  std::optional<double> slope;
-  std::optional<bool> on_front;
-  std::optional<double> ns_per_step;
-  std::optional<double> ns_per_step_median;
-  std::optional<double> ns_per_step_max;
-  std::optional<double> ns_per_step_bare;
-  std::optional<std::size_t> memory_bytes;
+  // The numbers: records/metric_table.hpp says what each means. A number that does not apply is absent.
+#define METRIC(kind, key, ...) std::optional<metric_kind::kind> key{};
+#include "records/metric_table.hpp"
 
   std::optional<FirstTunnel> first_tunnel;
   std::map<std::string, int>
@@ -181,6 +128,11 @@ struct Row {
 
 /// See `is_guaranteed`.
 [[nodiscard]] inline bool is_guaranteed(const Row& row) noexcept { return is_guaranteed(row.contender, row.scalar); }
+
+/// Whether octagon_sweep in double broke its guarantee.
+[[nodiscard]] inline bool breaks_guarantee(const Row& row) noexcept {
+  return is_guaranteed(row) && row.verdict == Verdict::violates;
+}
 
 /// One of its `parameters`; nothing where it has none of that key.
 [[nodiscard]] std::optional<double> parameter_of(const Row& row, std::string_view key);

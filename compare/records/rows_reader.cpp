@@ -1,7 +1,6 @@
 #include "records/rows_reader.hpp"
 
 #include "records/input_file.hpp"
-#include "records/schema.hpp"
 #include "records/strict_json.hpp"
 
 #include <stdexcept>
@@ -48,10 +47,10 @@ std::optional<RowLine> RowsReader::next() {
     if (found == Found::line) end_ -= line.size();
     return std::nullopt;
   }
-  ordered_json row = strict_json(line, path_, line_);
+  const ordered_json row = strict_json(line, path_, line_);
   hold_to_schema(row, "row", here());
   if (found == Found::cut) line += '\n';
-  return RowLine{std::move(line), std::move(row)};
+  return RowLine{std::move(line), row_of(row)};
 }
 
 RowsReader::Found RowsReader::read_line(std::string& line) {
@@ -70,7 +69,7 @@ RowsReader::Found RowsReader::read_line(std::string& line) {
   return line.empty() ? Found::nothing : Found::cut;
 }
 
-ordered_json for_each_row(const std::string& path, const std::function<void(ordered_json row)>& visit) {
+ordered_json for_each_row(const std::string& path, const std::function<void(Row row)>& visit) {
   if (path.ends_with(".jsonl")) {
     RowsReader reader(path);
     while (std::optional<RowLine> line = reader.next()) visit(std::move(line->row));
@@ -80,7 +79,7 @@ ordered_json for_each_row(const std::string& path, const std::function<void(orde
   if (!is_of_rows(file) || !file.contains("rows"))
     throw std::runtime_error(path + ": expected rows as JSON (`\"paperproof_rows\": 1`)");
   hold_to_schema(file, "", path);
-  for (ordered_json& row : file["rows"]) visit(std::move(row));
+  for (const ordered_json& row : file["rows"]) visit(row_of(row));
   file.erase("rows");
   return file;
 }

@@ -1,7 +1,7 @@
 /// Reads files of rows. Each is held against `paperproof_rows.schema.json`.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "records/rows_json.hpp"
 
 #include <cstdint>
 #include <fstream>
@@ -20,7 +20,7 @@ inline constexpr std::uintmax_t most_rows_json_bytes = 256'000'000;
 /// A row of a file.
 struct RowLine {
   std::string text;  ///< As it stands there, with its line feed.
-  nlohmann::ordered_json row;
+  Row row;
 };
 
 /// Rows of a `.jsonl` file, one after the other.
@@ -60,7 +60,6 @@ class RowsReader {
 /// Calls `visit(row)` for every row of a file, JSON or JSON Lines by its name.
 /// @return the header.
 /// @throws std::runtime_error as RowsReader does.
-nlohmann::ordered_json for_each_row(const std::string& path,
-                                    const std::function<void(nlohmann::ordered_json row)>& visit);
+nlohmann::ordered_json for_each_row(const std::string& path, const std::function<void(Row row)>& visit);
 
 }  // namespace paperproof::compare

@@ -1,7 +1,6 @@
 #include "records/schema.hpp"
 
 #include "near_names.hpp"
-#include "records/schema_texts.hpp"
 
 #include <fmt/format.h>
 
@@ -144,11 +143,6 @@ std::optional<std::string> Schema::fault_of_list(const Json& value, const Json& 
   for (std::size_t i = 0; i < value.size(); ++i)
     if (Fault found = fault_of(value[i], schema["items"], at / i)) return found;
   return std::nullopt;
-}
-
-const Schema& rows_schema() {
-  static const Schema schema(schema_text::paperproof_rows_schema_json);
-  return schema;
 }
 
 }  // namespace paperproof::compare

@@ -37,7 +37,4 @@ class Schema {
   std::map<std::string, std::regex> patterns_;
 };
 
-/// Of rows and their headers: `paperproof_rows.schema.json`.
-[[nodiscard]] const Schema& rows_schema();
-
 }  // namespace paperproof::compare

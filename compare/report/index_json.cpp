@@ -16,11 +16,11 @@ std::string words_for(std::string words) {
   return words;
 }
 
-nlohmann::json row_in_index(const nlohmann::ordered_json& row) {
-  nlohmann::json object(row);
+nlohmann::json row_in_index(const Row& row) {
+  nlohmann::json object(row_json(row));
   for (auto& [key, value] : object.items())
     if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) value = "not finite";
-  object["verdict"] = words_for(row.value("verdict", ""));
+  object["verdict"] = words_for(std::string(name_of(row.verdict)));
   if (!object.contains("reason")) object["reason"] = "";
   if (!object.contains("findings")) object["findings"] = nlohmann::json::array();
   if (object.contains("first_difference_box2d")) object["findings"].push_back(object["first_difference_box2d"]);
@@ -42,14 +42,7 @@ std::string scene_index_json(const ReportScene& scene) {
                         {"runs", scene.runs.size()},
                         {"disagreements", scene.disagreements.size()}};
   object["rows"] = nlohmann::json::array();
-  for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row_json(row)));
-  return script_safe(dumped(object));
-}
-
-std::string scene_index_json(const std::string& name, const std::vector<nlohmann::ordered_json>& rows) {
-  nlohmann::json object{{"name", name}, {"description", ""}, {"sentence", ""}, {"runs", 0}, {"disagreements", 0}};
-  object["rows"] = nlohmann::json::array();
-  for (const nlohmann::ordered_json& row : rows) object["rows"].push_back(row_in_index(row));
+  for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row));
   return script_safe(dumped(object));
 }
 

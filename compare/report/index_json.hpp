@@ -3,15 +3,11 @@
 
 #include "report/report.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
 namespace paperproof::compare {
 
 /// `{"name","description","sentence","rows":[…],"runs":n,"disagreements":n}`. A row has the keys of a rows file; a
 /// metric that does not apply is absent, one that is not finite is the string "not finite". The verdict is in words.
 [[nodiscard]] std::string scene_index_json(const ReportScene& scene);
-/// The same for a scene of which there are only rows.
-[[nodiscard]] std::string scene_index_json(const std::string& name, const std::vector<nlohmann::ordered_json>& rows);
 
 /// `{"environment":[[name,value]…],"tolerances":[[name,metres]…],"guarantee_notes":[…],
 /// "sections":[{"title","lines","table"}…],"scenes":[…],"studies":[…]}`.

@@ -5,7 +5,6 @@
 #include "words.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <exception>
 
@@ -72,9 +71,9 @@ StudyCases cases_of(const std::vector<DisagreementCase>& all) {
   cases.count = all.size();
   cases.run = [&all](std::size_t index) { return run_disagreement(all[index]); };
   cases.lost = [&all](std::size_t index, const std::string& reason) { return failed_row(all[index], reason); };
-  cases.is_of = [&all](std::size_t index, const nlohmann::ordered_json& row) {
+  cases.is_of = [&all](std::size_t index, const Row& row) {
     const Row expected = named({}, all[index]);
-    return row.value("mode", "") == expected.mode && row.value("command", "") == expected.command;
+    return row.mode == expected.mode && row.command == expected.command;
   };
   cases.limit_s = 600;  // a real level may take this long
   return cases;

@@ -9,7 +9,6 @@
 #include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -253,9 +252,9 @@ StudyCases cases_of(const std::vector<StudyPart>& parts) {
     if (part->sweep.border) row.border = border_key(part->sweep);
     return row;
   };
-  cases.is_of = [=](std::size_t index, const nlohmann::ordered_json& row) {
+  cases.is_of = [=](std::size_t index, const Row& row) {
     const auto [part, of_part] = at(index);
-    return part->sweep.border || row.value("case", "") == id_of(part->sweep.at(of_part));
+    return part->sweep.border || row.case_id == id_of(part->sweep.at(of_part));
   };
   return cases;
 }

@@ -4,8 +4,6 @@
 #include "records/case.hpp"
 #include "records/row.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -84,7 +82,7 @@ struct StudyCases {
   std::function<Row(std::size_t)> run;                              ///< In a process of its own. It must not throw.
   std::function<Row(std::size_t, const std::string& reason)> lost;  ///< Where that process ended or was killed.
   /// Whether a row of a file can be that of a case.
-  std::function<bool(std::size_t, const nlohmann::ordered_json& row)> is_of;
+  std::function<bool(std::size_t, const Row& row)> is_of;
   int limit_s = 60;  ///< A case that takes longer fails, where the options do not say otherwise.
 };
 /// Those of sweeps that stand one behind the other. @param parts are to live as long.

@@ -324,7 +324,8 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
             "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof "
             "study --help\n"},
            {"list scene",
-            "paperproof: WHAT: expected scenes, contenders, families, knobs, metrics or parameters, not scene; see "
+            "paperproof: WHAT: expected scenes, contenders, families, knobs, metrics, parameters or schema, not scene; "
+            "see "
             "paperproof "
             "list --help\n"},
            {"check", "paperproof: SCENE is required; see paperproof check --help\n"},

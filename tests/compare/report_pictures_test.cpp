@@ -8,22 +8,21 @@
 namespace paperproof::compare {
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json shot(const std::string& contender, double speed, double thickness, int tunnels, double angle = 90) {
-  return {{"scene", "paper"},
-          {"contender", contender},
-          {"scalar", "double"},
-          {"verdict", tunnels > 0 ? "tunnels" : "holds"},
-          {"swept", {{"question", ""}, {"axes", {"speed_m_s", "thickness_m", "angle_deg"}}, {"bad", "tunnels"}}},
-          {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
-          {"tunnels", tunnels},
-          {"command", "paperproof compare paper --no-reference"}};
+Row shot(const std::string& contender, double speed, double thickness, int tunnels, double angle = 90) {
+  Row row;
+  row.scene = "paper";
+  row.contender = contender;
+  row.verdict = tunnels > 0 ? Verdict::tunnels : Verdict::holds;
+  row.swept = {"", {"speed_m_s", "thickness_m", "angle_deg"}, Bad::tunnels};
+  row.parameters = {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}};
+  row.tunnels = tunnels;
+  row.command = "paperproof compare paper --no-reference";
+  return row;
 }
 
 /// Two speeds and two thicknesses; at the higher speed the thin paper lets one of two through.
-std::vector<ordered_json> shots() {
-  std::vector<ordered_json> rows;
+std::vector<Row> shots() {
+  std::vector<Row> rows;
   for (const double speed : {10.0, 2000.0})
     for (const double thickness : {0.1, 0.01})
       for (const double angle : {45.0, 90.0})
@@ -33,27 +32,27 @@ std::vector<ordered_json> shots() {
 
 ChartGrid grid_of_shots() {
   GridCounter counter("", "speed_m_s", "thickness_m", Bad::tunnels);
-  for (const ordered_json& row : shots()) counter.add(row);
+  for (const Row& row : shots()) counter.add(row);
   return counter.grids().at(0);
 }
 
 TEST(RowPictures, questions_are_kept_apart_and_a_map_has_the_first_two_axes_of_the_sweep) {
   RowPictures pictures;
-  for (const ordered_json& row : shots()) pictures.add(row);
+  for (const Row& row : shots()) pictures.add(row);
   for (const char* question : {"a fall", "a hit"})
     for (const char* contender : {"mask", "octagon_sweep"})
       for (const double speed : {1.0, 2.0}) {
-        ordered_json row = shot(contender, speed, 0.1, 0);
-        row["swept"] = {{"question", question}, {"axes", {"speed_m_s"}}, {"bad", "does_not_hold"}};
-        row["parameters"]["jump_rules"] = contender == std::string("mask") ? 1 : 0;
+        Row row = shot(contender, speed, 0.1, 0);
+        row.swept = {question, {"speed_m_s"}, Bad::does_not_hold};
+        row.parameters.emplace_back("jump_rules", contender == std::string("mask") ? 1 : 0);
         pictures.add(row);
       }
-  ordered_json compared = shot("mask", 10, 0.1, 0);
-  compared.erase("swept");
+  Row compared = shot("mask", 10, 0.1, 0);
+  compared.swept.reset();
   pictures.add(compared);
   EXPECT_EQ(pictures.scenes().size(), 1U) << "rows of a comparison are no sweep";
-  for (ordered_json refused : {shot("grid", 10, 0.1, 0), shot("mask", 20, 0.1, 0)}) {
-    refused["verdict"] = "not_applicable";
+  for (Row refused : {shot("grid", 10, 0.1, 0), shot("mask", 20, 0.1, 0)}) {
+    refused.verdict = Verdict::not_applicable;
     pictures.add(refused);
   }
   const std::vector<ChartPage> pages = pictures.pages();
@@ -117,17 +116,26 @@ TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
   EXPECT_EQ(row[1][4], 0);
 }
 
-ordered_json precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
-  ordered_json row{{"scene", "rest"},          {"contender", "mask"},          {"scalar", "double"},
-                   {"mode", "work_precision"}, {"parameters", {{"dt_s", dt}}}, {"error_max_m", error},
-                   {"ns_per_step", ns}};
-  if (!knob.empty()) row["parameters"][knob] = value;
+Row precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
+  Row row;
+  row.scene = "rest";
+  row.contender = "mask";
+  row.mode = "work_precision";
+  row.parameters = {{"dt_s", dt}};
+  row.error_max_m = error;
+  row.ns_per_step = ns;
+  if (!knob.empty()) row.parameters.emplace_back(knob, value);
   return row;
 }
 
-ordered_json curve_over(const std::string& key, double slope) {
-  return {{"scene", "rest"},          {"contender", "mask"}, {"scalar", "double"},
-          {"mode", "work_precision"}, {"curve", key},        {"slope", slope}};
+Row curve_over(const std::string& key, double slope) {
+  Row row;
+  row.scene = "rest";
+  row.contender = "mask";
+  row.mode = "work_precision";
+  row.curve = key;
+  row.slope = slope;
+  return row;
 }
 
 TEST(RowPictures, a_curve_over_the_step_has_the_points_without_another_knob) {
