@@ -36,9 +36,7 @@ bool leaves_a_gap(double circumference, double length) {
 
 double pixels_drawn(double thickness) { return std::max(0.0, std::ceil(thickness / pixel - 0.5)); }
 
-std::string axis_of(int count, double first, double last, const char* key, const char* kind) {
-  return fmt::format("{}{}:{}:{}{}", key, first, last, kind, count);
-}
+std::string phase_axis(int phases) { return fmt::format("phase=0:{}:lin{}", (phases - 1.0) / phases, phases); }
 
 }  // namespace
 
@@ -50,32 +48,24 @@ std::vector<NamedContender> bullet_contenders() {
 namespace {
 
 Sweep bullet_sweep(GridSize size, const NamedContender& contender) {
-  struct Counts {
-    int speeds;
-    const char* thickness;
-    const char* angles;
+  struct Grid {
+    const char* axes;  ///< With a place for the phases.
     int phases;
     int promised_phases;
-    const char* steps;
   };
-  constexpr Counts quick{12, "thickness=0.001,0.01,0.1,0.5", "angle=90,45", 3, 12, "dt=0.016666666666666666"};
-  constexpr Counts standard{40,  "thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1", "angle=90,60,30,5", 16,
-                            400, "dt=0.016666666666666666,0.006944444444444444"};
-  constexpr Counts full{80,
-                        "thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1",
-                        "angle=90,75,60,45,30,5",
-                        32,
-                        1000,
-                        "dt=0.03333333333333333,0.016666666666666666,0.006944444444444444"};
-  const Counts& counts = size == GridSize::quick ? quick : size == GridSize::standard ? standard : full;
-  const int phases = is_guaranteed(contender.name, "double") ? counts.promised_phases : counts.phases;
+  constexpr std::array grids{
+      Grid{"speed=5:5000:log12 thickness=0.001,0.01,0.1,0.5 angle=90,45 {} dt=0.016666666666666666", 3, 12},
+      Grid{"speed=5:5000:log40 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1 angle=90,60,30,5 {} "
+           "dt=0.016666666666666666,0.006944444444444444",
+           16, 400},
+      Grid{"speed=5:5000:log80 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1 angle=90,75,60,45,30,5 {} "
+           "dt=0.03333333333333333,0.016666666666666666,0.006944444444444444",
+           32, 1000}};
+  const Grid& grid = grids[static_cast<std::size_t>(size)];
+  const int phases = is_guaranteed(contender.name, "double") ? grid.promised_phases : grid.phases;
   Sweep sweep;
   sweep.scene = "paper";
-  const double last = (phases - 1.0) / phases;
-  for (const std::string& axis :
-       {axis_of(counts.speeds, 5, 5000, "speed=", "log"), std::string(counts.thickness), std::string(counts.angles),
-        axis_of(phases, 0, last, "phase=", "lin"), std::string(counts.steps)})
-    sweep.axes.push_back(parse_axis(axis));
+  sweep.axes = parse_axes(fmt::format(fmt::runtime(grid.axes), phase_axis(phases)));
   sweep.contenders = {contender};
   return sweep;
 }
@@ -85,9 +75,7 @@ StudyPart moving_paper_part(GridSize size) {
   const auto [speeds, phases] = counts[static_cast<std::size_t>(size)];
   StudyPart part{moving_paper_title, {}, {}, Bad::tunnels};
   part.sweep.scene = "moving_paper";
-  for (const std::string& axis : {axis_of(speeds, 5, 5000, "closing=", "log"), std::string("thickness=0.001,0.1"),
-                                  axis_of(phases, 0, 1 - 1.0 / phases, "phase=", "lin")})
-    part.sweep.axes.push_back(parse_axis(axis));
+  part.sweep.axes = parse_axes(fmt::format("closing=5:5000:log{} thickness=0.001,0.1 {}", speeds, phase_axis(phases)));
   part.sweep.contenders = all_contenders_and({{"box2d", {{"movers", "transform"}}}});
   return part;
 }
@@ -95,7 +83,7 @@ StudyPart moving_paper_part(GridSize size) {
 StudyPart far_part(GridSize size) {
   StudyPart part{far_title, {}, {}, Bad::tunnels};
   part.sweep.scene = "far";
-  part.sweep.axes.push_back(parse_axis(axis_of(size == GridSize::quick ? 8 : 24, 100, 1e6, "origin=", "log")));
+  part.sweep.axes = parse_axes(size == GridSize::quick ? "origin=100:1e6:log8" : "origin=100:1e6:log24");
   part.sweep.contenders = all_contenders_and({});
   return part;
 }

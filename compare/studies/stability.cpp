@@ -28,95 +28,55 @@ struct Region {
   const char* name;
   const char* question;
   const char* scene;
-  std::vector<const char*> axes;
+  const char* axes;
   const char* replicas_along = "";
-  std::vector<const char*> full_axes{};  ///< Of the full grid; empty: the same.
+  const char* full_axes = nullptr;  ///< Of the full grid; null: the same.
   bool has_slopes = false;
 };
 
 const std::vector<Region>& regions() {
   static const std::vector<Region> all{
-      {"rest and steps",
-       "A drop of 0.25 m, and rest for up to a million steps, every one of them judged.",
-       "rest",
-       {"steps=1e3,1e4,1e5,1e6", "gravity=30,1e3"}},
+      {"rest and steps", "A drop of 0.25 m, and rest for up to a million steps, every one of them judged.", "rest",
+       "steps=1e3,1e4,1e5,1e6 gravity=30,1e3"},
       {"play and input",
        "Walks and jumps at random over slopes, kerbs, a ledge, a needle and a pit; a day is 5,184,000 steps at 60 Hz.",
-       "playground",
-       {"steps=1e3,1e4,1e5", "seed=1,2,3"},
-       "",
-       {"steps=1e3,1e4,1e5,5184000", "seed=1,2"},
-       true},
-      {"origin and speed",
-       "Paper of 1 cm, far from the origin, hit fast.",
-       "paper",
-       {"origin=0,1e3,1e4,1e5,1e6,1.9e6", "speed=10,100,1e3,1e4,1e5"}},
+       "playground", "steps=1e3,1e4,1e5 seed=1,2,3", "", "steps=1e3,1e4,1e5,5184000 seed=1,2", true},
+      {"origin and speed", "Paper of 1 cm, far from the origin, hit fast.", "paper",
+       "origin=0,1e3,1e4,1e5,1e6,1.9e6 speed=10,100,1e3,1e4,1e5"},
       {"far origin and step",
        "Walk, wall and jump, far from the origin: in float a step may be less than what can be told apart there.",
-       "far",
-       {"origin=16,1e3,1e4,1e5,1e6", "dt=1e-3,0.008333333333333333,0.016666666666666666"},
-       "origin"},
-      {"gravity and step",
-       "A drop of 0.25 m that has to come to rest.",
-       "drop",
-       {"gravity=10,100,1e3,1e4,1e5,1e6", "dt=1e-4,1e-3,0.01,0.1,1"}},
-      {"scale and thickness",
-       "Paper in other sizes of the world: the character is as large as the scale says.",
-       "paper",
-       {"scale=1e-4,1e-2,1,1e2,1e4", "thickness=0,1e-6,1e-3,0.1"}},
-      {"speed and thickness",
-       "Paper of any thickness at any speed.",
-       "paper",
-       {"speed=10,30,100,300,1e3,1e4,1e5", "thickness=0,1e-6,1e-3,1e-2,0.1,1"}},
-      {"mass ratio and step",
-       "A heavy box on four light ones, and the character on top.",
-       "stack",
-       {"mass_ratio=1,10,100,1e3,1e4", "dt=0.0041666666666666666,0.016666666666666666,0.03333333333333333"}},
-      {"wedge and step",
-       "A fall into a V.",
-       "wedge",
-       {"angle=60,30,10,5,2,1", "dt=1e-3,0.01,0.016666666666666666,0.1"}},
+       "far", "origin=16,1e3,1e4,1e5,1e6 dt=1e-3,0.008333333333333333,0.016666666666666666", "origin"},
+      {"gravity and step", "A drop of 0.25 m that has to come to rest.", "drop",
+       "gravity=10,100,1e3,1e4,1e5,1e6 dt=1e-4,1e-3,0.01,0.1,1"},
+      {"scale and thickness", "Paper in other sizes of the world: the character is as large as the scale says.",
+       "paper", "scale=1e-4,1e-2,1,1e2,1e4 thickness=0,1e-6,1e-3,0.1"},
+      {"speed and thickness", "Paper of any thickness at any speed.", "paper",
+       "speed=10,30,100,300,1e3,1e4,1e5 thickness=0,1e-6,1e-3,1e-2,0.1,1"},
+      {"mass ratio and step", "A heavy box on four light ones, and the character on top.", "stack",
+       "mass_ratio=1,10,100,1e3,1e4 dt=0.0041666666666666666,0.016666666666666666,0.03333333333333333"},
+      {"wedge and step", "A fall into a V.", "wedge", "angle=60,30,10,5,2,1 dt=1e-3,0.01,0.016666666666666666,0.1"},
       {"slope and step",
-       "A character on a slope: it stands up to its climb limit of 50 degrees, and slides down beyond it.",
-       "ramp",
-       {"angle=10,49,51,70,85,89,89.9", "dt=1e-3,0.016666666666666666,0.1"},
-       "",
-       {},
-       true},
-      {"clearance and step",
-       "A fall down a shaft that fits.",
-       "shaft",
-       {"clearance=0,1e-9,1e-6,1e-3,0.05", "dt=1e-3,0.016666666666666666,0.1"}},
-      {"perturbed start",
-       "Walk, jump and wall, begun a little aside: the same sequence of events.",
-       "replica_of",
-       {"aside=0,1e-12,1e-9,1e-6,1e-3", "dt=0.016666666666666666"},
-       "aside"},
+       "A character on a slope: it stands up to its climb limit of 50 degrees, and slides down beyond it.", "ramp",
+       "angle=10,49,51,70,85,89,89.9 dt=1e-3,0.016666666666666666,0.1", "", nullptr, true},
+      {"clearance and step", "A fall down a shaft that fits.", "shaft",
+       "clearance=0,1e-9,1e-6,1e-3,0.05 dt=1e-3,0.016666666666666666,0.1"},
+      {"perturbed start", "Walk, jump and wall, begun a little aside: the same sequence of events.", "replica_of",
+       "aside=0,1e-12,1e-9,1e-6,1e-3 dt=0.016666666666666666", "aside"},
       {"pixels per frame and thickness",
-       "Paper hit at up to 100,000 pixels per frame of a 30th of a second, where 32 pixels are a metre.",
-       "paper",
-       {"speed=937.5,9375,93750", "thickness=0,1e-9,1e-6,1e-3", "dt=0.03333333333333333"}},
-      {"random steps",
-       "Walk and wall in steps of random lengths, from 1e-4 s to the longest.",
-       "random_steps",
-       {"longest=1e-3,1e-2,0.1,1", "seed=1,2,3,4"}},
+       "Paper hit at up to 100,000 pixels per frame of a 30th of a second, where 32 pixels are a metre.", "paper",
+       "speed=937.5,9375,93750 thickness=0,1e-9,1e-6,1e-3 dt=0.03333333333333333"},
+      {"random steps", "Walk and wall in steps of random lengths, from 1e-4 s to the longest.", "random_steps",
+       "longest=1e-3,1e-2,0.1,1 seed=1,2,3,4"},
       {"stiffness and step",
        "A plank on springs, up to the Nyquist frequency of the steps and beyond: at 60 Hz it is 7.1e5 N/m, at 1 kHz "
        "2e8.",
        "plank_on_springs",
-       {"stiffness=250,1e3,1e4,1e5,1e6,1e7,2e8",
-        "dt=1e-3,0.004166666666666667,0.016666666666666666,0.03333333333333333"}},
-      {"damping and step",
-       "The same plank on stiff springs with more and more damping.",
-       "plank_on_springs",
-       {"damping=0,10,1e3,1e5,1e7", "dt=1e-3,0.004166666666666667,0.016666666666666666,0.03333333333333333",
-        "stiffness=1e5"}},
-      {"crowd and step",
-       "Several in a tight room, each at random by itself.",
-       "crowd",
-       {"characters=2,4,8,16", "dt=0.008333333333333333,0.016666666666666666"},
-       "",
-       {"characters=2,4,8,16", "dt=0.008333333333333333,0.016666666666666666,0.03333333333333333"}},
+       "stiffness=250,1e3,1e4,1e5,1e6,1e7,2e8 dt=1e-3,0.004166666666666667,0.016666666666666666,0.03333333333333333"},
+      {"damping and step", "The same plank on stiff springs with more and more damping.", "plank_on_springs",
+       "damping=0,10,1e3,1e5,1e7 dt=1e-3,0.004166666666666667,0.016666666666666666,0.03333333333333333 stiffness=1e5"},
+      {"crowd and step", "Several in a tight room, each at random by itself.", "crowd",
+       "characters=2,4,8,16 dt=0.008333333333333333,0.016666666666666666", "",
+       "characters=2,4,8,16 dt=0.008333333333333333,0.016666666666666666,0.03333333333333333"},
   };
   return all;
 }
@@ -183,9 +143,8 @@ void add_parts(StudyPart part, const std::vector<std::string>& contenders, std::
 StudyPart part_of(const Region& region, GridSize size) {
   StudyPart part{region.name, {}, {}, Bad::does_not_hold, region.question};
   part.sweep.scene = region.scene;
-  const bool whole = size == GridSize::full && !region.full_axes.empty();
-  for (const char* text : whole ? region.full_axes : region.axes) {
-    const SweepAxis axis = parse_axis(text);
+  const bool whole = size == GridSize::full && region.full_axes != nullptr;
+  for (const SweepAxis& axis : parse_axes(whole ? region.full_axes : region.axes)) {
     // What has one value is no axis of a picture.
     if (part.sweep.axes.size() == 2)
       part.sweep.set.push_back({axis.key, axis.values.front()});

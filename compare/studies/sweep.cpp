@@ -147,6 +147,12 @@ SweepAxis parse_axis(std::string_view text) {
   return axis;
 }
 
+std::vector<SweepAxis> parse_axes(std::string_view text) {
+  std::vector<SweepAxis> axes;
+  for (const std::string_view each : parts_of(text, ' ')) axes.push_back(parse_axis(each));
+  return axes;
+}
+
 void parse_border(const std::string& text, Sweep& sweep) {
   const std::size_t equals = text.find('=');
   sweep.border = text.substr(0, equals);

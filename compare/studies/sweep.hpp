@@ -23,6 +23,8 @@ struct SweepAxis {
 /// `speed=10:2000:log12` (12 values, each as many times the one before), `speed=0:1:lin5`, or `speed=1,2,4`.
 /// @throws InputError in words for anything else; at most 1,000,000 values.
 [[nodiscard]] SweepAxis parse_axis(std::string_view text);
+/// Several, with a space between.
+[[nodiscard]] std::vector<SweepAxis> parse_axes(std::string_view text);
 
 /// Who runs: a contender with knobs of its own.
 struct NamedContender {
