@@ -2,16 +2,12 @@
 #include "command/command_line.hpp"
 
 #include "command/campaign_command.hpp"
+#include "command/commands.hpp"
 #include "command/compare_command.hpp"
 #include "command/complain.hpp"
-#include "command/convert_command.hpp"
-#include "command/demo_command.hpp"
 #include "command/judge_command.hpp"
-#include "command/list_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/options.hpp"
-#include "command/report_command.hpp"
-#include "command/rows_command.hpp"
 #include "command/study_command.hpp"
 #include "records/output_file.hpp"
 #include "scenes/load.hpp"
@@ -46,10 +42,6 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
   return once;
 }
 
-std::optional<std::uint64_t> seed_of(const std::optional<std::string>& input) {
-  return input ? std::optional(parse_random_input(*input)) : std::nullopt;
-}
-
 /// Runs a command when its options are parsed, and keeps its exit status.
 /// @param arguments live as long as the command.
 template <class Arguments, class Command>
@@ -60,48 +52,34 @@ void on_parsed(CLI::App& app, int& status, std::shared_ptr<Arguments> arguments,
 /// Options of `compare` as typed.
 struct CompareWords {
   CompareArguments arguments;
-  std::optional<std::string> input;
   std::string mode = "free";
   std::string plan;
-  bool no_reference = false;
-  bool no_timing = false;
   std::vector<std::string> scalars;
   std::vector<std::string> knobs;
-  std::vector<std::string> settings;
 };
 
 void add_compare_options(CLI::App& command, CompareWords& words) {
   CompareArguments& arguments = words.arguments;
   command.add_option("SCENE", arguments.scenes, scene_words);
-  command.add_option("--files-from", arguments.files_from, "Read further SCENEs from this file, one per line")
-      ->type_name("FILE|-")
-      ->check(expect_file_name());
+  add_option(command, "--files-from", arguments.files_from, "FILE|-",
+             "Read further SCENEs from this file, one per line");
   add_flag(command, "--keep-going", arguments.keep_going,
            "Run the others where a SCENE cannot be used; it is a failed row, and the status is 2");
   add_contenders(command, arguments.run.contenders, "Only these and the Box2D twin (see `paperproof list contenders`)");
   add_scalars(command, words.scalars);
-  command
-      .add_option("--mode", words.mode,
-                  "free: each on its own; lockstep: the twin is put to the controller before each step")
-      ->type_name("free|lockstep")
-      ->check(expect_one_of({"free", "lockstep"}));
+  add_option(command, "--mode", words.mode, "free|lockstep",
+             "free: each on its own; lockstep: the twin is put to the controller before each step");
   add_knobs(command, words.knobs);
-  add_settings(command, words.settings);
+  add_settings(command, arguments.settings);
   add_steps(command, arguments.run.steps);
-  add_input(command, words.input);
-  command.add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl")
-      ->type_name("STEM")
-      ->check(expect_file_name());
+  add_input(command, arguments.run.random_input);
+  add_option(command, "--trace", arguments.run.trace_stem, "STEM", "Write STEM.<scene>.<contender>.<scalar>.jsonl");
   add_outputs(command, arguments.rows_path, arguments.report_path);
-  command.add_option("--strip", arguments.strip_path, "Draw one step of one scene, the contenders side by side")
-      ->type_name("FILE.svg")
-      ->check(expect_file_name())
-      ->check(expect_ending({".svg"}));
-  command.add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
-      ->type_name("full")
-      ->check(expect_one_of({"full"}));
-  add_flag(command, "--no-reference", words.no_reference, "Without the Box2D twin");
-  add_flag(command, "--no-timing", words.no_timing, "Without measuring the cost of a step");
+  add_option(command, "--strip", arguments.strip_path, "FILE.svg",
+             "Draw one step of one scene, the contenders side by side");
+  add_option(command, "--plan", words.plan, "full", "full: leave nothing out, whatever the scene can need");
+  add_flag_off(command, "--no-reference", arguments.run.reference, "Without the Box2D twin");
+  add_flag_off(command, "--no-timing", arguments.run.measure_cost, "Without measuring the cost of a step");
   add_flag(command, "--all-tables", arguments.all_tables, "The table of every scene, where there are several");
   add_flag(command, "--explain", arguments.explain, "Print what each contender is excused, and up to what size");
   add_flag(command, "--quiet", arguments.quiet, "No tables, no progress");
@@ -112,17 +90,13 @@ int compare(const CompareWords& words) {
   CompareArguments arguments = words.arguments;
   if (arguments.scenes.empty() && arguments.files_from.empty())
     throw InputError("paperproof: SCENE is required; see paperproof compare --help");
-  arguments.run.random_input = seed_of(words.input);
   arguments.run.full_plan = words.plan == "full";
-  arguments.run.reference = !words.no_reference;
-  arguments.run.measure_cost = !words.no_timing;
   arguments.run.continuous = true;
   arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
   if (!words.scalars.empty()) arguments.run.scalars.clear();
   for (const std::string& scalar : without_repeats(words.scalars))
     arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
   arguments.run.contenders = without_repeats(arguments.run.contenders);
-  for (const std::string& setting : words.settings) arguments.settings.push_back(parse_setting(setting));
   arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
   return compare_scenes(std::move(arguments));
 }
@@ -149,16 +123,15 @@ void add_run_outputs(CLI::App& command, RunArguments& run) {
 /// The options of everything that runs cases.
 void add_run_options(CLI::App& command, RunArguments& run) {
   add_run_outputs(command, run);
-  add_log(command, run.log_path);
-  add_jobs(command, run.jobs);
-  command
-      .add_option("--limit", run.limit_s,
-                  "A case that takes longer than this fails; where not given 60 s in a sweep, 10 minutes in `study "
-                  "disagreement`, an hour in other studies, and a day on their full grid")
-      ->type_name("SECONDS")
-      ->check(expect_whole_number(1'000'000));
-  command.add_option("--shard", run.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
-      ->type_name("K/N");
+  add_option(command, "--log", run.log_path, "FILE", "Write how far the work is to this file, a line every 5 s");
+  add_option(command, "--jobs", run.jobs, "N", "Processes at a time; one for each core where it is not given")
+      .check(expect_whole_number(1024));
+  add_option(command, "--limit", run.limit_s, "SECONDS",
+             "A case that takes longer than this fails; where not given 60 s in a sweep, 10 minutes in `study "
+             "disagreement`, an hour in other studies, and a day on their full grid")
+      .check(expect_whole_number(1'000'000));
+  add_option(command, "--shard", run.shard, "K/N",
+             "Every N-th case, from the K-th on; `merge` puts the parts together");
   add_flag(command, "--resume", run.resume, "Go on behind the rows that the file of --rows has");
 }
 
@@ -167,42 +140,29 @@ void forget_repeats(CaseArguments& cases) {
   cases.scalars = without_repeats(cases.scalars);
 }
 
-/// Options of `sweep` as typed.
-struct SweepWords {
-  SweepArguments arguments;
-  std::optional<std::string> input;
-  bool no_reference = false;
-  bool no_timing = false;
-};
-
-int sweep(const SweepWords& words) {
-  SweepArguments arguments = words.arguments;
-  arguments.seed = seed_of(words.input);
-  arguments.reference = !words.no_reference;
-  forget_repeats(arguments.cases);
-  return sweep_command(arguments);
-}
-
 void add_sweep(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
-  const auto words = std::make_shared<SweepWords>();
-  SweepArguments& arguments = words->arguments;
-  command->add_option("SCENE", arguments.scene, scene_words)->required();
-  command->add_option("--vary", arguments.vary, "An axis: a parameter of the scene (see `list parameters`) or a knob")
-      ->type_name("KEY=FIRST:LAST:logN|linN|a,b,c")
-      ->allow_extra_args(false);
+  CLI::App& command = *app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
+  const auto arguments = std::make_shared<SweepArguments>();
+  command.add_option("SCENE", arguments->scene, scene_words)->required();
+  add_option(command, "--vary", arguments->vary, "KEY=FIRST:LAST:logN|linN|a,b,c",
+             "An axis: a parameter of the scene (see `list parameters`) or a knob")
+      .allow_extra_args(false);
+  add_option(command, "--find-border", arguments->border, "KEY[=FIRST:LAST]",
+             "Bisect this parameter, over its range or a part of it, to where a contender ceases to hold");
+  add_settings(command, arguments->set);
+  add_steps(command, arguments->steps);
+  add_input(command, arguments->seed);
+  add_cases(command, arguments->cases);
+  add_run_options(command, arguments->run);
+  add_flag_off(command, "--no-reference", arguments->reference, "Without Box2D, where no contender is named");
   command
-      ->add_option("--find-border", arguments.border,
-                   "Bisect this parameter, over its range or a part of it, to where a contender ceases to hold")
-      ->type_name("KEY[=FIRST:LAST]");
-  add_settings(*command, arguments.set);
-  add_steps(*command, arguments.steps);
-  add_input(*command, words->input);
-  add_cases(*command, arguments.cases);
-  add_run_options(*command, arguments.run);
-  add_flag(*command, "--no-reference", words->no_reference, "Without Box2D, where no contender is named");
-  add_flag(*command, "--no-timing", words->no_timing, "A sweep measures no costs anyway");
-  on_parsed(*command, status, words, sweep);
+      .add_flag_callback(
+          "--no-timing", [] {}, "A sweep measures no costs anyway")
+      ->disable_flag_override();
+  on_parsed(command, status, arguments, [](SweepArguments& typed) {
+    forget_repeats(typed.cases);
+    return sweep_command(typed);
+  });
 }
 
 /// A study that is a list of sweeps.
@@ -210,7 +170,7 @@ void add_prepared_study(CLI::App& parent, const PreparedStudy& study, int& statu
   CLI::App& command = *parent.add_subcommand(study.name, study.help);
   const auto arguments = std::make_shared<StudyArguments>();
   arguments->grid = study.grid;
-  add_grid_size(command, arguments->grid);
+  add_option(command, "--grid", arguments->grid, "quick|standard|full", "How many cases");
   add_cases(command, arguments->cases);
   add_run_options(command, arguments->run);
   on_parsed(command, status, arguments, [&study](StudyArguments& typed) {
@@ -222,9 +182,9 @@ void add_prepared_study(CLI::App& parent, const PreparedStudy& study, int& statu
 void add_scale(CLI::App& study, int& status) {
   CLI::App& command = *study.add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
   const auto arguments = std::make_shared<ScaleArguments>();
-  command.add_option("--grid", arguments->grid, fmt::format("Numbers of pieces, multiples of {}", tiles_per_floor))
-      ->type_name("N,...")
-      ->check(expect_whole_number(most_tiles, tiles_per_floor))
+  add_option(command, "--grid", arguments->grid, "N,...",
+             fmt::format("Numbers of pieces, multiples of {}", tiles_per_floor))
+      .check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
   add_run_outputs(command, arguments->run);
   on_parsed(command, status, arguments, study_scale_command);
@@ -258,52 +218,39 @@ void add_studies(CLI::App& app, int& status) {
   add_disagreement(study, status);
 }
 
-struct RowsWords {
-  std::vector<std::string> files;
-  std::string rows_path;
+/// What the commands of commands.hpp take.
+struct Words {
+  std::vector<std::string> names;     ///< Of scenes or files.
+  std::string from;                   ///< Of `convert`.
+  std::string to;                     ///< Where the result goes.
+  std::optional<std::uint64_t> seed;  ///< Of `plan`.
 };
 
 void add_rows_commands(CLI::App& app, int& status) {
   CLI::App& merge = *app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
-  const auto merged = std::make_shared<RowsWords>();
-  merge.add_option("ROWS", merged->files, "Files of rows, .jsonl")->required();
-  merge.add_option("--rows", merged->rows_path, "Where they go")
-      ->required()
-      ->type_name("FILE.jsonl")
-      ->check(expect_file_name())
-      ->check(expect_ending({".jsonl"}));
-  on_parsed(merge, status, merged, [](const RowsWords& typed) { return merge_command(typed.files, typed.rows_path); });
+  const auto merged = std::make_shared<Words>();
+  merge.add_option("ROWS", merged->names, "Files of rows, .jsonl")->required();
+  add_option(merge, "--rows", merged->to, "FILE.jsonl", "Where they go").required();
+  on_parsed(merge, status, merged, [](const Words& typed) { return merge_command(typed.names, typed.to); });
 
   CLI::App& diff = *app.add_subcommand("diff", "Name what changed between two files of rows, costs apart");
-  const auto differed = std::make_shared<RowsWords>();
-  diff.add_option("ROWS", differed->files, "Two files of rows, .jsonl: before and after")->required()->expected(2);
-  on_parsed(diff, status, differed,
-            [](const RowsWords& typed) { return diff_command(typed.files[0], typed.files[1]); });
+  const auto differed = std::make_shared<Words>();
+  diff.add_option("ROWS", differed->names, "Two files of rows, .jsonl: before and after")->required()->expected(2);
+  on_parsed(diff, status, differed, [](const Words& typed) { return diff_command(typed.names[0], typed.names[1]); });
 }
-
-/// Options of `judge` as typed.
-struct JudgeWords {
-  JudgeOptions options;
-  std::vector<std::string> settings;
-};
 
 void add_judge(CLI::App& app, int& status) {
   CLI::App& command =
       *app.add_subcommand("judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic");
-  const auto words = std::make_shared<JudgeWords>();
-  JudgeOptions* const options = &words->options;
+  const auto options = std::make_shared<JudgeOptions>();
   command.add_option("TRACE", options->traces, "Files written by --trace, or by any other program")->required();
   command.add_flag("--all", options->all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
-  command
-      .add_option("--scene", options->scene, "The scene of the traces: what it says stands instead of their headers")
-      ->type_name("SCENE");
-  add_settings(command, words->settings);
+  add_option(command, "--scene", options->scene, "SCENE",
+             "The scene of the traces: what it says stands instead of their headers");
+  add_settings(command, options->settings);
   add_steps(command, options->steps);
   for (const char* name : {"--set", "--steps"}) command.get_option(name)->needs("--scene");
-  on_parsed(command, status, words, [](JudgeWords& typed) {
-    for (const std::string& setting : typed.settings) typed.options.settings.push_back(parse_setting(setting));
-    return judge_command(typed.options);
-  });
+  on_parsed(command, status, options, judge_command);
 }
 
 void add_random_runs(CLI::App& app, int& status) {
@@ -311,27 +258,20 @@ void add_random_runs(CLI::App& app, int& status) {
       *app.add_subcommand("campaign", "Run families of random runs, and count what they meet and break");
   const auto counted = std::make_shared<CampaignArguments>();
   campaign.add_option("FAMILY", counted->families, "Families such as movers/tiles, or kinds such as movers; none: all");
-  campaign.add_option("--steps", counted->steps, "Of each family; slow ones take a share")
-      ->type_name("N")
-      ->check(CLI::Range(1, 100'000'000));
+  add_option(campaign, "--steps", counted->steps, "N", "Of each family; slow ones take a share")
+      .check(CLI::Range(1, 100'000'000));
   on_parsed(campaign, status, counted, campaign_command);
 
   CLI::App& replay = *app.add_subcommand("replay", "Run one random run again, as a test or `campaign` names it");
   const auto again = std::make_shared<ReplayArguments>();
   replay.add_option("FAMILY", again->family, "Such as movers/tiles")->required();
   replay.add_option("SEED", again->seed, "Of the run")->required();
-  replay.add_option("--scene", again->scene_path, "Write the scene, which has no launches")
-      ->type_name("FILE.json")
-      ->check(expect_file_name())
-      ->check(expect_ending({".json"}));
+  add_option(replay, "--scene", again->scene_path, "FILE.json", "Write the scene, which has no launches");
   const auto names = contender_names();
   const auto add_alike = [&](CLI::App& command, std::string& contender, std::string& trace_stem) {
-    command.add_option("--contender", contender, "Instead of octagon_sweep")
-        ->type_name("NAME")
-        ->check(expect_one_of({names.begin(), names.end()}));
-    command.add_option("--trace", trace_stem, "Write STEM.<run>.<contender>.<scalar>.jsonl")
-        ->type_name("STEM")
-        ->check(expect_file_name());
+    add_option(command, "--contender", contender, "NAME", "Instead of octagon_sweep")
+        .check(expect_one_of({names.begin(), names.end()}));
+    add_option(command, "--trace", trace_stem, "STEM", "Write STEM.<run>.<contender>.<scalar>.jsonl");
   };
   add_alike(campaign, counted->contender, counted->trace_stem);
   add_alike(replay, again->contender, again->trace_stem);
@@ -339,46 +279,30 @@ void add_random_runs(CLI::App& app, int& status) {
 }
 
 void add_report(CLI::App& app, int& status) {
-  struct Words {
-    std::string page;
-    std::vector<std::string> records;
-  };
   CLI::App& command = *app.add_subcommand("report", "Put rows, and pages of --report, into one page");
   const auto words = std::make_shared<Words>();
-  command.add_option("FILE", words->page, "Where the page goes")
-      ->required()
-      ->type_name("FILE.html")
-      ->check(expect_file_name())
-      ->check(expect_ending({".html"}));
-  command.add_option("ROWS", words->records, "Files of rows (.jsonl, .json), and pages (.html)")->required();
-  on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.page, typed.records); });
+  add_option(command, "FILE", words->to, "FILE.html", "Where the page goes").required();
+  command.add_option("ROWS", words->names, "Files of rows (.jsonl, .json), and pages (.html)")->required();
+  on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.to, typed.names); });
 }
-
-struct SceneWords {
-  std::vector<std::string> scenes;
-  std::optional<std::string> input;  ///< Of `plan`.
-  std::string from;                  ///< Of `convert`.
-  std::string to;                    ///< The same.
-};
 
 void add_scene_commands(CLI::App& app, int& status) {
   CLI::App& convert = *app.add_subcommand("convert", "Write a map or a built-in scene as a JSON scene");
-  const auto converted = std::make_shared<SceneWords>();
+  const auto converted = std::make_shared<Words>();
   convert.add_option("SCENE", converted->from, scene_words)->required();
-  convert.add_option("OUT", converted->to, "Where it goes")->required()->type_name("OUT.json");
-  on_parsed(convert, status, converted, [](const SceneWords& typed) { return convert_command(typed.from, typed.to); });
+  add_option(convert, "OUT", converted->to, "OUT.json", "Where it goes").required();
+  on_parsed(convert, status, converted, [](const Words& typed) { return convert_command(typed.from, typed.to); });
 
   CLI::App& check = *app.add_subcommand("check", "Validate scenes and say what is in them");
-  const auto checked = std::make_shared<SceneWords>();
-  check.add_option("SCENE", checked->scenes, scene_words)->required();
-  on_parsed(check, status, checked, [](const SceneWords& typed) { return check_command(typed.scenes); });
+  const auto checked = std::make_shared<Words>();
+  check.add_option("SCENE", checked->names, scene_words)->required();
+  on_parsed(check, status, checked, [](const Words& typed) { return check_command(typed.names); });
 
   CLI::App& plan = *app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
-  const auto planned = std::make_shared<SceneWords>();
-  plan.add_option("SCENE", planned->scenes, scene_words)->required();
-  add_input(plan, planned->input);
-  on_parsed(plan, status, planned,
-            [](const SceneWords& typed) { return plan_command(typed.scenes, seed_of(typed.input)); });
+  const auto planned = std::make_shared<Words>();
+  plan.add_option("SCENE", planned->names, scene_words)->required();
+  add_input(plan, planned->seed);
+  on_parsed(plan, status, planned, [](const Words& typed) { return plan_command(typed.names, typed.seed); });
 }
 
 void add_demo_and_list(CLI::App& app, int& status) {
@@ -389,10 +313,8 @@ void add_demo_and_list(CLI::App& app, int& status) {
 
   CLI::App& list = *app.add_subcommand("list", "Names, one per line");
   const auto what = std::make_shared<std::string>();
-  list.add_option("WHAT", *what, "Which names")
-      ->required()
-      ->type_name("scenes|contenders|families|knobs|metrics|parameters|schema")
-      ->check(expect_one_of({"scenes", "contenders", "families", "knobs", "metrics", "parameters", "schema"}));
+  add_option(list, "WHAT", *what, "scenes|contenders|families|knobs|metrics|parameters|schema", "Which names")
+      .required();
   on_parsed(list, status, what, list_command);
 }
 

@@ -2,7 +2,6 @@
 
 #include "command/claimed_files.hpp"
 #include "command/complain.hpp"
-#include "command/forecast.hpp"
 #include "command/inputs.hpp"
 #include "command/progress.hpp"
 #include "command/standing_sections.hpp"
@@ -113,7 +112,7 @@ class Comparison {
   }
 
   int run() {
-    forecast_.emplace(!arguments_.quiet, steps_);
+    progress_.foretell(steps_, "steps");
     inputs_.run([this](const std::string&, const Scene& scene) { run_one(scene); },
                 [this](const std::string& name, const InputError& error) {
                   refuse(name, error);
@@ -178,11 +177,9 @@ class Comparison {
   void run_one(const Scene& scene) {
     announce_preparation(scene);
     const double steps = steps_of(scene);
-    forecast_->begin_scene(steps);
     arguments_.run.progress = [&](double of_scene) {
       progress_.show(fmt::format("{} ({:.0f} %),", scene.name, 100 * of_scene),
                      (steps_done_ + of_scene * steps) / steps_);
-      forecast_->done(of_scene);
     };
     ReportScene result = run_scene(scene, arguments_.run);
     for (Row& row : result.rows)
@@ -215,11 +212,11 @@ class Comparison {
     strip_->commit();
   }
 
-  void announce_preparation(const Scene& scene) const {
+  void announce_preparation(const Scene& scene) {
     if (arguments_.quiet) return;
     if (const auto expected = expected_preparation(scene, contenders_of(arguments_.run), arguments_.run.scalars))
-      forecast_->preparation(scene.name, expected->seconds,
-                             fmt::format("about {:.0f} pairs of its pieces are near each other", expected->pairs));
+      progress_.prepare(scene.name, expected->seconds,
+                        fmt::format("about {:.0f} pairs of its pieces are near each other", expected->pairs));
   }
 
   /// One scene, or each where all tables are asked for, as a table. Of several scenes the first in plain words, as soon
@@ -287,7 +284,6 @@ class Comparison {
   int unscripted_ = 0;  ///< Scenes that move by `Scene::moves_at_random`.
   double steps_ = 0;    ///< Of all scenes.
   double steps_done_ = 0;
-  std::optional<Forecast> forecast_;
   bool printed_ = false;               ///< A scene was printed.
   bool shows_gallery_ = false;         ///< A set of scenes was asked for.
   std::optional<RowsFile> rows_file_;  ///< Opened with the other outputs.

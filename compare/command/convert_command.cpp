@@ -1,4 +1,4 @@
-#include "command/convert_command.hpp"
+#include "command/commands.hpp"
 
 #include "command/claimed_files.hpp"
 #include "command/complain.hpp"

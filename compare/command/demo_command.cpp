@@ -1,4 +1,4 @@
-#include "command/demo_command.hpp"
+#include "command/commands.hpp"
 
 #include "command/compare_command.hpp"
 #include "records/output_file.hpp"

@@ -26,7 +26,7 @@ std::vector<std::string> names_from(const std::string& file) {
   return names;
 }
 
-void Inputs::check(const Progress& progress, const Use& look, const Refuse& refuse) {
+void Inputs::check(Progress& progress, const Use& look, const Refuse& refuse) {
   const bool keep = names_.size() <= kept_in_memory;
   if (keep) kept_.resize(names_.size());
   for (std::size_t i = 0; i < names_.size(); ++i) {

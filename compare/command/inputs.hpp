@@ -27,7 +27,7 @@ class Inputs {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
   /// Loads every scene once. @param look may refuse it by throwing InputError, too.
-  void check(const Progress& progress, const Use& look, const Refuse& refuse);
+  void check(Progress& progress, const Use& look, const Refuse& refuse);
   /// Those that can be used, in their order. More than a few are read again, so that not all are in memory at once.
   void run(const Use& use, const Refuse& refuse);
 

@@ -1,7 +1,7 @@
-#include "command/list_command.hpp"
+#include "command/commands.hpp"
 
 #include "campaign/families.hpp"
-#include "command/forecast.hpp"
+#include "command/progress.hpp"
 #include "records/metric.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_json.hpp"

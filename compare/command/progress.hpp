@@ -1,4 +1,4 @@
-/// How far the work is, on a terminal and in a log.
+/// How far the work is, on a terminal and in a log; and how long it will take, said before it has taken long.
 #pragma once
 
 #include <chrono>
@@ -10,19 +10,24 @@ namespace paperproof::compare {
 
 /// One line on a terminal's stderr; nothing where stderr is no terminal. It is gone when the work ends. In a log, where
 /// there is one, a line each time that a while has passed, and a last one; each with the time that is left, as far as
-/// the work so far tells.
+/// the work so far tells. Of work that will take long it says once how long, terminal or not: who waits for hours wants
+/// to know from the start.
 class Progress {
  public:
-  /// @param wanted on a terminal. @param log_path empty: no log.
+  /// @param wanted that anything is said. @param log_path empty: no log.
   /// @throws std::runtime_error where the log cannot be written.
   explicit Progress(bool wanted, const std::string& log_path = {});
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param share of the work that is done. Where it gets less another part of the work begins, and the time is that of
-  /// this part.
-  void show(const std::string& what, double share) const;
+  /// The work begins whose time is to be foretold. @param pieces that it consists of. @param noun what they are called.
+  void foretell(double pieces, std::string noun);
+  /// Something has to be prepared before the first step. @param seconds that it takes. @param why in words.
+  void prepare(const std::string& what, double seconds, const std::string& why) const;
+  /// @param share of the work that is done. Zero says that it begins now. Where it gets less another part of the work
+  /// begins, and the time in the log is that of this part.
+  void show(const std::string& what, double share);
   void clear() const;
 
  private:
@@ -36,6 +41,13 @@ class Progress {
   };
   bool shown_;
   std::unique_ptr<Log> log_;
+  bool foretells_;  ///< Until it has been said once.
+  double pieces_ = 0;
+  std::string noun_;
+  Clock::time_point begin_{};
 };
+
+/// "40 seconds", "3 minutes", "5 hours", "12 days".
+[[nodiscard]] std::string duration_in_words(double seconds);
 
 }  // namespace paperproof::compare

@@ -1,4 +1,4 @@
-#include "command/report_command.hpp"
+#include "command/commands.hpp"
 
 #include "command/cell_replays.hpp"
 #include "command/claimed_files.hpp"

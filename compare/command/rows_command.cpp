@@ -1,4 +1,4 @@
-#include "command/rows_command.hpp"
+#include "command/commands.hpp"
 
 #include "command/claimed_files.hpp"
 #include "records/metric.hpp"

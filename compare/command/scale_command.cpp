@@ -1,6 +1,4 @@
-#include "command/progress.hpp"
 #include "command/study_command.hpp"
-#include "records/output_file.hpp"
 #include "records/trace.hpp"
 #include "runs/environment.hpp"
 #include "runs/view.hpp"
@@ -9,8 +7,6 @@
 #include <paperproof/techniques.hpp>
 
 #include <fmt/format.h>
-
-#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
@@ -79,20 +75,12 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 }  // namespace
 
 int study_scale_command(const ScaleArguments& arguments) {
-  StudyOutputs outputs(arguments.run);
-  const Progress progress(!arguments.run.quiet);
-  const std::vector<ScalePoint> points =
-      study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });
-  progress.clear();
-  bool same = true;
-  for (const ScalePoint& point : points) {
-    outputs.rows.add(row_of(point));
-    same = same && point.same_bits;
-  }
-  if (!arguments.run.quiet) print_out(text_of(table_of(points)) + '\n' + growth_sentence(points) + '\n');
-  outputs.rows.finish();
-  outputs.page.finish(page_of(points));
-  return same ? 0 : 1;
+  return measure_here(arguments.run, "study scale", [&](const std::function<void(double)>& tell) {
+    const std::vector<ScalePoint> points = study_scale(arguments.grid, tell);
+    std::vector<Row> rows;
+    for (const ScalePoint& point : points) rows.push_back(row_of(point));
+    return Measurements{rows, page_of(points), text_of(table_of(points)) + '\n' + growth_sentence(points) + '\n'};
+  });
 }
 
 }  // namespace paperproof::compare

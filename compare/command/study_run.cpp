@@ -1,12 +1,13 @@
 #include "command/study_run.hpp"
 
+#include "command/cell_replays.hpp"
 #include "command/claimed_files.hpp"
 #include "command/complain.hpp"
-#include "command/forecast.hpp"
 #include "command/progress.hpp"
 #include "records/input_file.hpp"
 #include "records/rows_json.hpp"
 #include "records/rows_reader.hpp"
+#include "report/report.hpp"
 #include "runs/environment.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <utility>
@@ -35,10 +37,33 @@ void claim_outputs(const RunArguments& arguments) {
   files.claim_for_option("--log", arguments.log_path);
 }
 
+/// With replays of its cells. @param file empty: there is no page. @param jobs processes that run their cases again; 0:
+/// one for each core.
+void write_page(std::optional<OutputFile>& file, ChartPage page, int jobs) {
+  if (!file) return;
+  add_cell_replays(page, jobs);
+  file->write(html_of(page));
+  file->commit();
+}
+
 }  // namespace
 
-StudyOutputs::StudyOutputs(const RunArguments& arguments)
-    : rows((claim_outputs(arguments), arguments.rows_path), rows_header(environment())), page(arguments.report_path) {}
+int measure_here(const RunArguments& arguments, const std::string& name,
+                 const std::function<Measurements(const std::function<void(double)>& tell)>& measure) {
+  claim_outputs(arguments);
+  RowsFile rows(arguments.rows_path, rows_header(environment()));
+  std::optional<OutputFile> page;
+  if (!arguments.report_path.empty()) page.emplace(arguments.report_path);
+  Progress progress(!arguments.quiet);
+  const Measurements found = measure([&](double share) { progress.show(name + ",", share); });
+  progress.clear();
+  for (const Row& row : found.rows) rows.add(row);
+  rows.finish();
+  write_page(page, found.page, 0);
+  if (!arguments.quiet) print_out(found.text);
+  return std::any_of(found.rows.begin(), found.rows.end(),
+                     [](const Row& row) { return row.verdict == Verdict::failed; });
+}
 
 StudyRun::Shard StudyRun::parse_shard(const std::optional<std::string>& typed) {
   Shard shard;
@@ -64,7 +89,7 @@ StudyRun::StudyRun(const RunArguments& arguments, StudyCases cases, Visit visit)
   claim_outputs(arguments);
   const bool continued = goes_on();
   rows_.emplace(arguments.rows_path, header_, continued);
-  page_.emplace(arguments.report_path);
+  if (!arguments.report_path.empty()) page_.emplace(arguments.report_path);
 }
 
 bool StudyRun::goes_on() {
@@ -103,7 +128,7 @@ void StudyRun::note(const Row& row) {
 }
 
 void StudyRun::run() {
-  const Progress progress(!arguments_.quiet, arguments_.log_path);
+  Progress progress(!arguments_.quiet, arguments_.log_path);
   const std::size_t before = done_;
   Jobs jobs;
   jobs.count = count_ - before;
@@ -111,15 +136,12 @@ void StudyRun::run() {
   jobs.lost = [&](std::size_t job, const std::string& reason) {
     return json_line(row_json(cases_.lost(shard_.case_of(before + job), reason)));
   };
-  Forecast forecast(!arguments_.quiet, static_cast<double>(jobs.count), "cases");
-  forecast.begin_scene(static_cast<double>(jobs.count));
-  forecast.done(0);
+  progress.foretell(static_cast<double>(jobs.count), "cases");
   jobs.take = [&](std::size_t job, const std::string& line) {
     note(row_of(ordered_json::parse(line)));
     rows_->add(line);
-    const double share = static_cast<double>(job + 1) / static_cast<double>(jobs.count);
-    forecast.done(share);
-    progress.show(fmt::format("{} of {} cases,", done_, count_), share);
+    progress.show(fmt::format("{} of {} cases,", done_, count_),
+                  static_cast<double>(job + 1) / static_cast<double>(jobs.count));
   };
   run_in_processes(jobs,
                    {processes_for(arguments_.jobs), std::chrono::seconds(arguments_.limit_s.value_or(cases_.limit_s))});
@@ -128,7 +150,7 @@ void StudyRun::run() {
 
 int StudyRun::finish(const std::function<ChartPage()>& page, const std::string& text, bool fails) {
   rows_->finish();
-  if (!arguments_.report_path.empty()) page_->finish(page(), arguments_.jobs);
+  if (page_) write_page(page_, page(), arguments_.jobs);
   if (!arguments_.quiet) print_out(text);
   return trouble_ || fails ? 1 : 0;
 }

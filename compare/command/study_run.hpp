@@ -1,8 +1,9 @@
 /// Runs the cases of a study: on many cores, on many machines, and resumed after a kill.
 #pragma once
 
-#include "command/page_output.hpp"
+#include "records/output_file.hpp"
 #include "records/rows_file.hpp"
+#include "report/chart_page.hpp"
 #include "studies/sweep.hpp"
 
 #include <nlohmann/json.hpp>
@@ -25,13 +26,18 @@ struct RunArguments {
   bool quiet = false;
 };
 
-/// What a study that measures in this process writes. Opened before the work begins.
-struct StudyOutputs {
-  /// @throws InputError where two of them are one file; what RowsFile and PageOutput throw.
-  explicit StudyOutputs(const RunArguments& arguments);
-  RowsFile rows;
-  PageOutput page;
+/// What a study found that measures in this process.
+struct Measurements {
+  std::vector<Row> rows;
+  ChartPage page;
+  std::string text;
 };
+/// Opens the outputs, measures, writes, and prints the text unless it is to be quiet.
+/// @param measure is given what it is to tell the share to that is done.
+/// @return the exit status: 0, or 1 if a row failed.
+/// @throws InputError where two outputs are one file; what RowsFile and OutputFile throw.
+int measure_here(const RunArguments& arguments, const std::string& name,
+                 const std::function<Measurements(const std::function<void(double)>& tell)>& measure);
 
 /// All the cases of a study, each in a child process; rows in `.jsonl` appear as they come.
 class StudyRun {
@@ -72,7 +78,7 @@ class StudyRun {
   bool trouble_ = false;
   nlohmann::ordered_json header_;
   std::optional<RowsFile> rows_;
-  std::optional<PageOutput> page_;
+  std::optional<OutputFile> page_;
 };
 
 }  // namespace paperproof::compare

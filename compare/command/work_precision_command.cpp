@@ -1,7 +1,6 @@
 #include "command/study_command.hpp"
 
 #include "command/compare_command.hpp"
-#include "command/progress.hpp"
 #include "report/row_pictures.hpp"
 #include "runs/environment.hpp"
 #include "runs/view.hpp"
@@ -12,19 +11,15 @@
 #include "words.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace paperproof::compare {
 namespace {
 
-ChartPage page_of(const WorkPrecision& found) {
-  std::vector<Row> rows = found.points;
-  rows.insert(rows.end(), found.curves.begin(), found.curves.end());
+ChartPage page_of(const std::vector<Row>& rows, const std::vector<std::string>& sentences) {
   ChartPage page = precision_page(rows);
-  page.paragraphs.insert(page.paragraphs.end(), found.sentences.begin(), found.sentences.end());
+  page.paragraphs.insert(page.paragraphs.end(), sentences.begin(), sentences.end());
   page.environment = environment();
   return page;
 }
@@ -56,33 +51,22 @@ int work_precision_command(const PrecisionArguments& arguments) {
   throw InputError("work-precision: expected a build without assertions (NDEBUG): this one's times mean nothing");
 #endif
   check_contenders(arguments.contenders);
-  StudyOutputs outputs(arguments.run);
-  const Progress progress(!arguments.run.quiet);
-  WorkPrecision found;
-  try {
-    found = study_work_precision(arguments.motions, arguments.contenders,
-                                 [&](double share) { progress.show("work-precision,", share); });
-  } catch (const std::invalid_argument& reason) {
-    std::vector<std::string> names;
-    for (const Motion& motion : motions()) names.emplace_back(motion.name);
-    throw InputError(fmt::format("work-precision: expected {}: {}", one_of_words(names), reason.what()));
-  }
-  progress.clear();
-  bool failed = false;
-  for (const std::vector<Row>* rows : {&found.points, &found.curves})
-    for (const Row& row : *rows) {
-      outputs.rows.add(row);
-      failed = failed || row.verdict == Verdict::failed;
+  return measure_here(arguments.run, "work-precision", [&](const std::function<void(double)>& tell) {
+    WorkPrecision found;
+    try {
+      found = study_work_precision(arguments.motions, arguments.contenders, tell);
+    } catch (const std::invalid_argument& reason) {
+      std::vector<std::string> names;
+      for (const Motion& motion : motions()) names.emplace_back(motion.name);
+      throw InputError(fmt::format("work-precision: expected {}: {}", one_of_words(names), reason.what()));
     }
-  outputs.rows.finish();
-  outputs.page.finish(page_of(found));
-  if (!arguments.run.quiet) {
+    std::vector<Row> rows = found.points;
+    rows.insert(rows.end(), found.curves.begin(), found.curves.end());
     std::string text = "slope of log error over log knob; * on the front: no other has less error in less time\n\n" +
                        slopes(found) + '\n';
     for (const std::string& sentence : found.sentences) text += sentence + '\n';
-    print_out(text);
-  }
-  return failed ? 1 : 0;
+    return Measurements{rows, page_of(rows, found.sentences), text};
+  });
 }
 
 }  // namespace paperproof::compare
