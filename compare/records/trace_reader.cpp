@@ -86,19 +86,21 @@ class Value {
     return items;
   }
 
-  /// An object must have no other keys: one that is misspelt says nothing.
-  const Value& only(std::initializer_list<std::string_view> keys) const {
-    if (!value_->is_object()) refuse("an object");
-    for (const auto& [key, value] : value_->items())
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) at(key).refuse("no such key");
-    return *this;
-  }
   [[nodiscard]] Value require(const char* key) const {
-    if (!value_->is_object() || !value_->contains(key)) throw Unexpected(where_ + "/" + key, "this key");
-    return at(key);
+    std::optional<Value> found = find(key);
+    if (!found) throw Unexpected(where_ + "/" + key, "this key");
+    return *found;
   }
   [[nodiscard]] std::optional<Value> find(const char* key) const {
+    if (!value_->is_object()) refuse("an object");
+    known_.push_back(key);
     return value_->contains(key) ? std::optional(at(key)) : std::nullopt;
+  }
+  /// An object must have no other keys than those that were asked for: one that is misspelt says nothing.
+  void end() const {
+    if (!value_->is_object()) refuse("an object");
+    for (const auto& [key, value] : value_->items())
+      if (std::find(known_.begin(), known_.end(), key) == known_.end()) at(key).refuse("no such key");
   }
   [[nodiscard]] bool is_object() const { return value_->is_object(); }
   /// Every key with its value.
@@ -129,6 +131,7 @@ class Value {
 
   const json* value_;
   std::string where_;
+  mutable std::vector<std::string_view> known_;  ///< Keys that were asked for.
 };
 
 ColliderIndex index_of(const Value& id, const std::vector<std::string>& ids) {
@@ -145,15 +148,15 @@ std::vector<ColliderIndex> colliders_in(const std::optional<Value>& list, const 
 }
 
 ColliderDef read_collider(const Value& at) {
-  at.only({"id", "polygon", "chain", "circle", "holes", "one_way", "sensor", "surface_speed"});
   ColliderDef def;
   const std::optional<Value> polygon = at.find("polygon");
   const std::optional<Value> chain = at.find("chain");
   const std::optional<Value> circle = at.find("circle");
+  const std::optional<Value> holes = at.find("holes");
   if (polygon.has_value() + chain.has_value() + circle.has_value() != 1) at.refuse("one of polygon, chain and circle");
   if (polygon) {
     def.points = polygon->points(3);
-    if (const auto holes = at.find("holes"))
+    if (holes)
       for (const Value& hole : holes->list()) def.holes.push_back(hole.points(3));
   } else if (chain) {
     def.shape = ColliderDef::Shape::chain;
@@ -167,13 +170,11 @@ ColliderDef read_collider(const Value& at) {
   if (const auto normal = at.find("one_way")) def.one_way = normal->point();
   def.sensor = at.is_set("sensor");
   if (const auto speed = at.find("surface_speed")) def.surface_speed = speed->number();
+  at.end();
   return def;
 }
 
 CharacterDef read_limits(const Value& at) {
-  at.only({"walk_speed", "acceleration", "air_acceleration", "jump_speed", "coyote_time", "jump_buffer", "jump_cut",
-           "max_fall_speed", "max_climb_degrees", "snap", "step_height", "no_jump_toward_wall", "wall_reach",
-           "side_hit_ends_rise"});
   for (const char* key : {"walk_speed", "acceleration", "jump_speed"}) static_cast<void>(at.require(key));
   CharacterDef def;
   for (const auto& [key, limit] : {std::pair{"walk_speed", &def.walk_speed},
@@ -192,23 +193,28 @@ CharacterDef read_limits(const Value& at) {
     if (const auto value = at.find(key)) *limit = value->number_from(0);
   def.no_jump_toward_wall = at.is_set("no_jump_toward_wall");
   def.side_hit_ends_rise = at.is_set("side_hit_ends_rise");
+  at.end();
   return def;
 }
 
 MoverScript read_script(const Value& at, const std::vector<std::string>& ids) {
-  at.only({"colliders", "path", "loop", "turns", "body"});
   MoverScript script;
   script.colliders = colliders_in(at.require("colliders"), ids);
   if (script.colliders.empty()) at.require("colliders").refuse("a collider");
-  for (const Value& waypoint : at.require("path").list(1))
-    script.path.push_back({waypoint.only({"t", "at"}).require("t").number(), waypoint.require("at").point()});
+  for (const Value& waypoint : at.require("path").list(1)) {
+    script.path.push_back({waypoint.require("t").number(), waypoint.require("at").point()});
+    waypoint.end();
+  }
   using Loop = MoverScript::Loop;
   script.loop =
       at.require("loop").one_of<Loop>({{"once", Loop::once}, {"loop", Loop::loop}, {"ping_pong", Loop::ping_pong}});
   if (const auto turns = at.find("turns"))
-    for (const Value& turn : turns->list(1))
-      script.turns.push_back({turn.only({"t", "at"}).require("t").number(), turn.require("at").number()});
+    for (const Value& turn : turns->list(1)) {
+      script.turns.push_back({turn.require("t").number(), turn.require("at").number()});
+      turn.end();
+    }
   script.body = at.is_set("body");
+  at.end();
   const auto ascend = [](const auto& entries) {
     return std::adjacent_find(entries.begin(), entries.end(),
                               [](const auto& a, const auto& b) { return !(a.time < b.time); }) == entries.end();
@@ -250,38 +256,15 @@ void read_scenery(const Value& at, TraceHeader& header) {
 
 /// What a plan left out is only shown, and yet a misspelt key says nothing.
 void check_plan(const Value& at) {
-  at.only({"broad_phase", "omitted"});
   if (const auto broad_phase = at.find("broad_phase")) static_cast<void>(broad_phase->text());
   for (const Value& omission : at.require("omitted").list()) {
-    omission.only({"stage", "reason"});
     for (const char* key : {"stage", "reason"}) static_cast<void>(omission.require(key).text());
+    omission.end();
   }
+  at.end();
 }
 
 TraceHeader read_header(const Value& at) {
-  at.only({"paperproof_trace",
-           "scene",
-           "contender",
-           "scalar",
-           "knob",
-           "mode",
-           "dt",
-           "steps",
-           "characters",
-           "points",
-           "max_climb_degrees",
-           "gravity",
-           "up",
-           "character",
-           "starts",
-           "respawn_box",
-           "movers",
-           "substeps",
-           "guarantees",
-           "colliders",
-           "box2d",
-           "plan",
-           "tolerances"});
   if (at.require("paperproof_trace").number() != 1) at.require("paperproof_trace").refuse("1");
   TraceHeader header;
   header.scene = at.require("scene").text();
@@ -297,9 +280,10 @@ TraceHeader read_header(const Value& at) {
   header.gravity = at.require("gravity").point();
   header.up = read_up(at.require("up"));
   header.character = read_limits(at.require("character"));
-  for (const Value& start : at.require("starts").list(1))
-    header.starts.push_back(
-        {start.only({"position", "velocity"}).require("position").point(), start.require("velocity").point()});
+  for (const Value& start : at.require("starts").list(1)) {
+    header.starts.push_back({start.require("position").point(), start.require("velocity").point()});
+    start.end();
+  }
   header.characters = header.starts.size();
   const auto characters = at.find("characters");
   if ((characters ? static_cast<std::size_t>(characters->count_from(2)) : 1) != header.characters)
@@ -319,6 +303,7 @@ TraceHeader read_header(const Value& at) {
   if (const auto plan = at.find("plan")) check_plan(*plan);
   if (const auto tolerances = at.find("tolerances"))
     for (const auto& [name, value] : tolerances->entries()) header.tolerances.push_back({name, value.number()});
+  at.end();
   return header;
 }
 
@@ -328,27 +313,27 @@ Side read_side(const Value& at) {
 
 std::optional<TraceRide> read_ride(const std::optional<Value>& at, const TraceHeader& header) {
   if (!at) return std::nullopt;
-  const Vec2d velocity = at->require("velocity").point();
-  if (const auto character = at->find("character")) {
-    at->only({"character", "velocity"});
-    return TraceRide{.velocity = velocity, .character = static_cast<CharacterIndex>(character->index(header.characters))};
-  }
-  at->only({"collider", "velocity"});
-  return TraceRide{.collider = index_of(at->require("collider"), header.ids), .velocity = velocity};
+  TraceRide ride{.velocity = at->require("velocity").point()};
+  if (const auto character = at->find("character"))
+    ride.character = static_cast<CharacterIndex>(character->index(header.characters));
+  else
+    ride.collider = index_of(at->require("collider"), header.ids);
+  at->end();
+  return ride;
 }
 
 TraceState read_state(const Value& at, const TraceHeader& header) {
-  at.only({"velocity", "grounded", "jumping", "jump_held", "jump_pending", "ride"});
-  return {.velocity = at.require("velocity").point(),
-          .grounded = at.is_set("grounded"),
-          .jumping = at.is_set("jumping"),
-          .jump_held = at.is_set("jump_held"),
-          .jump_pending = at.is_set("jump_pending"),
-          .ride = read_ride(at.find("ride"), header)};
+  TraceState state{.velocity = at.require("velocity").point(),
+                   .grounded = at.is_set("grounded"),
+                   .jumping = at.is_set("jumping"),
+                   .jump_held = at.is_set("jump_held"),
+                   .jump_pending = at.is_set("jump_pending"),
+                   .ride = read_ride(at.find("ride"), header)};
+  at.end();
+  return state;
 }
 
 VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& def) {
-  at.only({"k", "vertices", "offset"});
   std::size_t count = def.points.size();
   for (const std::vector<Vec2d>& hole : def.holes) count += hole.size();
   VertexWay way{.collider = collider, .instants = {}, .vertices = {}};
@@ -379,6 +364,7 @@ void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
       if (header.turning.empty()) motion.refuse("two offsets");
       step.vertex_ways.push_back(read_way(motion, collider, header.scenery.colliders[collider]));
       offset = motion.find("offset");
+      motion.end();
     }
     MoverMotion own{Vec2d::Zero(), Vec2d::Zero()};
     if (offset) {
@@ -400,59 +386,44 @@ void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
 void read_events(const Value& at, const TraceHeader& header, TraceStep& step) {
   if (const auto met = at.find("met"))
     for (const Value& one : met->list()) {
-      one.only({"character", "normal", "fraction", "side"});
       CrowdContact contact;
       contact.other = static_cast<CharacterIndex>(one.require("character").index(header.characters));
       contact.normal = one.require("normal").point();
       contact.fraction = one.require("fraction").share();
       contact.side = read_side(one.require("side"));
+      one.end();
       step.met.push_back(contact);
     }
   if (const auto sensors = at.find("sensors"))
     for (const Value& one : sensors->list()) {
       using Change = SensorEvent::Change;
-      one.only({"id", "change", "fraction"});
       step.sensors.push_back({index_of(one.require("id"), header.ids),
                               one.require("change").one_of<Change>({{"enter", Change::enter}, {"exit", Change::exit}}),
                               one.require("fraction").share()});
+      one.end();
     }
   for (const Value& one : at.require("contacts").list()) {
-    one.only({"collider", "point", "normal", "fraction", "separation", "side"});
     step.contacts.push_back({.collider = index_of(one.require("collider"), header.ids),
                              .point = one.require("point").point(),
                              .normal = one.require("normal").point(),
                              .fraction = one.require("fraction").share(),
                              .separation = one.require("separation").number(),
                              .side = read_side(one.require("side"))});
+    one.end();
   }
   step.crushed = colliders_in(at.find("crush"), header.ids);
   step.dropped_through = colliders_in(at.find("drop"), header.ids);
 }
 
 Input read_input(const Value& at) {
-  at.only({"move", "jump", "drop"});
   Input input{.move = {}, .jump = at.is_set("jump"), .drop = at.is_set("drop")};
   if (const auto move = at.find("move")) input.move = move->number();
+  at.end();
   return input;
 }
 
-TraceStep read_step(const Value& at, const TraceHeader& header) {
-  at.only({"step",          "dt",
-           "character",     "turn",
-           "path",          "path_exact",
-           "input",         "up",
-           "gravity",       "requested",
-           "steered",       "velocity",
-           "grounded",      "jumping",
-           "ride",          "ground_velocity",
-           "start_overlap", "start_overlap_characters",
-           "movers",        "contacts",
-           "met",           "crush",
-           "drop",          "sensors",
-           "remainder",     "respawn",
-           "from",          "stuck",
-           "dropped",       "capped",
-           "refused"});
+/// @param path_exact as the record says.
+TraceStep read_step(const Value& at, const TraceHeader& header, bool& path_exact) {
   TraceStep step;
   step.step = at.require("step").count_from(0);
   if (const auto dt = at.find("dt")) step.dt = dt->number();
@@ -462,9 +433,10 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   if (const auto reason = at.find("refused")) {
     step.refused = reason->text();
     if (step.refused.empty()) reason->refuse("a reason");
-    at.only({"step", "dt", "character", "input", "refused"});
+    at.end();
     return step;
   }
+  if (const auto exact = at.find("path_exact")) path_exact = exact->flag();
   if (const auto turn = at.find("turn")) step.turn = static_cast<CharacterIndex>(turn->index(header.characters));
   for (const Value& corner : at.require("path").list(1)) {
     const std::vector<Value> numbers = corner.list(3, 3);
@@ -493,6 +465,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   step.stuck = at.is_set("stuck");
   step.dropped = at.is_set("dropped");
   step.capped = at.is_set("capped");
+  at.end();
   return step;
 }
 
@@ -519,12 +492,10 @@ std::optional<TraceStep> TraceReader::next() {
   const json object = json::parse(line, nullptr, false);
   if (!object.is_object()) refuse("expected a record");
   try {
-    const Value record(object, "");
-    TraceStep step = read_step(record, header_);
-    const std::optional<Value> exact = record.find("path_exact");
-    const bool is_exact = !exact || exact->flag();
+    bool path_exact = true;
+    TraceStep step = read_step({object, ""}, header_, path_exact);
     // All of one run: the first says whether positions are exact.
-    if (line_ == 2) header_.path_exact = is_exact;
+    if (line_ == 2) header_.path_exact = path_exact;
     return step;
   } catch (const Unexpected& unexpected) {
     const auto step = object.find("step");
