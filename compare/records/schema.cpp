@@ -29,7 +29,9 @@ bool is_whole(const Json& value) {
          std::floor(value.get<double>()) == value.get<double>();
 }
 
-bool is_of_type(const Json& value, const std::string& type) {
+bool is_of_type(const Json& value, const Json& type) {
+  if (type.is_array())
+    return std::any_of(type.begin(), type.end(), [&](const Json& one) { return is_of_type(value, one); });
   if (type == "object") return value.is_object();
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
@@ -45,19 +47,46 @@ const std::map<std::string, std::string>& type_words() {
   return words;
 }
 
+std::string words_of_type(const Json& type) {
+  if (!type.is_array()) return type_words().at(type.get<std::string>());
+  std::vector<std::string> words;
+  for (const Json& one : type) words.push_back(type_words().at(one.get<std::string>()));
+  return one_of_words(words);
+}
+
 const std::set<std::string>& known_keywords() {
   static const std::set<std::string> keywords{
-      "$schema", "title", "description",          "$defs",    "$ref",     "type",     "enum",      "const", "minimum",
-      "pattern", "items", "additionalProperties", "required", "minItems", "maxItems", "properties"};
+      "$schema",  "title",    "description",      "default",   "$defs",       "$ref",       "type",
+      "enum",     "const",    "minimum",          "maximum",   "pattern",     "items",      "additionalProperties",
+      "required", "minItems", "maxItems",         "minLength", "uniqueItems", "properties", "exclusiveMinimum",
+      "oneOf",    "not",      "dependentRequired"};
   return keywords;
 }
 
 /// Asks for nothing.
 const Json nothing = Json::object();
+const Json unlimited;
 
 const Json& part_of(const Json& schema, const char* keyword, const Json& otherwise) {
   const auto found = schema.find(keyword);
   return found == schema.end() ? otherwise : *found;
+}
+
+/// What a number must be, in words; empty where it is so. The limits may be `unlimited`.
+std::string range_missed(const Json& number, const Json& least, const Json& above, const Json& most) {
+  const bool is_within =
+      (least.is_null() || number >= least) && (above.is_null() || number > above) && (most.is_null() || number <= most);
+  if (is_within) return {};
+  if (!above.is_null())
+    return fmt::format("more than {}{}", above.dump(), most.is_null() ? "" : ", at most " + most.dump());
+  if (most.is_null()) return least.dump() + " or more";
+  if (least.is_null()) return "at most " + most.dump();
+  return least == most ? least.dump() : fmt::format("{} to {}", least.dump(), most.dump());
+}
+
+bool has_all(const Json& object, const Json& keys) {
+  return std::all_of(keys.begin(), keys.end(),
+                     [&](const Json& key) { return object.contains(key.get<std::string>()); });
 }
 
 std::vector<std::string> keys_of(const Json& object) {
@@ -73,8 +102,14 @@ Schema::Schema(std::string_view text) : root_(Json::parse(text)) { prepare(root_
 void Schema::prepare(const Json& schema) {
   for (const auto& [keyword, value] : schema.items()) {
     if (!known_keywords().contains(keyword)) throw std::logic_error("a schema asks by an unknown keyword: " + keyword);
-    if (keyword == "type" && !type_words().contains(value.get<std::string>()))
-      throw std::logic_error("a schema asks for an unknown type: " + value.dump());
+    for (const Json& type : keyword == "type" ? value.is_array() ? value : Json{value} : Json::array())
+      if (!type_words().contains(type.get<std::string>()))
+        throw std::logic_error("a schema asks for an unknown type: " + value.dump());
+    if (keyword == "not" && !schema.contains("title")) throw std::logic_error("a schema does not say what it asks");
+    if (keyword == "not") prepare(value);
+    for (const Json& alternative : keyword == "oneOf" ? value : Json::array())
+      if (prepare(alternative); !resolved(alternative).contains("required"))
+        throw std::logic_error("the alternatives of a schema are told apart by the first key that they require");
     if (keyword == "pattern") patterns_.emplace(value.get<std::string>(), value.get<std::string>());
     if (keyword == "properties" || keyword == "$defs")
       for (const auto& [name, inner] : value.items()) prepare(inner);
@@ -89,18 +124,19 @@ const Json& Schema::resolved(const Json& schema) const {
 }
 
 std::optional<std::string> Schema::fault(const Json& value, const std::string& definition) const {
-  return fault_of(value, definition.empty() ? root_ : root_.at("$defs").at(definition), Pointer());
+  Fault found = fault_of(value, definition.empty() ? root_ : root_.at("$defs").at(definition));
+  if (found && !found->starts_with('/')) found->insert(0, "/");
+  return found;
 }
 
-std::optional<std::string> Schema::fault_of(const Json& value, const Json& referring, const Pointer& at) const {
+std::optional<std::string> Schema::fault_of(const Json& value, const Json& referring) const {
   const Json& schema = resolved(referring);
   const auto expected = [&](const std::string& what) {
-    return fmt::format("{}: expected {}, not {}", at.empty() ? "/" : at.to_string(), what, shown_value(value));
+    return fmt::format(": expected {}, not {}", what, shown_value(value));
   };
-  if (schema.contains("type")) {
-    const auto type = schema["type"].get<std::string>();
-    if (!is_of_type(value, type)) return expected(type_words().at(type));
-  }
+  const auto titled = [&](const std::string& otherwise) { return expected(schema.value("title", otherwise)); };
+  const auto limit = [&](const char* keyword) -> const Json& { return part_of(schema, keyword, unlimited); };
+  if (schema.contains("type") && !is_of_type(value, schema["type"])) return expected(words_of_type(schema["type"]));
   if (schema.contains("const") && value != schema["const"]) return expected(schema["const"].dump());
   if (schema.contains("enum") &&
       std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) {
@@ -108,40 +144,70 @@ std::optional<std::string> Schema::fault_of(const Json& value, const Json& refer
     for (const Json& one : schema["enum"]) allowed.push_back(one == "" ? one.dump() : one.get<std::string>());
     return expected(one_of_words(allowed));
   }
-  if (schema.contains("minimum") && value.is_number() && value < schema["minimum"])
-    return expected(schema["minimum"].dump() + " or more");
-  if (schema.contains("pattern") && value.is_string()) {
-    const auto pattern = schema["pattern"].get<std::string>();
-    if (!std::regex_search(value.get_ref<const std::string&>(), patterns_.at(pattern)))
-      return expected("a text like " + pattern);
+  if (value.is_number()) {
+    const std::string range = range_missed(value, limit("minimum"), limit("exclusiveMinimum"), limit("maximum"));
+    if (!range.empty()) return expected(range);
   }
-  if (value.is_object()) return fault_of_object(value, schema, at);
-  return value.is_array() ? fault_of_list(value, schema, at) : std::nullopt;
+  if (value.is_string()) {
+    const auto& text = value.get_ref<const std::string&>();
+    const auto pattern = schema.value("pattern", "");
+    if (!pattern.empty() && !std::regex_search(text, patterns_.at(pattern))) return titled("a text like " + pattern);
+    if (text.size() < schema.value("minLength", std::size_t{0})) return titled("a longer text");
+  }
+  if (schema.contains("not") && !fault_of(value, schema["not"])) return titled("");
+  if (schema.contains("oneOf"))
+    if (Fault found = fault_of_alternatives(value, schema["oneOf"])) return found;
+  if (value.is_object()) return fault_of_object(value, schema);
+  return value.is_array() ? fault_of_list(value, schema) : std::nullopt;
 }
 
-std::optional<std::string> Schema::fault_of_object(const Json& value, const Json& schema, const Pointer& at) const {
-  for (const Json& key : part_of(schema, "required", nothing))
-    if (!value.contains(key.get_ref<const std::string&>()))
-      return fmt::format("{}: expected this key, which is missing", (at / key.get<std::string>()).to_string());
+std::optional<std::string> Schema::fault_of_alternatives(const Json& value, const Json& alternatives) const {
+  std::vector<std::string> keys;
+  std::vector<std::string> here;
+  const Json* chosen = nullptr;
+  for (const Json& alternative : alternatives) {
+    keys.push_back(resolved(alternative)["required"][0]);
+    if (!value.contains(keys.back())) continue;
+    here.push_back(keys.back());
+    chosen = &alternative;
+  }
+  if (here.size() == 1) return fault_of(value, *chosen);
+  return fmt::format(": expected exactly one of {}; here {}", fmt::join(keys, ", "),
+                     here.empty() ? "is none" : fmt::format("are {}", fmt::join(here, ", ")));
+}
+
+std::optional<std::string> Schema::fault_of_object(const Json& value, const Json& schema) const {
+  const auto at = [](const std::string& key, const std::string& says) { return (Pointer() / key).to_string() + says; };
   const Json& properties = part_of(schema, "properties", nothing);
   const Json& others = part_of(schema, "additionalProperties", nothing);
   for (const auto& [key, inner] : value.items()) {
+    if (others != false || properties.contains(key)) continue;
+    const std::vector<std::string> keys = keys_of(properties);
+    const std::string near = did_you_mean(key, keys);
+    return at(key, ": unknown key" + (near.empty() ? "; expected one of " + one_of_words(keys) : near));
+  }
+  for (const Json& key : part_of(schema, "required", nothing))
+    if (!value.contains(key.get_ref<const std::string&>())) return at(key, ": expected this key, which is missing");
+  for (const auto& [key, needed] : part_of(schema, "dependentRequired", nothing).items())
+    if (value.contains(key) && !has_all(value, needed))
+      return at(key, fmt::format(": expected only beside {}", needed[0].get<std::string>()));
+  for (const auto& [key, inner] : value.items()) {
     const auto known = properties.find(key);
-    if (known == properties.end() && others == false)
-      return fmt::format("{}: unknown key{}", (at / key).to_string(), did_you_mean(key, keys_of(properties)));
-    if (Fault found = fault_of(inner, known == properties.end() ? others : *known, at / key)) return found;
+    if (Fault found = fault_of(inner, known == properties.end() ? others : *known)) return at(key, *found);
   }
   return std::nullopt;
 }
 
-std::optional<std::string> Schema::fault_of_list(const Json& value, const Json& schema, const Pointer& at) const {
-  const auto fewest = schema.value("minItems", std::size_t{0});
-  const auto most = schema.value("maxItems", value.size());
-  if (value.size() < fewest || value.size() > most)
-    return fmt::format("{}: expected {} to {} entries, not {}", at.to_string(), fewest, most, value.size());
-  if (!schema.contains("items")) return std::nullopt;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    if (Fault found = fault_of(value[i], schema["items"], at / i)) return found;
+std::optional<std::string> Schema::fault_of_list(const Json& value, const Json& schema) const {
+  const std::string count = range_missed(value.size(), part_of(schema, "minItems", unlimited), unlimited,
+                                         part_of(schema, "maxItems", unlimited));
+  if (!count.empty()) return fmt::format(": expected {} entries, not {}", count, value.size());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto before = value.begin() + static_cast<std::ptrdiff_t>(i);
+    if (schema.value("uniqueItems", false) && std::find(value.begin(), before, value[i]) != before)
+      return fmt::format("/{}: expected another entry than those before, not {}", i, shown_value(value[i]));
+    if (Fault found = fault_of(value[i], part_of(schema, "items", nothing))) return fmt::format("/{}{}", i, *found);
+  }
   return std::nullopt;
 }
 

@@ -11,7 +11,8 @@
 
 namespace paperproof::compare {
 
-/// As much of JSON Schema 2020-12 as the project's schemas of records use. Not thread-safe.
+/// As much of JSON Schema 2020-12 as the project's schemas use. Of `oneOf` the alternatives are told apart by the first
+/// key that they require; `not` has a `title`, which says what is asked for instead.
 class Schema {
  public:
   /// @throws std::logic_error for a keyword that is not known here: what it asks would not be asked.
@@ -29,9 +30,11 @@ class Schema {
 
   void prepare(const Json& schema);
   [[nodiscard]] const Json& resolved(const Json& schema) const;
-  [[nodiscard]] Fault fault_of(const Json& value, const Json& schema, const Pointer& at) const;
-  [[nodiscard]] Fault fault_of_object(const Json& value, const Json& schema, const Pointer& at) const;
-  [[nodiscard]] Fault fault_of_list(const Json& value, const Json& schema, const Pointer& at) const;
+  /// "/key/2: expected ...": from the value on.
+  [[nodiscard]] Fault fault_of(const Json& value, const Json& schema) const;
+  [[nodiscard]] Fault fault_of_alternatives(const Json& value, const Json& alternatives) const;
+  [[nodiscard]] Fault fault_of_object(const Json& value, const Json& schema) const;
+  [[nodiscard]] Fault fault_of_list(const Json& value, const Json& schema) const;
 
   Json root_;
   std::map<std::string, std::regex> patterns_;

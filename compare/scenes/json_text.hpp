@@ -1,22 +1,31 @@
-/// JSON that knows where it came from: parsing with line and column, values with their JSON pointer.
+/// JSON that knows where it came from: values with their JSON pointer, or the line that they were made from.
 #pragma once
 
 #include <paperproof/types.hpp>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
+#include <concepts>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+
+/// A point is `[x, y]`.
+template <>
+struct nlohmann::adl_serializer<paperproof::Vec2d> {
+  template <class Json>
+  static void from_json(const Json& json, paperproof::Vec2d& point) {
+    point = {json.at(0).template get<double>(), json.at(1).template get<double>()};
+  }
+};
 
 namespace paperproof::compare {
 
-/// Strict JSON: a key that stands twice in one object, nesting beyond 100 levels and numbers beyond double are refused.
-/// @throws InputError as "file:line:column: ..." or "file: /pointer: ...".
-[[nodiscard]] nlohmann::json parse_json(const std::string& text, const std::string& file);
+using Json = nlohmann::ordered_json;
+
+/// As `strict_json`. @throws InputError
+[[nodiscard]] Json parse_json(const std::string& text, const std::string& file);
 
 /// Where a document was made from another format, its objects have under this key the line that they come from.
 inline constexpr std::string_view line_key = " line";
@@ -24,56 +33,66 @@ inline constexpr std::string_view line_key = " line";
 /// A view of one value inside a document; the document and the file's name must outlive it.
 class JsonCursor {
  public:
-  JsonCursor(const nlohmann::json& value, const std::string& file, std::string pointer = {})
+  JsonCursor(const Json& value, const std::string& file, std::string pointer = {})
       : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
 
   /// The root of a document whose objects have lines (`line_key`): places are lines of the file that was read.
-  [[nodiscard]] static JsonCursor of_converted(const nlohmann::json& document, const std::string& file);
+  [[nodiscard]] static JsonCursor of_converted(const Json& document, const std::string& file);
 
   /// @throws InputError "file: /pointer: expected", or with the line where the document has it.
   [[noreturn]] void refuse(const std::string& expected) const;
   /// "file: /pointer" or "file:line"
   [[nodiscard]] std::string where() const;
-  [[nodiscard]] const nlohmann::json& value() const noexcept { return *value_; }
+  [[nodiscard]] const Json& value() const noexcept { return *value_; }
 
   /// The member of an object, or none. @throws InputError unless this is an object.
   [[nodiscard]] std::optional<JsonCursor> find(std::string_view key) const;
   /// @throws InputError where the key is missing.
   [[nodiscard]] JsonCursor require(std::string_view key) const;
-  /// @throws InputError naming the first key that is not listed, and those that are.
-  void refuse_other_keys(std::initializer_list<std::string_view> known) const;
 
   /// Elements of an array. @throws InputError unless this is an array.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] JsonCursor element(std::size_t i) const;
 
-  [[nodiscard]] bool is_number() const noexcept;
-  [[nodiscard]] bool is_text() const noexcept;
   [[nodiscard]] double number() const;
-  [[nodiscard]] double positive() const;
-  [[nodiscard]] double not_negative() const;
-  /// A number in [lowest, highest].
-  [[nodiscard]] double number_within(double lowest, double highest) const;
-  /// A number without a fraction (120 and 120.0 are the same), in [lowest, highest].
-  [[nodiscard]] int integer(int lowest, int highest) const;
-  [[nodiscard]] bool boolean() const;
-  /// A string that is not empty and has no control characters.
-  [[nodiscard]] std::string text() const;
-  /// Two numbers.
-  [[nodiscard]] Vec2d point() const;
-  /// An array of that many points or more.
-  [[nodiscard]] std::vector<Vec2d> points(std::size_t at_least) const;
-  /// The boolean under a key; false where the object does not have it.
-  [[nodiscard]] bool flag(std::string_view key) const;
+  /// A number without a fraction: 120 and 120.0 are the same.
+  [[nodiscard]] int integer() const;
+
+  /// Numbers, texts, and true or false are checked; of all else a schema has said what it is.
+  template <class T>
+  [[nodiscard]] T get() const {
+    if constexpr (std::same_as<T, double>) return number();
+    if constexpr (std::same_as<T, int>) return integer();
+    if constexpr (std::same_as<T, bool>)
+      if (!value_->is_boolean()) refuse("expected true or false");
+    if constexpr (std::same_as<T, std::string>)
+      if (!value_->is_string()) refuse("expected a text");
+    return value_->get<T>();
+  }
+  /// Reads what stands under a key; leaves `to` as it is where nothing does.
+  template <class T>
+  void take(std::string_view key, T& to) const {
+    if (const std::optional<JsonCursor> found = find(key)) to = found->get<T>();
+  }
+  template <class T>
+  void take(std::string_view key, std::optional<T>& to) const {
+    if (find(key)) take(key, to.emplace());
+  }
 
  private:
   /// The cursor on a member or an element of this one.
-  [[nodiscard]] JsonCursor below(const nlohmann::json& value, std::string_view name) const;
+  [[nodiscard]] JsonCursor below(const Json& value, std::string_view name) const;
 
-  const nlohmann::json* value_;
+  const Json* value_;
   const std::string* file_;
   std::string pointer_;
   std::size_t line_ = 0;  ///< 0: the document has no lines.
 };
+
+/// Calls `function(cursor)` with each entry of a list that may be missing.
+template <class Function>
+void for_each_entry(const std::optional<JsonCursor>& list, const Function& function) {
+  for (std::size_t i = 0; list && i < list->size(); ++i) function(list->element(i));
+}
 
 }  // namespace paperproof::compare

@@ -66,7 +66,7 @@ void note_parameters(Scene& scene) {
 
 /// A scene and a Tiled map both end in .json.
 Scene load_json(const std::string& path) {
-  const nlohmann::json document = parse_json(read_file(path, path), path);
+  const Json document = parse_json(read_file(path, path), path);
   const bool is_map = document.is_object() && !document.contains("paperproof_scene") && document.contains("layers");
   return is_map ? read_tiled_json(document, path, path) : read_json_scene(document, path, path);
 }

@@ -4,7 +4,6 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include <charconv>
 #include <optional>
 
 #include "scenes/input_error.hpp"
@@ -89,28 +88,6 @@ Bytes unpack(Bytes packed, std::string_view compression, std::size_t size, const
 }
 
 }  // namespace
-
-std::vector<TileNumber> decode_csv(std::string_view text, const std::string& where) {
-  std::vector<TileNumber> tiles;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto skip_space = [&] {
-    while (at != end && is_xml_space(*at)) ++at;
-  };
-  skip_space();
-  while (at != end) {
-    TileNumber tile = 0;
-    const auto [after, error] = std::from_chars(at, end, tile);
-    if (error != std::errc()) refuse(where, fmt::format("expected a tile number as entry {}", tiles.size()));
-    tiles.push_back(tile);
-    at = after;
-    skip_space();
-    if (at != end && *at != ',') refuse(where, fmt::format("expected a comma after entry {}", tiles.size() - 1));
-    if (at != end) ++at;
-    skip_space();
-  }
-  return tiles;
-}
 
 std::vector<TileNumber> decode_base64(std::string_view text, std::string_view compression, std::size_t count,
                                       const std::string& where) {

@@ -1,4 +1,4 @@
-/// The numbers of a tile layer, in every encoding that Tiled writes.
+/// The numbers of a tile layer where they are packed.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,6 @@ namespace paperproof::compare {
 
 /// A tile number as stored: the lower 28 bits say which tile, the upper ones how it is flipped.
 using TileNumber = std::uint32_t;
-
-/// Numbers separated by commas.
-/// @throws InputError at `where` for anything else.
-[[nodiscard]] std::vector<TileNumber> decode_csv(std::string_view text, const std::string& where);
 
 /// Base64 of little-endian 32-bit numbers.
 /// @param compression "" (none), "zlib", "gzip" or "zstd".

@@ -341,7 +341,7 @@ Scene read_tiled(const std::string& path, const std::string& given) {
   return whole_scene(read_tiled_map(path, given), given);
 }
 
-Scene read_tiled_json(const nlohmann::json& document, const std::string& path, const std::string& given) {
+Scene read_tiled_json(const nlohmann::ordered_json& document, const std::string& path, const std::string& given) {
   return whole_scene(read_tiled_map(document, path, given), given);
 }
 

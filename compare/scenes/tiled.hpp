@@ -47,7 +47,8 @@ namespace paperproof::compare {
 /// Reads a map for itself: with a start, a fall limit of 25 m/s and 3,600 steps.
 /// @param given the file as the user named it. @throws InputError
 [[nodiscard]] Scene read_tiled(const std::string& path, const std::string& given);
-[[nodiscard]] Scene read_tiled_json(const nlohmann::json& document, const std::string& path, const std::string& given);
+[[nodiscard]] Scene read_tiled_json(const nlohmann::ordered_json& document, const std::string& path,
+                                    const std::string& given);
 
 /// Reads a map as part of a scene that has its own scale and start: only scenery, ids, movers, box and notes are
 /// filled.

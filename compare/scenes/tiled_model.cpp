@@ -17,28 +17,29 @@ namespace paperproof::compare {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
-constexpr int most = std::numeric_limits<int>::max();
 /// Maps with more than this in all their layers are refused before memory is taken [tiles].
 constexpr double most_tiles_of_a_map = 1 << 24;
 
 /// A text that may be missing or empty.
 std::string word(const JsonCursor& at, std::string_view key) {
-  const auto found = at.find(key);
-  if (!found) return {};
-  if (!found->value().is_string()) found->refuse("expected a text");
-  return found->value().get<std::string>();
+  std::string word;
+  at.take(key, word);
+  return word;
 }
 
-double number(const JsonCursor& at, std::string_view key, double otherwise) {
-  const auto found = at.find(key);
-  return found ? found->number() : otherwise;
+bool flag(const JsonCursor& at, std::string_view key) {
+  bool flag = false;
+  at.take(key, flag);
+  return flag;
 }
 
-int integer(const JsonCursor& at, std::string_view key, int otherwise) {
-  const auto found = at.find(key);
-  return found ? found->integer(-most, most) : otherwise;
+Vec2d pair(const JsonCursor& at, std::string_view first, std::string_view second) {
+  Vec2d pair = Vec2d::Zero();
+  at.take(first, pair.x());
+  at.take(second, pair.y());
+  return pair;
 }
 
 /// @param at where it is, or the list that it is in. @param which of them, as " as entry 3".
@@ -62,10 +63,9 @@ void check_map(const TiledMap& map, const std::string& orientation, const JsonCu
   if (!map.infinite && (map.width < 1 || map.height < 1)) at.refuse("expected a map of at least one tile");
   if (!map.infinite && static_cast<double>(map.width) * map.height > most_tiles_of_a_map)
     at.refuse(fmt::format("expected a map of at most {} tiles", most_tiles_of_a_map));
-  for (std::size_t i = 1; i < map.tilesets.size(); ++i) {
-    if (map.tilesets[i].first <= map.tilesets[i - 1].first)
-      at.refuse(fmt::format("expected tilesets in ascending order; \"{}\" is not", map.tilesets[i].name));
-  }
+  for (std::size_t i = 0; i < map.tilesets.size(); ++i)
+    if (map.tilesets[i].first <= (i == 0 ? 0 : map.tilesets[i - 1].first))
+      at.refuse(fmt::format("expected tilesets in ascending order from 1 on; \"{}\" is not", map.tilesets[i].name));
 }
 
 class MapReader {
@@ -75,13 +75,11 @@ class MapReader {
 
   TiledMap map(const JsonCursor& at) const {
     TiledMap map;
-    map.infinite = at.flag("infinite");
-    map.width = integer(at, "width", 0);
-    map.height = integer(at, "height", 0);
-    map.tile_size = {number(at, "tilewidth", 0), number(at, "tileheight", 0)};
-    if (const auto sets = at.find("tilesets")) {
-      for (std::size_t i = 0; i < sets->size(); ++i) map.tilesets.push_back(tileset_of_map(sets->element(i)));
-    }
+    at.take("infinite", map.infinite);
+    at.take("width", map.width);
+    at.take("height", map.height);
+    map.tile_size = pair(at, "tilewidth", "tileheight");
+    for_each_entry(at.find("tilesets"), [&](const JsonCursor& set) { map.tilesets.push_back(tileset_of_map(set)); });
     check_map(map, word(at, "orientation"), at);
     map.layers = layers(at.require("layers"), map, 0);
     return map;
@@ -89,25 +87,23 @@ class MapReader {
 
   TiledTileset tileset(const JsonCursor& at) const {
     TiledTileset set;
-    set.name = word(at, "name");
+    at.take("name", set.name);
     set.tile_size = {at.require("tilewidth").number(), at.require("tileheight").number()};
-    if (const auto offset = at.find("tileoffset")) set.tile_offset = {number(*offset, "x", 0), number(*offset, "y", 0)};
-    set.object_alignment = word(at, "objectalignment");
-    set.tile_count = integer(at, "tilecount", 0);
+    if (const auto offset = at.find("tileoffset")) set.tile_offset = pair(*offset, "x", "y");
+    at.take("objectalignment", set.object_alignment);
+    at.take("tilecount", set.tile_count);
     const auto tiles = at.find("tiles");
     if (!tiles) return set;
     // Before version 1.2 of the format `tiles` was an object with the ids as keys.
     if (tiles->value().is_object()) {
-      for (const auto& [key, value] : tiles->value().items()) {
+      for (const auto& [key, value] : tiles->value().items())
         set.tiles[to_tile_number(json::parse(key, nullptr, false), *tiles, " as key")] = tile(*tiles->find(key));
-      }
-    } else {
-      for (std::size_t i = 0; i < tiles->size(); ++i) {
-        const JsonCursor entry = tiles->element(i);
-        const JsonCursor id = entry.require("id");
-        set.tiles[to_tile_number(id.value(), id)] = tile(entry);
-      }
+      return set;
     }
+    for_each_entry(tiles, [&set](const JsonCursor& entry) {
+      const JsonCursor id = entry.require("id");
+      set.tiles[to_tile_number(id.value(), id)] = tile(entry);
+    });
     return set;
   }
 
@@ -122,17 +118,16 @@ class MapReader {
       for (const auto& [key, value] : properties->value().items()) marks.properties[key] = as_text(value);
       return marks;
     }
-    for (std::size_t i = 0; i < properties->size(); ++i) {
-      const JsonCursor property = properties->element(i);
+    for_each_entry(properties, [&marks](const JsonCursor& property) {
       marks.properties[word(property, "name")] = as_text(property.require("value").value());
-    }
+    });
     return marks;
   }
 
   static TiledTile tile(const JsonCursor& at) {
     TiledTile tile;
     tile.marks = marks(at);
-    if (at.find("imagewidth")) tile.image_size = Vec2d{number(at, "imagewidth", 0), number(at, "imageheight", 0)};
+    if (at.find("imagewidth")) tile.image_size = pair(at, "imagewidth", "imageheight");
     if (const auto group = at.find("objectgroup")) tile.shapes = objects(group->require("objects"));
     return tile;
   }
@@ -140,7 +135,8 @@ class MapReader {
   TiledTileset tileset_of_map(const JsonCursor& at) const {
     const std::string source = word(at, "source");
     TiledTileset set = source.empty() ? tileset(at) : external_tileset(source, at.where());
-    set.first = static_cast<TileNumber>(at.require("firstgid").integer(1, most));
+    const JsonCursor first = at.require("firstgid");
+    set.first = to_tile_number(first.value(), first);
     return set;
   }
 
@@ -167,14 +163,13 @@ class MapReader {
   std::vector<TiledLayer> layers(const JsonCursor& list, const TiledMap& map, int depth) const {
     if (depth > deepest_group) list.refuse("expected fewer groups within groups");
     std::vector<TiledLayer> out;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const JsonCursor at = list.element(i);
+    for_each_entry(list, [&](const JsonCursor& at) {
       const std::string type = word(at, "type");
-      TiledLayer layer;
-      layer.name = word(at, "name");
+      TiledLayer& layer = out.emplace_back();
+      at.take("name", layer.name);
       layer.marks = marks(at);
       layer.marks.type = word(at, "class");  // `type` is the kind of the layer here
-      layer.offset = {number(at, "offsetx", 0), number(at, "offsety", 0)};
+      layer.offset = pair(at, "offsetx", "offsety");
       layer.where = at.where();
       if (type == "tilelayer") {
         layer.kind = TiledLayer::Kind::tiles;
@@ -188,25 +183,27 @@ class MapReader {
       } else if (type != "imagelayer") {
         at.refuse("expected a layer whose \"type\" is tilelayer, objectgroup, group or imagelayer");
       }
-      out.push_back(std::move(layer));
-    }
+    });
     return out;
   }
 
   std::vector<TiledChunk> chunks(const JsonCursor& layer, bool infinite) const {
     std::vector<TiledChunk> out;
     const auto list = layer.find("chunks");
-    for (std::size_t i = 0; list && i < list->size(); ++i) {
-      const JsonCursor at = list->element(i);
-      out.push_back(chunk(at, integer(at, "x", 0), integer(at, "y", 0), layer));
-    }
-    if (!list && !infinite) out.push_back(chunk(layer, 0, 0, layer));
+    for_each_entry(list, [&](const JsonCursor& at) {
+      TiledChunk& part = out.emplace_back(chunk(at, layer));
+      at.take("x", part.x);
+      at.take("y", part.y);
+    });
+    if (!list && !infinite) out.push_back(chunk(layer, layer));
     return out;
   }
 
   /// @param at has a size and data. @param layer says how they are compressed.
-  TiledChunk chunk(const JsonCursor& at, int x, int y, const JsonCursor& layer) const {
-    TiledChunk chunk{.x = x, .y = y, .width = integer(at, "width", 0), .height = integer(at, "height", 0)};
+  TiledChunk chunk(const JsonCursor& at, const JsonCursor& layer) const {
+    TiledChunk chunk;
+    at.take("width", chunk.width);
+    at.take("height", chunk.height);
     const JsonCursor data = at.require("data");
     if (chunk.width < 1 || chunk.height < 1) data.refuse("expected a width and a height of at least one tile");
     tiles_ += static_cast<double>(chunk.width) * chunk.height;
@@ -228,7 +225,7 @@ class MapReader {
 
   static std::vector<TiledObject> objects(const JsonCursor& list) {
     std::vector<TiledObject> out;
-    for (std::size_t i = 0; i < list.size(); ++i) out.push_back(object(list.element(i)));
+    for_each_entry(list, [&out](const JsonCursor& at) { out.push_back(object(at)); });
     return out;
   }
 
@@ -236,12 +233,12 @@ class MapReader {
     TiledObject object;
     object.from_template = at.find("template").has_value();
     object.where = at.where();
-    object.id = integer(at, "id", 0);
-    object.name = word(at, "name");
+    at.take("id", object.id);
+    at.take("name", object.name);
     object.marks = marks(at);
-    object.at = {number(at, "x", 0), number(at, "y", 0)};
-    object.size = {number(at, "width", 0), number(at, "height", 0)};
-    object.rotation = number(at, "rotation", 0);
+    object.at = pair(at, "x", "y");
+    object.size = pair(at, "width", "height");
+    at.take("rotation", object.rotation);
     if (const auto tile = at.find("gid")) object.tile = to_tile_number(tile->value(), *tile);
     if (object.tile != 0) {
       object.shape = TiledObject::Shape::tile;
@@ -251,11 +248,11 @@ class MapReader {
     } else if (const auto polyline = at.find("polyline")) {
       object.shape = TiledObject::Shape::polyline;
       object.points = points(*polyline);
-    } else if (at.flag("ellipse")) {
+    } else if (flag(at, "ellipse")) {
       object.shape = TiledObject::Shape::ellipse;
-    } else if (at.flag("capsule")) {
+    } else if (flag(at, "capsule")) {
       object.shape = TiledObject::Shape::capsule;
-    } else if (at.flag("point")) {
+    } else if (flag(at, "point")) {
       object.shape = TiledObject::Shape::point;
     } else if (at.find("text")) {
       object.shape = TiledObject::Shape::text;
@@ -265,10 +262,9 @@ class MapReader {
 
   static std::vector<Vec2d> points(const JsonCursor& list) {
     std::vector<Vec2d> out;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const JsonCursor at = list.element(i);
+    for_each_entry(list, [&out](const JsonCursor& at) {
       out.push_back({at.require("x").number(), at.require("y").number()});
-    }
+    });
     return out;
   }
 

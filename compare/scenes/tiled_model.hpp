@@ -88,7 +88,7 @@ inline constexpr int deepest_group = 32;
 
 /// A map in either format, by the ending of its name. @throws InputError
 [[nodiscard]] TiledMap read_tiled_map(const std::string& path, const std::string& given);
-[[nodiscard]] TiledMap read_tiled_map(const nlohmann::json& document, const std::string& path,
+[[nodiscard]] TiledMap read_tiled_map(const nlohmann::ordered_json& document, const std::string& path,
                                       const std::string& given);
 
 }  // namespace paperproof::compare

@@ -18,7 +18,7 @@ namespace paperproof::compare {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 /// The attributes that are numbers in JSON. `infinite` is true or false there, which needs the number first.
 constexpr std::array<std::string_view, 14> numbers{"firstgid",  "gid",     "height",   "id",        "infinite",
@@ -149,13 +149,29 @@ class Converter {
   /// @param data says how the tiles are encoded. @param node holds them.
   json tiles(const pugi::xml_node& data, const pugi::xml_node& node) const {
     const std::string_view encoding = data.attribute("encoding").value();
-    if (encoding == "csv") return decode_csv(node.child_value(), file_.where(node));
+    if (encoding == "csv") return csv(node.child_value());
     if (encoding == "base64") return node.child_value();
     if (!encoding.empty())
       refuse(file_.where(node), fmt::format("expected the encoding csv, base64 or none, not \"{}\"", encoding));
     json out = json::array();
     for (const pugi::xml_node tile : node.children("tile"))
       out.push_back(number(tile, "gid", tile.attribute("gid").as_string("0")));
+    return out;
+  }
+
+  /// What is no tile number becomes null, which the reader refuses.
+  static json csv(std::string_view text) {
+    json out = json::array();
+    constexpr std::string_view space = " \t\r\n";
+    while (text.find_first_not_of(space) != std::string_view::npos) {
+      const std::size_t comma = std::min(text.find(','), text.size());
+      std::string_view entry = text.substr(0, comma);
+      entry.remove_prefix(std::min(entry.find_first_not_of(space), entry.size()));
+      entry = entry.substr(0, entry.find_last_not_of(space) + 1);
+      const std::optional<TileNumber> number = number_in<TileNumber>(entry);
+      out.push_back(number ? json(*number) : json());
+      text.remove_prefix(std::min(comma + 1, text.size()));
+    }
     return out;
   }
 

@@ -11,7 +11,7 @@ namespace paperproof::compare {
 /// names of the attributes, lists those of the documentation. Values of properties stay as they are written. Each
 /// object has its line: see `JsonCursor::of_converted`.
 /// @throws InputError "file:line: ..." for what is no XML, or no map or tileset.
-[[nodiscard]] nlohmann::json read_tmx(const std::string& path, const std::string& given);
-[[nodiscard]] nlohmann::json read_tsx(const std::string& path, const std::string& given);
+[[nodiscard]] nlohmann::ordered_json read_tmx(const std::string& path, const std::string& given);
+[[nodiscard]] nlohmann::ordered_json read_tsx(const std::string& path, const std::string& given);
 
 }  // namespace paperproof::compare

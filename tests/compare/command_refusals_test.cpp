@@ -157,12 +157,12 @@ TEST_F(CommandRefuses, rows_that_are_none) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {rows_with("\"holds\"", "\"fine\""), "2: /verdict: expected failed, not_applicable, violates"},
       {rows_with("\"tunnels\":0", "\"tunnels\":0,\"tunnels\":1"),
-       "2: expected each key once; \"tunnels\" stands twice"},
-      {rows_with("\"tunnels\":0", "\"tunnels\":1e999"), "2: expected finite numbers"},
+       "2: /tunnels: expected each key once; this one stands twice"},
+      {rows_with("\"tunnels\":0", "\"tunnels\":1e999"), "2: /tunnels: expected a finite number, not '1e999'"},
       {rows_with("\"tunnels\":0", "\"case\":\"../../etc\""), "2: /case: expected a text like"},
-      {rows_with("\"mask\"", "\"mask\xff\""), "2: expected JSON"},
+      {rows_with("\"mask\"", "\"mask\xff\""), "2:35: expected JSON"},
       {std::string(header_line) + std::string(100'000, '[') + "\n" + good_row, "2: expected at most 100 levels"},
-      {header_line + std::string(good_row).substr(0, 40) + "\n" + good_row, "2: expected JSON"},
+      {header_line + std::string(good_row).substr(0, 40) + "\n" + good_row, "2:41: expected JSON"},
       {header_line + with(good_row, "}\n", std::string("}\0\n", 3)) + good_row, "2: expected text; a byte of zero"},
       {header_line + std::string(good_row) + std::string(good_row).substr(0, 40), "3: expected a whole row; this last"},
       {header_line + std::string(good_row) + std::string(50, '\0'), "3: expected a whole row; this last"},
@@ -196,9 +196,9 @@ TEST_F(CommandRefuses, pages_and_json_files_of_rows_that_are_none) {
            {"a.html", page("{}"), "expected a page that paperproof wrote"},
            {"e.html", "<script type=\"application/json\" id=\"index\">{}", "expected a page that paperproof wrote"},
            {"a.json", file(with(good_row, "holds", "fine")), "a.json: /rows/0/verdict: expected failed"},
-           {"c.json", file(good_row) + "x", "c.json:3: expected JSON"},
+           {"c.json", file(good_row) + "x", "c.json:3:3: expected JSON"},
            {"d.json", file(good_row) + std::string("\0", 1), "d.json:3: expected text; a byte of zero"},
-           {"rows.csv", "scene,contender\r\npaper,mask\r\n", "rows.csv:1: expected JSON"}}) {
+           {"rows.csv", "scene,contender\r\npaper,mask\r\n", "rows.csv:1:1: expected JSON"}}) {
     place.write(name, text);
     refused("report o.html " + name, says);
   }
@@ -347,7 +347,7 @@ TEST_F(CommandRefuses, long_texts_in_a_line_that_keeps_file_and_place) {
   place.write("digits.json", with(good_scene, "0.016", digits));
   place.write("line.tmj", "{\"layers\":[1,oops" + std::string(8000, '\'') + "]}");
   place.write("key.json", with(good_scene, "\"dt\"", "\"" + std::string(9000, 'k') + "\": 1, \"dt\""));
-  for (const auto& [arguments, says] : {std::pair{"check digits.json", "digits.json:2:"},
+  for (const auto& [arguments, says] : {std::pair{"check digits.json", "digits.json: /dt: "},
                                         {"check line.tmj", "line.tmj:1:1"},
                                         {"check key.json", "key.json: /kkk"}})
     refused(arguments, says);

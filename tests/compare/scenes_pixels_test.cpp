@@ -140,9 +140,7 @@ TEST_F(Picture, that_cannot_be_used_is_refused_in_one_line) {
     for (std::size_t i = row % 2 == 0 ? 0 : 1; i < 640; i += 2) chequers.back()[i] = '#';
   }
   files.write("noise.png", png_of(chequers));
-  const std::string no_colour =
-      "/solid: expected a colour like '#00a0ff', or the index of one in the picture's palette";
-  const std::string no_index = "/background: expected an index from 0 to 3, the last in the palette of entries.png";
+  const std::string no_colour = "/solid: expected a colour like #00a0ff, or the index of one in the picture's palette";
   const auto expect_said = [&](const std::string& entry, const std::string& message) {
     // The message has ' in it, which is no quote.
     const std::string said = files.complaint("drawn.json", scene_with("{ 'picture': " + entry + " }"));
@@ -150,9 +148,11 @@ TEST_F(Picture, that_cannot_be_used_is_refused_in_one_line) {
   };
   for (const std::string solid : {"'white'", "'#fff'", "'#00000g'", "'ffffff'", "'#ffffff0'"})
     expect_said("'level.png', 'solid': " + solid, no_colour);
-  for (const std::string solid : {"true", "null", "[0]"}) expect_said("'entries.png', 'solid': " + solid, no_colour);
-  for (const std::string index : {"4", "-1", "0.5", "256", "1e300"})
-    expect_said("'entries.png', 'background': " + index, no_index);
+  for (const std::string solid : {"true", "null", "[0]", "0.5", "1e300"})
+    expect_said("'entries.png', 'solid': " + solid,
+                "/solid: expected a text or a whole number, not " + solid.substr(0, 2));
+  for (const std::string index : {"-1", "256"})
+    expect_said("'entries.png', 'background': " + index, "/background: expected 0 to 255, not " + index);
   for (const auto& [entry, message] : std::initializer_list<std::pair<std::string, std::string>>{
            {"'none.png'", "/picture: none.png: expected a file that exists; there is none"},
            {"'text.png'", "/picture: text.png: expected a PNG picture ("},
@@ -160,18 +160,21 @@ TEST_F(Picture, that_cannot_be_used_is_refused_in_one_line) {
            {"'huge.png'", "/picture: huge.png: expected a picture of at most 67108864 pixels, not 65536 x 65536"},
            {"'noise.png'",
             "/picture: noise.png: expected a drawing; its solid pixels make more than 200000 rectangles"},
+           {"'entries.png', 'background': 4",
+            "/background: expected an index from 0 to 3, the last in the palette of entries.png"},
            {"'level.png', 'solid': '#123456'", "/picture: level.png: expected a solid pixel; none is #123456"},
            {"'entries.png', 'solid': 3",
             "/picture: entries.png: expected a solid pixel; none is colour 3 of the palette"},
            {"'level.png', 'solid': 0",
             "/solid: expected a colour like '#00a0ff': level.png has no palette for an index"},
            {"'level.png', 'solid': '#ffffff', 'background': '#000000'",
-            "/background: expected one of 'solid' and 'background', not both"},
-           {"'level.png', 'one_way': [0,1]", "/one_way: expected only beside 'polygon', 'chain' or 'circle'"},
-           {"'level.png', 'tiled': 'a.tmx'", ": expected exactly one shape"}})
+            ": expected solid or background, and not both, not {'picture'"},
+           {"'level.png', 'one_way': [0,1]", "/one_way: unknown key; expected one of id, picture, solid or background"},
+           {"'level.png', 'tiled': 'a.tmx'",
+            ": expected exactly one of polygon, chain, circle, tiled, picture, decoration; here are tiled, picture"}})
     expect_said(entry, message);
   EXPECT_EQ(files.complaint("drawn.json", scene_with("{ 'chain': [[0,0],[1,0]], 'solid': '#ffffff' }")),
-            ": /scenery/0/solid: expected only beside \"picture\"");
+            ": /scenery/0/solid: unknown key; expected one of id, chain, one_way, sensor or surface_speed");
 }
 
 TEST(PixelHill, is_solid_where_its_tiles_are_and_says_of_itself_what_is_generated_from_the_solid_pixels) {
