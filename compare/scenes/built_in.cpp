@@ -19,41 +19,50 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   return all;
 }
 
-Scene flight(double x, double y, double velocity_x, double velocity_y, int steps) {
+Scene flight(double x, double y, double velocity_x, double velocity_y, int steps, double gravity) {
   Scene scene;
-  scene.gravity = {0, 0};
+  scene.gravity = {0, 0 - gravity};
   scene.steps = steps;
   scene.start.position = {x, y};
   scene.start.velocity = {velocity_x, velocity_y};
   return scene;
 }
 
-Scene walk(double x, double y, double move, int steps) {
-  Scene scene;
-  scene.gravity = {0, -10};
-  scene.steps = steps;
-  scene.start.position = {x, y};
-  scene.input = {{.step = 0, .move = move, .jump = std::nullopt}};
+Scene walk(double x, double y, double move, int steps, double gravity) {
+  Scene scene = flight(x, y, 0, 0, steps, gravity);
+  scene.input = {steer(0, move)};
   return scene;
 }
 
-void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points) {
+namespace {
+
+ColliderDef& add(Scene& scene, std::string id, ColliderDef collider) {
   scene.ids.push_back(std::move(id));
-  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::polygon, .points = std::move(points)});
+  return scene.scenery.colliders.emplace_back(std::move(collider));
 }
 
-void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top) {
-  add_polygon(scene, std::move(id), {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
+}  // namespace
+
+ColliderDef& add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  return add(scene, std::move(id), {.points = std::move(points)});
 }
 
-void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  scene.ids.push_back(std::move(id));
-  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = std::move(points)});
+ColliderDef& add_box(Scene& scene, std::string id, double left, double bottom, double right, double top) {
+  return add_polygon(scene, std::move(id), {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
 }
 
-void add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius) {
-  scene.ids.push_back(std::move(id));
-  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::circle, .points = {centre}, .radius = radius});
+ColliderDef& add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  return add(scene, std::move(id), {.shape = ColliderDef::Shape::chain, .points = std::move(points)});
+}
+
+ColliderDef& add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius) {
+  return add(scene, std::move(id), {.shape = ColliderDef::Shape::circle, .points = {centre}, .radius = radius});
+}
+
+ColliderDef& add_ledge(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  ColliderDef& ledge = add_chain(scene, std::move(id), std::move(points));
+  ledge.one_way = Vec2d(0, 1);
+  return ledge;
 }
 
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop) {

@@ -41,19 +41,31 @@ inline constexpr double foot = 5 * pixel;  ///< From the middle to each foot [m]
 inline constexpr double pi = 3.14159265358979;
 inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
 
+/// Of a member of a family: one parameter that is set.
+[[nodiscard]] inline std::vector<ParameterSetting> with(std::string key, double value) {
+  return {{std::move(key), value}};
+}
+
+/// From a step on it walks with `move`.
+[[nodiscard]] inline InputEvent steer(int step, double move) {
+  return {.step = step, .move = move, .jump = std::nullopt};
+}
 /// The jump button goes down, comes up.
 [[nodiscard]] inline InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
 [[nodiscard]] inline InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
 
-/// A scene without gravity or input: a body that flies.
-[[nodiscard]] Scene flight(double x, double y, double velocity_x, double velocity_y, int steps);
-/// A scene with gravity 10 in which the character walks with `move` from the first step on.
-[[nodiscard]] Scene walk(double x, double y, double move, int steps);
+/// A scene without input: a body that flies. @param gravity downwards [m/s²].
+[[nodiscard]] Scene flight(double x, double y, double velocity_x, double velocity_y, int steps, double gravity = 0);
+/// A scene in which the character walks with `move` from the first step on.
+[[nodiscard]] Scene walk(double x, double y, double move, int steps, double gravity = 10);
 
-void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points);
-void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top);
-void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
-void add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius);
+// Each returns the collider that it adds.
+ColliderDef& add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points);
+ColliderDef& add_box(Scene& scene, std::string id, double left, double bottom, double right, double top);
+ColliderDef& add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
+ColliderDef& add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius);
+/// A chain that blocks from above alone.
+ColliderDef& add_ledge(Scene& scene, std::string id, std::vector<Vec2d> points);
 /// The last collider goes along a path.
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once);
 /// The last collider is a body that Box2D moves.

@@ -33,10 +33,6 @@ Scene grazing_at(const Angle& angle, double speed, double distance, int steps) {
   return scene;
 }
 
-Scene grazing_wall() { return grazing_at(degrees_10, 10, 0.25, 60); }
-Scene grazing_wall_01() { return grazing_at(degrees_0_1, 60, 0.05, 120); }
-Scene grazing_wall_0001() { return grazing_at(degrees_0_001, 100, 0.004, 240); }
-
 Scene parallel_at(double clearance) {
   Scene scene = flight(0, 0, 0, 10, 120);
   add_box(scene, "wall", half_width + clearance, -10, half_width + clearance + 1, 100);
@@ -46,10 +42,6 @@ Scene parallel_at(double clearance) {
   ends_at(scene, 0, 20);
   return scene;
 }
-
-Scene parallel_pass() { return parallel_at(0.005); }
-Scene parallel_pass_30mm() { return parallel_at(0.03); }
-Scene parallel_pass_0() { return parallel_at(0); }
 
 /// Flies to the right at 50 m/s into a wall of 1 cm whose normal is turned from the horizontal by `angle`.
 Scene rotated_by(const Angle& angle) {
@@ -71,11 +63,6 @@ Scene rotated_by(const Angle& angle) {
   return scene;
 }
 
-Scene rotated_wall_10() { return rotated_by(degrees_10); }
-Scene rotated_wall_30() { return rotated_by(degrees_30); }
-Scene rotated_wall() { return rotated_by(degrees_45); }
-Scene rotated_wall_80() { return rotated_by(degrees_80); }
-
 /// Flies down to the right, so that the left foot point (-5, -20) px meets the upper right corner of a box, or just
 /// not: x + y of the character stays 0, of that point -25 px, and of the box's corner too.
 Scene corner_at(double top) {
@@ -92,9 +79,6 @@ Scene corner_touched_at(double top) {
   return scene;
 }
 constexpr double corner_top = -25.0 / 32 + 0.25;
-
-Scene corner_to_corner() { return corner_touched_at(corner_top); }
-Scene corner_minus_ulp() { return corner_touched_at(std::nextafter(corner_top, -1.0)); }
 
 /// A contender that keeps no gap meets the box; all others may.
 Scene corner_plus_ulp() {
@@ -115,8 +99,7 @@ Scene corner_hit() {
 /// Falls from `height` into a V whose apex is the origin. @param tangent of half the angle. @param rim [m] above the
 /// apex.
 Scene wedge_of(double tangent, double rim, double height, int steps) {
-  Scene scene = flight(0, height, 0, 0, steps);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, height, 0, 0, steps, 30);
   const double half = rim * tangent;
   add_polygon(scene, "wedge",
               {{0, 0}, {half, rim}, {half + 1, rim}, {half + 1, -1}, {-half - 1, -1}, {-half - 1, rim}, {-half, rim}});
@@ -127,13 +110,8 @@ Scene wedge_of(double tangent, double rim, double height, int steps) {
   return scene;
 }
 
-Scene wedge_60() { return wedge_of(0.57735026918962576, 4, 2.5, 120); }
-Scene wedge_5() { return wedge_of(0.043660942908512058, 12, 9, 180); }
-Scene wedge_1() { return wedge_of(0.0087268677907587893, 50, 40, 300); }
-
 Scene concave_corner() {
-  Scene scene = flight(0, 3, 40, -40, 60);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, 3, 40, -40, 60, 10);
   add_box(scene, "floor", -4, -1, 4, 0);
   add_box(scene, "wall", 3, 0, 4, 5);
   const double step_x = 40 * scene.dt;
@@ -173,8 +151,7 @@ Scene sawtooth_of(int teeth) {
 
 /// Falls onto the top of a ball, and stands there.
 Scene land_on_circle() {
-  Scene scene = flight(0, half_height + 1, 0, 0, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 1, 0, 0, 120, 30);
   add_circle(scene, "ball", {0, -2}, 2);
   const double landed = steps_to_fall(scene, 1);
   scene.answers = {contact(landed, fallen(scene, 1) * landed)};
@@ -195,18 +172,13 @@ Scene bullet_at_circle() {
 /// Falls between two balls of 1 m, 2.4 m apart: the slanted sides between its feet and its arms rest on both. Of such a
 /// side the normal is (2, -1) / √5, and the line through the foot (5, y - 20) px is 1 m from (1.2, 0).
 Scene between_circles() {
-  Scene scene = flight(0, 3, 0, 0, 180);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 3, 0, 0, 180, 30);
   add_circle(scene, "left", {-1.2, 0}, 1);
   add_circle(scene, "right", {1.2, 0}, 1);
   scene.answers = {x_is(0), y_is(std::sqrt(5.0) - 2 * (1.2 - foot) + half_height).gaps(std::sqrt(5.0))};
   rests_after(scene, 120);
   return scene;
 }
-
-Scene sawtooth_1() { return sawtooth_of(1); }
-Scene sawtooth_4() { return sawtooth_of(4); }
-Scene sawtooth_11() { return sawtooth_of(11); }
 
 }  // namespace
 
@@ -223,33 +195,45 @@ std::vector<SceneFamily> angle_families() {
 
 std::vector<BuiltInScene> angle_scenes() {
   return {
-      {"grazing_wall", "into a wall at 10 degrees: t = d / (v sin 10°) = 0.25 / 1.736 s, in step 8", grazing_wall},
-      {"grazing_wall_0.1", "into a wall at 0.1 degrees: t = 0.05 / 0.1047 s, in step 28", grazing_wall_01},
-      {"grazing_wall_0.001", "into a wall at 0.001 degrees: t = 0.004 / 0.001745 s, in step 137", grazing_wall_0001},
-      {"parallel_pass", "past a wall with 5 mm of clearance: no contact", parallel_pass},
-      {"parallel_pass_30mm", "past a wall with 30 mm of clearance: no contact", parallel_pass_30mm},
+      {"grazing_wall", "into a wall at 10 degrees: t = d / (v sin 10°) = 0.25 / 1.736 s, in step 8",
+       [] { return grazing_at(degrees_10, 10, 0.25, 60); }},
+      {"grazing_wall_0.1", "into a wall at 0.1 degrees: t = 0.05 / 0.1047 s, in step 28",
+       [] { return grazing_at(degrees_0_1, 60, 0.05, 120); }},
+      {"grazing_wall_0.001", "into a wall at 0.001 degrees: t = 0.004 / 0.001745 s, in step 137",
+       [] { return grazing_at(degrees_0_001, 100, 0.004, 240); }},
+      {"parallel_pass", "past a wall with 5 mm of clearance: no contact", [] { return parallel_at(0.005); }},
+      {"parallel_pass_30mm", "past a wall with 30 mm of clearance: no contact", [] { return parallel_at(0.03); }},
       {"parallel_pass_0", "along a wall that is touched: no motion into it, no overlap, no loss of speed",
-       parallel_pass_0},
-      {"rotated_wall", "thin wall at 45 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall},
-      {"rotated_wall_10", "thin wall at 10 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_10},
-      {"rotated_wall_30", "thin wall at 30 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_30},
-      {"rotated_wall_80", "thin wall at 80 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_80},
-      {"corner_to_corner", "a corner passes a corner at distance 0: touches, overlaps nowhere", corner_to_corner},
+       [] { return parallel_at(0); }},
+      {"rotated_wall", "thin wall at 45 degrees, 50 m/s: t = d / (v·n), never passed",
+       [] { return rotated_by(degrees_45); }},
+      {"rotated_wall_10", "thin wall at 10 degrees, 50 m/s: t = d / (v·n), never passed",
+       [] { return rotated_by(degrees_10); }},
+      {"rotated_wall_30", "thin wall at 30 degrees, 50 m/s: t = d / (v·n), never passed",
+       [] { return rotated_by(degrees_30); }},
+      {"rotated_wall_80", "thin wall at 80 degrees, 50 m/s: t = d / (v·n), never passed",
+       [] { return rotated_by(degrees_80); }},
+      {"corner_to_corner", "a corner passes a corner at distance 0: touches, overlaps nowhere",
+       [] { return corner_touched_at(corner_top); }},
       {"corner_to_corner_plus_ulp", "the same, one ulp closer: the swept octagon meets the box", corner_plus_ulp},
-      {"corner_to_corner_minus_ulp", "the same, one ulp away: passes", corner_minus_ulp},
+      {"corner_to_corner_minus_ulp", "the same, one ulp away: passes",
+       [] { return corner_touched_at(std::nextafter(corner_top, -1.0)); }},
       {"corner_to_corner_hit", "the same, 1 px closer: hits", corner_hit},
       {"wedge_60", "falls into a V of 60 degrees: rests on both sides, centre 28.66 px above the apex, v = 0",
-       wedge_60},
-      {"wedge_5", "falls into a V of 5 degrees: rests on both sides, centre 239.0 px above the apex, v = 0", wedge_5},
-      {"wedge_1", "falls into a V of 1 degree: rests on both sides, centre 1,155.9 px above the apex, v = 0", wedge_1},
+       [] { return wedge_of(0.57735026918962576, 4, 2.5, 120); }},
+      {"wedge_5", "falls into a V of 5 degrees: rests on both sides, centre 239.0 px above the apex, v = 0",
+       [] { return wedge_of(0.043660942908512058, 12, 9, 180); }},
+      {"wedge_1", "falls into a V of 1 degree: rests on both sides, centre 1,155.9 px above the apex, v = 0",
+       [] { return wedge_of(0.0087268677907587893, 50, 40, 300); }},
       {"concave_corner", "into a right-angled corner at 57 m/s: contacts with floor and wall, v = 0", concave_corner},
       {"land_on_circle", "falls onto the top of a ball of 2 m: stands there", land_on_circle},
       {"bullet_at_circle", "600 m/s against a ball of 5 mm: t = d / v, in step 2", bullet_at_circle},
       {"between_circles", "falls between two balls: the slanted sides rest on both, 0.774 m above their middles",
        between_circles},
-      {"sawtooth_1", "200 m in a step past one tooth: one impact", sawtooth_1},
-      {"sawtooth_4", "the same between 4 teeth: 4 impacts in the step, at the times of the formula", sawtooth_4},
-      {"sawtooth_11", "the same between 11 teeth: 11 impacts in the step", sawtooth_11},
+      {"sawtooth_1", "200 m in a step past one tooth: one impact", [] { return sawtooth_of(1); }},
+      {"sawtooth_4", "the same between 4 teeth: 4 impacts in the step, at the times of the formula",
+       [] { return sawtooth_of(4); }},
+      {"sawtooth_11", "the same between 11 teeth: 11 impacts in the step", [] { return sawtooth_of(11); }},
   };
 }
 

@@ -8,12 +8,9 @@ namespace paperproof::compare {
 
 namespace {
 
-InputEvent steer(int step, double move) { return {.step = step, .move = move, .jump = std::nullopt}; }
-
 /// Falls onto a spike that is narrower everywhere than the distance between the two foot points.
 Scene spike_between_feet() {
-  Scene scene = flight(0, 4, 0, 0, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 4, 0, 0, 120, 30);
   add_box(scene, "floor", -4, -1, 4, 0);
   constexpr double half_base = 3 * pixel;  // the feet are 5 px from the middle
   add_polygon(scene, "spike", {{-half_base, 0}, {half_base, 0}, {0, 2}});
@@ -23,8 +20,7 @@ Scene spike_between_feet() {
 
 /// Walks at 20 m/s from level ground up a thin ramp; a lower floor catches a character that passes it.
 Scene sloped_paper_walk() {
-  Scene scene = walk(-3, half_height + 0.02, 1, 90);
-  scene.gravity = {0, -30};
+  Scene scene = walk(-3, half_height + 0.02, 1, 90, 30);
   scene.character.walk_speed = 20;
   scene.start.velocity = {20, 0};
   constexpr double thickness = 0.01;
@@ -41,8 +37,7 @@ Scene sloped_paper_walk() {
 
 /// A room's floor and a character that has the article's two jumping rules.
 Scene jumper(double x, int steps) {
-  Scene scene = walk(x, half_height + 0.02, 1, steps);
-  scene.gravity = {0, -30};
+  Scene scene = walk(x, half_height + 0.02, 1, steps, 30);
   scene.jump_rules = {.no_jump_toward_wall = true, .side_hit_ends_rise = true};
   add_box(scene, "floor", -6, -1, 8, 0);
   return scene;
@@ -52,7 +47,8 @@ Scene jump_into_wall() {
   Scene scene = jumper(-1, 180);
   add_box(scene, "wall", 3, 0, 4, 8);
   // The first jump meets the wall while rising; the second is pressed beside the wall, toward it.
-  for (const InputEvent& event : {press(28), release(40), press(110), release(120)}) scene.input.push_back(event);
+  hold_jump(scene, 28, 40);
+  hold_jump(scene, 110, 120);
   const double met = steps_to_walk(scene, 4 - half_width);
   const int rising = static_cast<int>(met) - 28;  // whole steps before the wall is met; in the next one it is
   scene.answers = {
@@ -100,14 +96,14 @@ Scene jump_into_corner() {
   scene.answers = {contact(steps_to_walk(scene, 3 - half_width), scene.character.walk_speed * scene.dt).to("wall"),
                    farthest({0, 1}, 2.5 - half_height)};
   ends_at(scene, 3 - half_width, half_height);
-  for (const InputEvent& event : {press(20), release(30), press(100), release(110)}) scene.input.push_back(event);
+  hold_jump(scene, 20, 30);
+  hold_jump(scene, 100, 110);
   return scene;
 }
 
 /// Stands with its middle 7 px beyond the edge: both feet are over the edge, the corner of the bounding box is not.
 Scene ledge_hang() {
-  Scene scene = flight(7 * pixel, half_height + 0.02, 0, 0, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(7 * pixel, half_height + 0.02, 0, 0, 120, 30);
   add_box(scene, "ledge", -4, -1, 0, 0);
   add_box(scene, "ground", -4, -6, 4, -5);
   scene.answers = {y_is(-5 + half_height).after(60)};  // it slips off, and slides on along the ground
@@ -121,7 +117,7 @@ Scene false_ceiling() {
   add_box(scene, "floor", -4, -1, 4, 0);
   constexpr double apex = half_height + 1.25 - 5.0 / 120;  // v²/2g - v dt/2 above the floor
   add_box(scene, "block", 8 * pixel, apex + 18 * pixel, 3, apex + 1.5);
-  for (const InputEvent& event : {press(30), release(40)}) scene.input.push_back(event);
+  hold_jump(scene, 30, 40);
   scene.answers = {count(Answer::Of::contacts, 0).to("block"), farthest({0, 1}, apex)};
   ends_at(scene, 0, half_height);
   return scene;
@@ -131,8 +127,7 @@ Scene false_ceiling() {
 /// first puts the start right rises from the floor, anybody else from where it began.
 Scene stuck_points() {
   constexpr double depth = 6 * pixel;
-  Scene scene = flight(0, half_height - depth, 0, 5, 120);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, half_height - depth, 0, 5, 120, 10);
   scene.start.resolve_overlap = true;
   add_box(scene, "floor", -4, -1, 4, 0);
   scene.character.jump_speed = scene.start.velocity.y();
@@ -145,8 +140,7 @@ Scene stuck_points() {
 /// Walks down a slope of 45 degrees, y = -x, into a wall that leans over it: the wall pushes the walker back into the
 /// slope, the slope up into the wall again.
 Scene walk_down_to_wall(double lean) {
-  Scene scene = walk(-1, 1 + foot + half_height + 0.05, 1, 300);
-  scene.gravity = {0, -30};
+  Scene scene = walk(-1, 1 + foot + half_height + 0.05, 1, 300, 30);
   add_polygon(scene, "slope", {{-8, 8}, {-8, -8}, {8, -8}});
   add_polygon(scene, "wall", {{2, -2}, {9, -2}, {9, 8}, {2 - 10 * lean, 8}});
   // The left foot stands on the slope, the right upper arm is at the wall.
@@ -155,8 +149,6 @@ Scene walk_down_to_wall(double lean) {
   scene.answers = {x_is(x).gaps(4), y_is(half_height + foot - x).gaps(4)};
   return scene;
 }
-
-Scene valley() { return walk_down_to_wall(0); }
 
 Scene leaning_valley() {
   constexpr double tan_20 = 0.36397023426620234;
@@ -203,7 +195,8 @@ std::vector<BuiltInScene> article_scenes() {
        "jumps beside a block: four corners hit a ceiling that is none, eight points and octagon do not", false_ceiling},
       {"stuck_points", "rises with its feet in a floor: with pairs=all they hold it there, by direction it rises 1 m",
        stuck_points},
-      {"valley", "45 degrees down to a wall: one iteration ends inside the slope, two do not", valley},
+      {"valley", "45 degrees down to a wall: one iteration ends inside the slope, two do not",
+       [] { return walk_down_to_wall(0); }},
       {"leaning_valley", "the same, the wall leans over by 20 degrees: every iteration leaves less", leaning_valley},
       {"one_square", "a character of one square: the grid tests all of it, and draws it in a square when it stops",
        one_square},

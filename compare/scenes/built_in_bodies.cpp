@@ -14,8 +14,7 @@ Scene stack(const ParameterValues& values) {
   const double mass = values["mass_ratio"];
   constexpr int boxes = 5;
   constexpr double height = 0.5;
-  Scene scene = flight(0, 0, 0, 0, 600);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, 0, 0, 0, 600, 10);
   add_box(scene, "floor", -5, -1, 5, 0);
   double top = 0;
   for (int i = 1; i <= boxes; ++i) {
@@ -51,8 +50,7 @@ Scene plank_on_springs(const ParameterValues& values) {
   constexpr double length = 2;
   constexpr double height = 0.25;
   constexpr double time = 4;  // [s]
-  Scene scene = flight(0, length + height + half_height + 5e-7, 0, 0, 1);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, length + height + half_height + 5e-7, 0, 0, 1, 10);
   scene.dt = values["dt"];
   scene.steps = static_cast<int>(std::ceil(time / scene.dt));
   add_box(scene, "floor", -5, -1, 5, 0);
@@ -73,13 +71,10 @@ Scene plank_on_springs(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<ParameterSetting> under(double mass) { return {{"mass_ratio", mass}}; }
-
 /// A crate falls onto the head of a character that stands there, from `way` metres above it.
 Scene falling_crate() {
   constexpr double way = 2;
-  Scene scene = flight(0, half_height + 5e-7, 0, 0, 90);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 90, 10);
   add_box(scene, "floor", -5, -1, 5, 0);
   constexpr double bottom = 2 * half_height + way;
   add_box(scene, "crate", -0.5, bottom, 0.5, bottom + 1);
@@ -106,14 +101,14 @@ std::vector<SceneFamily> body_families() {
 
 std::vector<BuiltInScene> body_scenes() {
   return {
-      {"stack_1", "stands on a stack of five boxes of the same mass: never inside, grounded without a toggle", nullptr,
-       "stack", under(1)},
-      {"stack_10", "the same with 10 times the mass in the uppermost box", nullptr, "stack", under(10)},
-      {"stack_100", "the same with 100 times the mass: Box2D's stack gives way", nullptr, "stack", under(100)},
-      {"stack_1000", "the same with 1,000 times the mass: the heavy box sinks through others", nullptr, "stack",
-       under(1000)},
-      {"stack_10000", "the same with 10,000 times the mass: light boxes are pressed through the floor", nullptr,
-       "stack", under(10000)},
+      {"stack_1", "stands on a stack of five boxes of the same mass: never inside, grounded without a toggle", "stack",
+       with("mass_ratio", 1)},
+      {"stack_10", "the same with 10 times the mass in the uppermost box", "stack", with("mass_ratio", 10)},
+      {"stack_100", "the same with 100 times the mass: Box2D's stack gives way", "stack", with("mass_ratio", 100)},
+      {"stack_1000", "the same with 1,000 times the mass: the heavy box sinks through others", "stack",
+       with("mass_ratio", 1000)},
+      {"stack_10000", "the same with 10,000 times the mass: light boxes are pressed through the floor", "stack",
+       with("mass_ratio", 10000)},
       {"falling_crate",
        "a crate 2 m above its head falls: crushed in step 37, the first n with g h² (n + 1) (n + 2) / 2 > 2 m",
        falling_crate},

@@ -65,8 +65,7 @@ PixelScenery scenery_of(const PixelTileSet& tiles, double pixels_per_metre) {
 }
 
 Scene on_the_hill(double x, double y, double move, int steps) {
-  Scene scene = walk(x, y, move, steps);
-  scene.gravity = {0, -30};
+  Scene scene = walk(x, y, move, steps, 30);
   scene.character.walk_speed = one_pixel_a_step;
   scene.character.acceleration = 60 * one_pixel_a_step;
   auto tiles = std::make_shared<const PixelTileSet>(hill_of_the_article());
@@ -94,8 +93,7 @@ Scene pixel_hill_up() {
 
 /// A post as high as 8 px under a character whose picture has legs apart.
 Scene legs_apart() {
-  Scene scene = flight(0, 2, 0, 0, 90);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 2, 0, 0, 90, 30);
   add_box(scene, "floor", -4, -1, 4, 0);
   add_box(scene, "post", -2 * pixel, 0, 2 * pixel, 8 * pixel);
   for (int row = 0; row < 28; ++row) scene.sprite.emplace_back("....############....");
@@ -136,8 +134,7 @@ Scene enemy_box() {
 /// A ball of half a metre comes past the shoulder of a character that stands: 0.02 m are between them, but their boxes
 /// overlap.
 Scene round_enemy() {
-  Scene scene = flight(0, half_height, 0, 0, 60);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height, 0, 0, 60, 30);
   add_box(scene, "floor", -20, -1, 20, 0);
   constexpr double radius = 0.5;
   constexpr int corners = 32;

@@ -47,14 +47,11 @@ Scene three_in_a_row() {
 /// The second jumps onto the head of the first, which walks off after three seconds and takes it along. At 4.5 m/s and
 /// 1 m/s more or less in each step the second comes 1.8 m far.
 Scene jump_onto_a_head() {
-  Scene scene = walk(0, half_height + 0.02, 0, 300);
-  scene.gravity = {0, -30};
-  scene.input.push_back({.step = 180, .move = 1, .jump = std::nullopt});
+  Scene scene = walk(0, half_height + 0.02, 0, 300, 30);
+  scene.input.push_back(steer(180, 1));
   add_box(scene, "floor", -8, -1, 40, 0);
   add_character(scene, -2, half_height + 0.02, 0,
-                {{.step = 0, .move = 0, .jump = std::nullopt},
-                 {.step = 30, .move = 0.75, .jump = true},
-                 {.step = 54, .move = 0, .jump = false}});
+                {steer(0, 0), {.step = 30, .move = 0.75, .jump = true}, {.step = 54, .move = 0, .jump = false}});
   scene.answers = {
       x_is(walked(scene, 120)), y_is(half_height), y_is(3 * half_height).of_character(1).after(150).gaps(2),
       x_is(-2 + 1.8 + walked(scene, 120)).of_character(1).law(), y_is(3 * half_height).of_character(1).gaps(2).law()};
@@ -67,8 +64,7 @@ Scene crowd(const ParameterValues& values) {
   constexpr int steps = 600;
   constexpr double width = 20 * half_width;
   constexpr double height = 6 * half_height;
-  Scene scene = flight(0, 0, 0, 0, steps);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 0, 0, 0, steps, 30);
   add_box(scene, "floor", -1, -1, width + 1, 0);
   add_box(scene, "ceiling", -1, height, width + 1, height + 1);
   add_box(scene, "left", -1, 0, 0, height);
@@ -95,15 +91,13 @@ Scene crowd(const ParameterValues& values) {
 
 /// Two stand on a lift that goes up and to the side, and back; after a second the right one walks against the left one.
 Scene two_on_a_lift() {
-  Scene scene = flight(0, half_height + 5e-7, 0, 0, 480);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 480, 30);
   add_box(scene, "lift", -2, -0.25, 3, 0);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 3.5, .at = {2, 4.5}}},
             MoverDef::Loop::ping_pong);
   add_box(scene, "ground", -10, -10, 10, -9);
-  add_character(scene, 2 * half_width + 1, half_height + 5e-7, 0,
-                {{.step = 0, .move = 0, .jump = std::nullopt}, {.step = 60, .move = -0.5, .jump = std::nullopt}});
-  scene.input.push_back({.step = 0, .move = 0, .jump = std::nullopt});
+  add_character(scene, 2 * half_width + 1, half_height + 5e-7, 0, {steer(0, 0), steer(60, -0.5)});
+  scene.input.push_back(steer(0, 0));
   scene.answers = {is(Answer::Of::drift, 0).to("lift").within(ulp(5.2)), count(Answer::Of::in_the_air, 0),
                    x_is(2 * half_width).of_character(1).to("lift"), y_is(half_height).of_character(1).to("lift")};
   return scene;
@@ -114,8 +108,7 @@ Scene pressed_in_a_row() {
   constexpr double face = -1;
   constexpr double wall = 2.3;
   constexpr double speed = 2.4;
-  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60, 30);
   add_box(scene, "floor", -20, -1, 20, 0);
   add_box(scene, "roof", -20, 1.3, 20, 2);
   add_box(scene, "wall", wall, 0, wall + 1, 1.3);
@@ -132,8 +125,7 @@ Scene pressed_in_a_row() {
 /// Walks and jumps at random for as long as it is asked to: over a slope, a steep slope, kerbs, a ledge, a needle and a
 /// pit, between walls that no character leaves.
 Scene playground(const ParameterValues& values) {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, static_cast<int>(values["steps"]));
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 0.02, 0, 0, static_cast<int>(values["steps"]), 30);
   add_box(scene, "floor", -21, -3, 16, 0);
   add_box(scene, "pit", 16, -3, 18, -2);
   add_box(scene, "left", -21, 0, -20, 12);
@@ -143,8 +135,7 @@ Scene playground(const ParameterValues& values) {
   add_polygon(scene, "steep", {{-20, 0}, {-18, 0}, {-20, 4}});
   for (int k = 0; k < 4; ++k) add_box(scene, "kerb" + std::to_string(k), 4 + k, 0, 5 + k, 0.1 * (k + 1));
   add_polygon(scene, "needle", {{11, 0}, {11.2, 0}, {11.1, 1}});
-  add_chain(scene, "ledge", {{-6, 1.5}, {-2, 1.5}});
-  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
+  add_ledge(scene, "ledge", {{-6, 1.5}, {-2, 1.5}});
   scene.input = random_input(static_cast<std::uint64_t>(values["seed"]), scene.steps);
   const double none = std::numeric_limits<double>::infinity();
   scene.answers = {between(Answer::Of::farthest, -none, 18 - half_width, {1, 0}),
@@ -180,11 +171,8 @@ std::vector<BuiltInScene> crowd_scenes() {
        three_in_a_row},
       {"jump_onto_a_head", "stands on another's head, 1.25 m up, and is taken along when that walks off",
        jump_onto_a_head},
-      {"crowd_of_16",
-       "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
-       nullptr,
-       "crowd",
-       {{"characters", 16}}},
+      {"crowd_of_16", "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
+       "crowd", with("characters", 16)},
       {"two_on_a_lift", "two are carried without a lag, also where one walks against the other on the way",
        two_on_a_lift},
       {"pressed_in_a_row",

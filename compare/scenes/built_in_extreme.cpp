@@ -9,8 +9,7 @@ namespace paperproof::compare {
 namespace {
 
 Scene sliver_drop() {
-  Scene scene = flight(0, 3, 0, -30, 90);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 3, 0, -30, 90, 30);
   add_polygon(scene, "sliver", {{-2, 0}, {2, -0.0005}, {2, 0.0005}});
   constexpr double slope = 0.0005 / 4;
   const double way = 3 - half_height - slope * (2 + foot);  // of the right foot, which stands
@@ -21,17 +20,12 @@ Scene sliver_drop() {
 
 /// Begins this deep in a floor.
 Scene start_inside(double y) {
-  Scene scene = flight(0, y, 0, 0, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, y, 0, 0, 120, 30);
   scene.start.resolve_overlap = true;
   add_box(scene, "floor", -4, -2, 4, 0);
   ends_at(scene, 0, half_height);
   return scene;
 }
-
-Scene start_overlapping_ulp() { return start_inside(std::nextafter(half_height, 0.0)); }
-Scene start_overlapping_slop() { return start_inside(half_height - 0.005); }
-Scene start_overlapping_deep() { return start_inside(half_height - 0.4); }
 
 /// Walks over tiles and into a wall, all of it just below `origin` on the x axis. Everything is a multiple of 1/64 m,
 /// so that the scene is the same wherever it is.
@@ -44,15 +38,12 @@ Scene far(const ParameterValues& values) {
   for (int i = 0; i < 14; ++i) add_box(scene, "tile" + std::to_string(i), x + i - 1, -1, x + i, 0);
   add_box(scene, "wall", x + 12, 0, x + 13, 4);
   const int jump = step_at(1.5);
-  scene.input.push_back(press(jump));
-  scene.input.push_back(release(step_at(5.0 / 3)));
+  hold_jump(scene, jump, step_at(5.0 / 3));
   // It jumps over the wall.
   scene.answers = {contact(steps_to_fall(scene, 1.0 / 32), 3 * fallen(scene, 1))};
   ends_at(scene, x + 0.5 + walked(scene, scene.steps), half_height + risen(scene, scene.steps - jump));
   return scene;
 }
-
-std::vector<ParameterSetting> origin_at(double origin) { return {{"origin", origin}}; }
 
 /// Drops, walks up a ramp, meets a wall, with every length multiplied by a power of two.
 Scene scaled(const ParameterValues& values) {
@@ -74,8 +65,6 @@ Scene scaled(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<ParameterSetting> times(double scale) { return {{"scale", scale}}; }
-
 Scene drop(const ParameterValues& values) {
   Scene scene = flight(0, half_height + 0.25, 0, 0, 120);
   scene.gravity = {0, -values["gravity"]};
@@ -87,8 +76,6 @@ Scene drop(const ParameterValues& values) {
   rests_after(scene, scene.steps / 2);
   return scene;
 }
-
-std::vector<ParameterSetting> pulled(double gravity) { return {{"gravity", gravity}}; }
 
 }  // namespace
 
@@ -111,25 +98,28 @@ std::vector<SceneFamily> extreme_families() {
 std::vector<BuiltInScene> extreme_scenes() {
   return {
       {"sliver_drop", "drops at 30 m/s onto a sliver of 4 m x 1 mm: it is never passed", sliver_drop},
-      {"start_overlapping_ulp", "begins one ulp inside a floor: comes out upwards", start_overlapping_ulp},
-      {"start_overlapping_slop", "begins 5 mm inside a floor: comes out upwards", start_overlapping_slop},
-      {"start_overlapping_deep", "begins 0.4 m inside a floor: comes out upwards", start_overlapping_deep},
-      {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", nullptr, "far",
-       origin_at(16)},
-      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e3)},
-      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e4)},
-      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e5)},
-      {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", nullptr, "far",
-       origin_at(1e6)},
-      {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", nullptr, "scaled", times(1)},
-      {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", nullptr, "scaled",
-       times(1.0 / 1024)},
-      {"scaled_1e3", "all lengths times 1,024: the same result times the scale, the gap apart", nullptr, "scaled",
-       times(1024)},
-      {"gravity_10", "drops 0.25 m under 10 m/s²: rests", nullptr, "drop", pulled(10)},
-      {"gravity_1e3", "the same under 1,000 m/s²: the same rest gap", nullptr, "drop", pulled(1e3)},
-      {"gravity_1e6", "the same under 1,000,000 m/s²: the same rest gap, nothing is passed", nullptr, "drop",
-       pulled(1e6)},
+      {"start_overlapping_ulp", "begins one ulp inside a floor: comes out upwards",
+       [] { return start_inside(std::nextafter(half_height, 0.0)); }},
+      {"start_overlapping_slop", "begins 5 mm inside a floor: comes out upwards",
+       [] { return start_inside(half_height - 0.005); }},
+      {"start_overlapping_deep", "begins 0.4 m inside a floor: comes out upwards",
+       [] { return start_inside(half_height - 0.4); }},
+      {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", "far",
+       with("origin", 16)},
+      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", "far", with("origin", 1e3)},
+      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", "far", with("origin", 1e4)},
+      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", "far", with("origin", 1e5)},
+      {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", "far",
+       with("origin", 1e6)},
+      {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", "scaled", with("scale", 1)},
+      {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", "scaled",
+       with("scale", 1.0 / 1024)},
+      {"scaled_1e3", "all lengths times 1,024: the same result times the scale, the gap apart", "scaled",
+       with("scale", 1024)},
+      {"gravity_10", "drops 0.25 m under 10 m/s²: rests", "drop", with("gravity", 10)},
+      {"gravity_1e3", "the same under 1,000 m/s²: the same rest gap", "drop", with("gravity", 1e3)},
+      {"gravity_1e6", "the same under 1,000,000 m/s²: the same rest gap, nothing is passed", "drop",
+       with("gravity", 1e6)},
   };
 }
 

@@ -60,15 +60,13 @@ Scene slope_joints() {
   return scene;
 }
 
-Scene slope_joints_no_snap() { return slope_joints_with(0); }
-
 /// Stands on a slope, then walks down its 30 degrees and up another of 10.
 Scene skier_with(double snap) {
   constexpr double x = 1;
   constexpr int begin = 30;
   // The left foot stands on it while the slope falls to the right.
   Scene scene = walk(x, half_height - (x - foot) * tan_30 + 0.02, 0, 240);
-  scene.input.push_back({.step = begin, .move = 1, .jump = std::nullopt});
+  scene.input.push_back(steer(begin, 1));
   scene.character.walk_speed = 8;
   scene.character.snap = snap;
   constexpr double run = 10;
@@ -98,17 +96,13 @@ Scene skier_no_snap() {
 
 /// Falls down a shaft onto its floor. @param half of the width between the walls [m].
 Scene shaft_of(double half) {
-  Scene scene = flight(0, 5, 0, 0, 180);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, 5, 0, 0, 180, 10);
   add_box(scene, "left", -half - 1, -1, -half, 8);
   add_box(scene, "right", half, -1, half + 1, 8);
   add_box(scene, "floor", -half, -1, half, 0);
   scene.answers = {x_is(0), between(Answer::Of::place, half_height, 5, {0, 1})};
   return scene;
 }
-
-Scene exact_fit_shaft() { return shaft_of(half_width); }
-Scene shaft_one_ulp_wider() { return shaft_of(std::nextafter(half_width, 1.0)); }
 
 Scene shaft_wider() {
   constexpr double room = 1e-6;
@@ -131,20 +125,21 @@ std::vector<SceneFamily> ground_families() {
 
 std::vector<BuiltInScene> ground_scenes() {
   return {
-      {"flush_tiles", "walk at 7.3 m/s over separate 1 m tiles: speed and height do not change at the seams", nullptr,
-       "tiles", walked_at(7.3)},
-      {"flush_tiles_slow", "the same at 1.7 m/s: no change", nullptr, "tiles", walked_at(1.7)},
-      {"flush_tiles_fast", "the same at 11.3 m/s: no change", nullptr, "tiles", walked_at(11.3)},
+      {"flush_tiles", "walk at 7.3 m/s over separate 1 m tiles: speed and height do not change at the seams", "tiles",
+       walked_at(7.3)},
+      {"flush_tiles_slow", "the same at 1.7 m/s: no change", "tiles", walked_at(1.7)},
+      {"flush_tiles_fast", "the same at 11.3 m/s: no change", "tiles", walked_at(11.3)},
       {"flush_tiles_slide", "slide at 5 m/s with nothing to steer: speed and height do not change at the seams",
        flush_tiles_slide},
       {"slope_joints", "walk over a hill of 30 degrees with snap: the path is the hill's offset curve", slope_joints},
       {"slope_joints_no_snap", "the same without snap: a ballistic hop where the ground falls away",
-       slope_joints_no_snap},
+       [] { return slope_joints_with(0); }},
       {"skier", "down 30 degrees, then up 10, with snap: the path is the offset curve", skier},
       {"skier_no_snap", "the same without snap: hops down, follows up", skier_no_snap},
-      {"exact_fit_shaft", "a shaft exactly as wide as the character: falls or stays, never overlaps", exact_fit_shaft},
+      {"exact_fit_shaft", "a shaft exactly as wide as the character: falls or stays, never overlaps",
+       [] { return shaft_of(half_width); }},
       {"shaft_one_ulp_wider", "one ulp of room on each side, which counts as closed: never overlaps",
-       shaft_one_ulp_wider},
+       [] { return shaft_of(std::nextafter(half_width, 1.0)); }},
       {"shaft_1um_wider", "1 micrometre of room on each side: falls freely, x does not change", shaft_wider},
   };
 }

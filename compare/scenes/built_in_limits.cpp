@@ -11,8 +11,7 @@ namespace {
 
 /// Walks from level ground against a ramp 3 m long that rises by `tangent`.
 Scene ramp_of(double tangent) {
-  Scene scene = walk(-2, half_height + 0.02, 1, 90);
-  scene.gravity = {0, -30};
+  Scene scene = walk(-2, half_height + 0.02, 1, 90, 30);
   scene.character.max_climb_degrees = 50;
   add_polygon(scene, "ground", {{-6, -1}, {9, -1}, {9, 3 * tangent}, {3, 3 * tangent}, {0, 0}, {-6, 0}});
   return scene;
@@ -33,25 +32,16 @@ Scene not_climbed(double tangent) {
   return scene;
 }
 
-// tan(50 degrees + the angle in the name)
-Scene climb_below() { return climbed(1.1917511723204688); }
-Scene climb_above() { return not_climbed(1.19175601287372); }
-Scene climb_far_below() { return climbed(1.0774552687432373); }
-Scene climb_far_above() { return not_climbed(1.3205494158674156); }
-
 /// Falls for one second through empty air.
 Scene fall(const ParameterValues& values) {
   const double dt = values["dt"];
   const int steps = static_cast<int>(std::lround(1 / dt));
-  Scene scene = flight(0, 0, 0, 0, steps);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, 0, 0, 0, steps, 10);
   scene.dt = dt;
   add_box(scene, "floor", -4, -30, 4, -29);
   scene.answers = {x_is(0).within(0), y_is(-fallen(scene, steps)).within(1e-11 * steps)};
   return scene;
 }
-
-std::vector<ParameterSetting> step_of(double dt) { return {{"dt", dt}}; }
 
 /// 64 lengths from 1/1024 to 31/1024 s in no order: each and the next make 32/1024 s, so all of them 1 s, exactly.
 std::vector<double> uneven_steps() {
@@ -85,8 +75,7 @@ Scene uneven_flight() {
 Scene random_steps(const ParameterValues& values) {
   constexpr double shortest = 1e-4;  // [s]
   constexpr double time = 8;         // [s]
-  Scene scene = walk(0, half_height + 0.02, 1, 1);
-  scene.gravity = {0, -30};
+  Scene scene = walk(0, half_height + 0.02, 1, 1, 30);
   std::mt19937_64 random(static_cast<std::uint64_t>(values["seed"]));
   double sum = 0;
   for (scene.steps = 0; sum < time; ++scene.steps) {
@@ -103,8 +92,7 @@ Scene random_steps(const ParameterValues& values) {
 
 /// Stands on a lift that goes up and down while the steps differ.
 Scene uneven_lift() {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 512);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 512, 30);
   scene.dt_list = uneven_steps();
   add_box(scene, "lift", -2, -0.25, 2, 0);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = {1, 3}}},
@@ -129,17 +117,11 @@ Scene tiles_of(int count) {
   return scene;
 }
 
-Scene tiles_1e2() { return tiles_of(100); }
-Scene tiles_1e3() { return tiles_of(1000); }
-Scene tiles_1e4() { return tiles_of(10'000); }
-
 /// Flies at 6,000 m/s, 100 m in a step, through a sensor of 1 cm and one of no thickness at all.
 Scene thin_sensor() {
   Scene scene = flight(0, 0, 6000, 0, 3);
-  add_box(scene, "gate", 20, -2, 20.01, 2);
-  scene.scenery.colliders.back().sensor = true;
-  add_chain(scene, "line", {{40, -2}, {40, 2}});
-  scene.scenery.colliders.back().sensor = true;
+  add_box(scene, "gate", 20, -2, 20.01, 2).sensor = true;
+  add_chain(scene, "line", {{40, -2}, {40, 2}}).sensor = true;
   add_box(scene, "wall", 150, -2, 151, 2);
   constexpr double step_x = 100;
   const auto after = [](Answer::Of of, double way) { return is(of, way / step_x).gaps(1 / step_x).within(1e-12); };
@@ -154,8 +136,7 @@ Scene thin_sensor() {
 /// Flies at 6 m/s through a sensor that is no whole square, and into a wall.
 Scene sensor_gate() {
   Scene scene = flight(0.5, half_height, 6, 0, 120);
-  add_box(scene, "gate", 4, -1, 4.5, 3);
-  scene.scenery.colliders.back().sensor = true;
+  add_box(scene, "gate", 4, -1, 4.5, 3).sensor = true;
   add_box(scene, "wall", 8, -1, 9, 3);
   constexpr double step_x = 0.1;
   scene.answers = {is(Answer::Of::enter, (3.5 - half_width) / step_x).gaps(1 / step_x).within(1e-9).to("gate"),
@@ -169,8 +150,7 @@ Scene sensor_gate() {
 /// corner, of the steps on which something is met.
 Scene replica(const ParameterValues& values) {
   const double distance = values["aside"];
-  Scene scene = walk(distance, half_height + 0.02 + distance, 1, 240);
-  scene.gravity = {0, -30};
+  Scene scene = walk(distance, half_height + 0.02 + distance, 1, 240, 30);
   add_box(scene, "floor", -4, -1, 30, 0);
   add_box(scene, "block", 6, 0, 9, 1);
   add_box(scene, "wall", 14, 0, 15, 6);
@@ -182,8 +162,6 @@ Scene replica(const ParameterValues& values) {
   rests_after(scene, 200);
   return scene;
 }
-
-std::vector<ParameterSetting> aside(double distance) { return {{"aside", distance}}; }
 
 }  // namespace
 
@@ -202,34 +180,39 @@ std::vector<SceneFamily> limit_families() {
 
 std::vector<BuiltInScene> limit_scenes() {
   return {
-      {"climb_limit_-1e-6", "against a ramp of 50° - 1e-6 rad with a limit of 50°: is walked up", climb_below},
-      {"climb_limit_+1e-6", "against a ramp of 50° + 1e-6 rad with a limit of 50°: is not", climb_above},
-      {"climb_limit_-0.05", "against a ramp of 50° - 0.05 rad with a limit of 50°: is walked up", climb_far_below},
-      {"climb_limit_+0.05", "against a ramp of 50° + 0.05 rad with a limit of 50°: is not", climb_far_above},
-      {"fall_dt_1", "a fall of one second in 1 step: g h² n (n + 1) / 2 = 10 m", nullptr, "fall", step_of(1)},
-      {"fall_dt_1e-1", "the same in 10 steps: 5.5 m", nullptr, "fall", step_of(0.1)},
-      {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", nullptr, "fall", step_of(0.01)},
-      {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", nullptr, "fall", step_of(0.001)},
-      {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", nullptr, "fall", step_of(0.0001)},
+      // Their tangents are those of 50 degrees and the angle in the name.
+      {"climb_limit_-1e-6", "against a ramp of 50° - 1e-6 rad with a limit of 50°: is walked up",
+       [] { return climbed(1.1917511723204688); }},
+      {"climb_limit_+1e-6", "against a ramp of 50° + 1e-6 rad with a limit of 50°: is not",
+       [] { return not_climbed(1.19175601287372); }},
+      {"climb_limit_-0.05", "against a ramp of 50° - 0.05 rad with a limit of 50°: is walked up",
+       [] { return climbed(1.0774552687432373); }},
+      {"climb_limit_+0.05", "against a ramp of 50° + 0.05 rad with a limit of 50°: is not",
+       [] { return not_climbed(1.3205494158674156); }},
+      {"fall_dt_1", "a fall of one second in 1 step: g h² n (n + 1) / 2 = 10 m", "fall", with("dt", 1)},
+      {"fall_dt_1e-1", "the same in 10 steps: 5.5 m", "fall", with("dt", 0.1)},
+      {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", "fall", with("dt", 0.01)},
+      {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", "fall", with("dt", 0.001)},
+      {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", "fall", with("dt", 0.0001)},
       {"even_flight", "two seconds at a constant velocity in 128 steps of 1/64 s", even_flight},
       {"uneven_flight", "the same in 128 steps of 1/1024 to 31/1024 s: the same end, to an ulp per step",
        uneven_flight},
       {"uneven_lift", "stands on a lift while the steps differ: carried without a lag, (p - m) within an ulp",
        uneven_lift},
-      {"tiles_1e2", "walks over 100 tiles: what more tiles around it must not change", tiles_1e2},
-      {"tiles_1e3", "walks over 1,000 tiles: the same", tiles_1e3},
-      {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},
+      {"tiles_1e2", "walks over 100 tiles: what more tiles around it must not change", [] { return tiles_of(100); }},
+      {"tiles_1e3", "walks over 1,000 tiles: the same", [] { return tiles_of(1000); }},
+      {"tiles_1e4", "walks over 10,000 tiles: the same", [] { return tiles_of(10'000); }},
       {"thin_sensor", "100 m in a step through a sensor of 1 cm and one of none: one enter and one exit each",
        thin_sensor},
       {"sensor_gate", "through a sensor in steps 31 to 43, into a wall in step 71: the sensor stops no character",
        sensor_gate},
-      {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", nullptr, "replica_of",
-       aside(0)},
-      {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", nullptr, "replica_of",
-       aside(1e-12)},
-      {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-9)},
-      {"replica_1e-6", "the same begun 1e-6 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-6)},
-      {"replica_1e-3", "the same begun 1e-3 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-3)},
+      {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", "replica_of",
+       with("aside", 0)},
+      {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", "replica_of",
+       with("aside", 1e-12)},
+      {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", "replica_of", with("aside", 1e-9)},
+      {"replica_1e-6", "the same begun 1e-6 m aside: the same sequence of events", "replica_of", with("aside", 1e-6)},
+      {"replica_1e-3", "the same begun 1e-3 m aside: the same sequence of events", "replica_of", with("aside", 1e-3)},
   };
 }
 

@@ -10,8 +10,7 @@ namespace {
 
 /// Stands on a lift that goes there and back.
 Scene lift_by(const Vec2d& way) {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 600);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 600, 30);
   add_box(scene, "lift", -2, -0.25, 2, 0);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = way}},
             MoverDef::Loop::ping_pong);
@@ -22,15 +21,9 @@ Scene lift_by(const Vec2d& way) {
   return scene;
 }
 
-Scene lift_up() { return lift_by({0, 3}); }
-Scene lift_down() { return lift_by({0, -3}); }
-Scene lift_sideways() { return lift_by({4, 0}); }
-
 Scene conveyor() {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 120);
-  scene.gravity = {0, -30};
-  add_box(scene, "belt", -4, -1, 20, 0);
-  scene.scenery.colliders.back().surface_speed = 2;
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 120, 30);
+  add_box(scene, "belt", -4, -1, 20, 0).surface_speed = 2;
   const double landed = steps_to_fall(scene, 0.02);
   scene.answers = {x_is(2 * scene.dt * (scene.steps - landed)).law(), y_is(half_height),
                    is(Answer::Of::speed, 2, {1, 0})};
@@ -41,8 +34,7 @@ Scene conveyor() {
 Scene closing_ceiling() {
   constexpr double gap = 1.07;
   constexpr double speed = 3;
-  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60, 30);
   add_box(scene, "floor", -4, -1, 4, 0);
   const double head = 2 * half_height;
   add_box(scene, "ceiling", -4, head + gap, 4, head + gap + 1);
@@ -58,8 +50,7 @@ Scene closing_ceiling() {
 Scene moving_paper(const ParameterValues& values) {
   const double speed = values["closing"];
   const double thickness = values["thickness"];
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 0);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 0, 30);
   const double step_x = speed * scene.dt;
   const double way = std::max(10.0, 4 * step_x);
   const double lasts = way / speed;
@@ -101,8 +92,7 @@ Scene papers_swap() {
 
 /// A paper turns about its middle beside a character that stands.
 Scene rotating_paper() {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 120, 30);
   add_box(scene, "floor", -4, -1, 4, 0);
   add_box(scene, "paper", -1, -0.005, 1, 0.005);
   move_last(scene, {{.time = 0, .at = {1.2, 1.2}}});
@@ -146,14 +136,17 @@ std::vector<SceneFamily> moving_families() {
 
 std::vector<BuiltInScene> moving_scenes() {
   return {
-      {"lift_up", "stands on a lift up and down again: carried without a lag, one contact begins", lift_up},
-      {"lift_down", "stands on a lift down and up again: carried without a lag, one contact begins", lift_down},
-      {"lift_sideways", "stands on a lift to the side and back: carried without a lag", lift_sideways},
+      {"lift_up", "stands on a lift up and down again: carried without a lag, one contact begins",
+       [] { return lift_by(Vec2d(0, 3)); }},
+      {"lift_down", "stands on a lift down and up again: carried without a lag, one contact begins",
+       [] { return lift_by(Vec2d(0, -3)); }},
+      {"lift_sideways", "stands on a lift to the side and back: carried without a lag",
+       [] { return lift_by(Vec2d(4, 0)); }},
       {"conveyor", "stands on a belt of 2 m/s: carried at that speed", conveyor},
       {"closing_ceiling",
        "a ceiling 1.07 m above its head comes down at 3 m/s: crushed in step 21, where gap / (v h) = 21.4 falls",
        closing_ceiling},
-      {"sweeping_paper", "a paper 1.9 m away comes at 20 m/s: met after 0.095 s, then pushed along, side kept", nullptr,
+      {"sweeping_paper", "a paper 1.9 m away comes at 20 m/s: met after 0.095 s, then pushed along, side kept",
        "moving_paper"},
       {"head_on", "30 m/s against a paper at 18 m/s, 2 m away: t = d / (v1 + v2), in step 2 at t = 0.5", head_on},
       {"papers_swap", "two papers pass each other around a character: neither is met", papers_swap},

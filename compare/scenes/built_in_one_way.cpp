@@ -7,17 +7,11 @@ namespace paperproof::compare {
 
 namespace {
 
-void add_ledge(Scene& scene, double left, double right, double y, std::string id = "ledge") {
-  add_chain(scene, std::move(id), {{left, y}, {right, y}});
-  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
-}
-
 /// A character that stands on a floor, below a ledge.
 Scene below_a_ledge(double ledge_y, int steps) {
-  Scene scene = walk(0, half_height + 0.02, 0, steps);
-  scene.gravity = {0, -30};
+  Scene scene = walk(0, half_height + 0.02, 0, steps, 30);
   add_box(scene, "floor", -20, -1, 20, 0);
-  add_ledge(scene, -4, 4, ledge_y);
+  add_ledge(scene, "ledge", {{-4, ledge_y}, {4, ledge_y}});
   return scene;
 }
 
@@ -51,10 +45,9 @@ Scene one_way_solid() {
 }
 
 Scene one_way_from_above() {
-  Scene scene = flight(0, 2 + half_height, 0, -50, 120);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 2 + half_height, 0, -50, 120, 30);
   add_box(scene, "floor", -4, -4, 4, -3);
-  add_ledge(scene, -2, 2, 0);
+  add_ledge(scene, "ledge", {{-2, 0}, {2, 0}});
   scene.answers = {contact(steps_to_fall(scene, 2, 50), 50 * scene.dt).to("ledge")};
   ends_at(scene, 0, half_height);
   return scene;
@@ -63,7 +56,7 @@ Scene one_way_from_above() {
 /// Flies level through the tip of a ledge at the height of its arms.
 Scene one_way_from_the_side() {
   Scene scene = flight(-3, 0, 6, 0, 60);
-  add_ledge(scene, 0, 2, 0);
+  add_ledge(scene, "ledge", {{0, 0}, {2, 0}});
   scene.answers = {count(Answer::Of::contacts, 0), is(Answer::Of::speed, 6, {1, 0})};
   ends_at(scene, 3, 0);
   return scene;
@@ -71,10 +64,9 @@ Scene one_way_from_the_side() {
 
 /// Begins in the middle of a ledge: it is not wholly above, so the ledge does not hold it.
 Scene one_way_from_within() {
-  Scene scene = flight(0, 0, 0, 0, 90);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 0, 0, 0, 90, 30);
   add_box(scene, "floor", -4, -4, 4, -3);
-  add_ledge(scene, -2, 2, 0);
+  add_ledge(scene, "ledge", {{-2, 0}, {2, 0}});
   scene.answers = {count(Answer::Of::contacts, 0).to("ledge"),
                    contact(steps_to_fall(scene, 3 - half_height), 10 * scene.dt).to("floor")};
   ends_at(scene, 0, -3 + half_height);
@@ -91,7 +83,7 @@ Scene one_way_at_rest() {
 /// Drops for 5 steps: 5 · 6 / 2 g h² = 0.125 m, more than Box2D's rest gap and less than to the next ledge.
 Scene one_way_drop() {
   Scene scene = on_a_ledge(180);
-  add_ledge(scene, -4, 4, 0.5, "lower");
+  add_ledge(scene, "lower", {{-4, 0.5}, {4, 0.5}});
   hold_drop(scene, 60, 65);
   scene.answers = {contact(60 + steps_to_fall(scene, 1.5), 9 * scene.dt).to("lower")};
   ends_at(scene, 0, 0.5 + half_height);
@@ -101,7 +93,7 @@ Scene one_way_drop() {
 /// Holds the button all the way down: nothing but the floor holds it.
 Scene one_way_drop_held() {
   Scene scene = on_a_ledge(180);
-  add_ledge(scene, -4, 4, 0.5, "lower");
+  add_ledge(scene, "lower", {{-4, 0.5}, {4, 0.5}});
   hold_drop(scene, 60, 120);
   scene.answers = {contact(60 + steps_to_fall(scene, 2), 10 * scene.dt).to("floor"),
                    count(Answer::Of::contacts, 0).to("lower")};
@@ -111,10 +103,9 @@ Scene one_way_drop_held() {
 
 /// Stands on a ledge that goes 3 m there and back.
 Scene one_way_lift_by(const Vec2d& way) {
-  Scene scene = flight(0, 4 + half_height + 0.02, 0, 0, 480);
-  scene.gravity = {0, -30};
+  Scene scene = flight(0, 4 + half_height + 0.02, 0, 0, 480, 30);
   add_box(scene, "floor", -20, -1, 20, 0);
-  add_ledge(scene, -2, 2, 4);
+  add_ledge(scene, "ledge", {{-2, 4}, {2, 4}});
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2, .at = way}},
             MoverDef::Loop::ping_pong);
   return scene;
@@ -127,10 +118,6 @@ Scene one_way_ride(const Vec2d& way) {
   scene.answers.push_back(y_is(4 + way.y() + half_height).after(120));
   return scene;
 }
-
-Scene one_way_lift_up() { return one_way_ride({0, 3}); }
-Scene one_way_lift_down() { return one_way_ride({0, -3}); }
-Scene one_way_lift_sideways() { return one_way_ride({3, 0}); }
 
 /// Drops off a ledge that rises at 2 m/s, and takes that speed along: it comes down on the floor.
 Scene one_way_lift_drop() {
@@ -165,7 +152,7 @@ Scene one_way_turns_within() {
 /// A ledge comes down past a character that floats, turns 0.5 m below its feet, and throws it up.
 Scene one_way_turns_below() {
   Scene scene = flight(0, 0, 0, 0, 120);
-  add_ledge(scene, -2, 2, 2);
+  add_ledge(scene, "ledge", {{-2, 2}, {2, 2}});
   move_last(scene, {{.time = 0, .at = {0, 0}},
                     {.time = 0.75, .at = {0, -2 - half_height - 0.5}},
                     {.time = 1.72, .at = {0, -2 - half_height + 1}}});
@@ -192,9 +179,12 @@ std::vector<BuiltInScene> one_way_scenes() {
       {"one_way_at_rest", "stands on a one-way ledge: it holds, and nothing moves", one_way_at_rest},
       {"one_way_drop", "drops through a one-way ledge: the next one holds", one_way_drop},
       {"one_way_drop_held", "drops for as long as it falls: no ledge holds, the floor does", one_way_drop_held},
-      {"one_way_lift_up", "stands on a one-way ledge up and down again: carried", one_way_lift_up},
-      {"one_way_lift_down", "stands on a one-way ledge down and up again: carried", one_way_lift_down},
-      {"one_way_lift_sideways", "stands on a one-way ledge to the side and back: carried", one_way_lift_sideways},
+      {"one_way_lift_up", "stands on a one-way ledge up and down again: carried",
+       [] { return one_way_ride(Vec2d(0, 3)); }},
+      {"one_way_lift_down", "stands on a one-way ledge down and up again: carried",
+       [] { return one_way_ride(Vec2d(0, -3)); }},
+      {"one_way_lift_sideways", "stands on a one-way ledge to the side and back: carried",
+       [] { return one_way_ride(Vec2d(3, 0)); }},
       {"one_way_lift_drop", "drops off a one-way ledge that rises: passes it, and comes down on the floor",
        one_way_lift_drop},
       {"one_way_lift_from_below", "jumps through a one-way ledge that moves: passes it, and lands on it",

@@ -11,9 +11,8 @@ namespace {
 
 /// Under the usual gravity; what moves begins to walk with `move` at `step`.
 Scene play(double x, double y, int steps, double move = 0, int step = 0) {
-  Scene scene = flight(x, y, 0, 0, steps);
-  scene.gravity = {0, -30};
-  if (move != 0) scene.input = {{.step = step, .move = move, .jump = std::nullopt}};
+  Scene scene = flight(x, y, 0, 0, steps, 30);
+  if (move != 0) scene.input = {steer(step, move)};
   return scene;
 }
 
@@ -79,16 +78,10 @@ Scene gap_higher() {
 
 Scene gap_jumped() {
   Scene scene = gap_of(3, 0.25, 120);
-  scene.input.push_back(press(20));
-  scene.input.push_back(release(30));
+  hold_jump(scene, 20, 30);
   ends_at(scene, -2 + walked(scene, scene.steps), 0.25 + half_height);
   return scene;
 }
-
-Scene gap_crossed_left() { return mirrored(gap_crossed()); }
-Scene gap_fallen_left() { return mirrored(gap_fallen()); }
-Scene gap_higher_left() { return mirrored(gap_higher()); }
-Scene gap_jumped_left() { return mirrored(gap_jumped()); }
 
 /// Touches a ramp that is too steep to walk on, 12 m above its foot. Whether it steers uphill or not at all, it slides
 /// as gravity alone would have it: g sin² downwards.
@@ -118,16 +111,6 @@ Scene begun_on_slope(double degrees, double move) {
   if (degrees <= scene.character.max_climb_degrees) scene.answers.clear();
   return scene;
 }
-
-Scene steep_ramp_51() { return steep_ramp(51, 0); }
-Scene steep_ramp_51_up() { return steep_ramp(51, 1); }
-Scene steep_ramp_51_down() { return steep_ramp(51, -1); }
-Scene steep_ramp_70() { return steep_ramp(70, 0); }
-Scene steep_ramp_70_up() { return steep_ramp(70, 1); }
-Scene steep_ramp_70_down() { return steep_ramp(70, -1); }
-Scene steep_ramp_89() { return steep_ramp(89, 0); }
-Scene steep_ramp_89_up() { return steep_ramp(89, 1); }
-Scene steep_ramp_89_down() { return steep_ramp(89, -1); }
 
 /// Up 45 degrees into a wall: it stands with its right side at the wall and its right foot on the slope.
 Scene slope_wall_hop() {
@@ -167,10 +150,6 @@ Scene climb_45(double size, double x) {
   return scene;
 }
 
-Scene climb45_3m() { return climb_45(3, 0); }
-Scene climb45_5m() { return climb_45(5, 0); }
-Scene climb45_far() { return climb_45(1.7, 1000.1); }
-
 /// A kerb 1 m away: without a step height the side of its foot stays at the kerb's edge.
 Scene kerb_of(double height) {
   Scene scene = play(0, half_height + 0.005, 60, 1, 10);
@@ -181,19 +160,10 @@ Scene kerb_of(double height) {
   return scene;
 }
 
-Scene kerb_1mm() { return kerb_of(0.001); }
-Scene kerb_10cm() { return kerb_of(0.1); }
-Scene low_step() { return kerb_of(0.3); }
-
-void add_one_way(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  add_chain(scene, std::move(id), std::move(points));
-  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
-}
-
 /// Dropped onto a one-way hill, then over it, and off its end onto the floor.
 Scene oneway_hill() {
   Scene scene = play(-1.5, 1.5, 120, 1, 20);
-  add_one_way(scene, "hill", {{-4, 0}, {0, 1}, {4, 0}});
+  add_ledge(scene, "hill", {{-4, 0}, {0, 1}, {4, 0}});
   add_box(scene, "floor", -9, -4, 9, -3);
   const double way = 1.5 - half_height - (1 - (1.5 - foot) / 4);  // of the right foot, to the hill
   constexpr int steps = 70;
@@ -210,7 +180,7 @@ Scene oneway_hill() {
 /// Dropped onto the peak of a roof of 1 in 4, feet astride: it stands on the peak.
 Scene oneway_peak() {
   Scene scene = play(0, half_height + 0.4, 90);
-  add_one_way(scene, "roof", {{-3, -0.75}, {0, 0}, {3, -0.75}});
+  add_ledge(scene, "roof", {{-3, -0.75}, {0, 0}, {3, -0.75}});
   scene.answers = {contact(steps_to_fall(scene, 0.4), 4 * scene.dt).to("roof"),
                    count(Answer::Of::in_the_air, 0).after(30).law()};
   ends_at(scene, 0, half_height);
@@ -226,7 +196,7 @@ Scene oneway_noise() {
   Scene scene = play(-width + 1, half_height + 0.1, 120, 1, begin);
   std::vector<Vec2d> line;
   for (int i = 0; i <= 32; ++i) line.emplace_back(-width + i * width / 16, (i * i + i / 5) % 3 * noise);
-  add_one_way(scene, "platform", std::move(line));
+  add_ledge(scene, "platform", std::move(line));
   add_box(scene, "floor", width, -3, 30, -2);
   const auto x_after = [&](int steps) { return -width + 1 + walked(scene, steps - begin); };
   const double leaves = begin + steps_to_walk(scene, 2 * width - 1 + foot);  // the platform, with its left foot
@@ -274,7 +244,7 @@ Scene oneway_arch() {
   }
   Scene scene = play(-3, height_over(line, -3) + half_height + 0.2, 150, 1, begin);
   scene.character.snap = 0.3;
-  add_one_way(scene, "arch", line);
+  add_ledge(scene, "arch", line);
   add_box(scene, "floor", -9, -5, 15, -4);
   const auto x_after = [&](int steps) { return -3 + walked(scene, steps - begin); };
   const int half = begin + static_cast<int>(steps_to_walk(scene, 3));  // at the top
@@ -389,32 +359,34 @@ std::vector<BuiltInScene> play_scenes() {
   return {
       {"ledge_corner", "key held into the corner of a ledge: falls at once, as without the key", ledge_corner},
       {"gap_crossed", "0.7 m to a platform 0.1 m lower, key held: crossed", gap_crossed},
-      {"gap_crossed_left", "the same to the left: the mirror image", gap_crossed_left},
+      {"gap_crossed_left", "the same to the left: the mirror image", [] { return mirrored(gap_crossed()); }},
       {"gap_fallen", "1 m to a level platform, key held: falls down the far side, to the ground", gap_fallen},
-      {"gap_fallen_left", "the same to the left: the mirror image", gap_fallen_left},
+      {"gap_fallen_left", "the same to the left: the mirror image", [] { return mirrored(gap_fallen()); }},
       {"gap_higher", "1.5 m to a platform 0.25 m higher, key held: falls down the far side", gap_higher},
-      {"gap_higher_left", "the same to the left: the mirror image", gap_higher_left},
+      {"gap_higher_left", "the same to the left: the mirror image", [] { return mirrored(gap_higher()); }},
       {"gap_jumped", "3 m to a platform 0.25 m higher, with a jump: crossed", gap_jumped},
-      {"gap_jumped_left", "the same to the left: the mirror image", gap_jumped_left},
-      {"steep_ramp_51", "down a ramp of 51° with a limit of 50°: slides by g sin² t² / 2", steep_ramp_51},
-      {"steep_ramp_51_up", "the same with the key held uphill: the same y(t)", steep_ramp_51_up},
-      {"steep_ramp_51_down", "the same with the key held downhill: never slower", steep_ramp_51_down},
-      {"steep_ramp_70", "down a ramp of 70°: slides by g sin² t² / 2", steep_ramp_70},
-      {"steep_ramp_70_up", "the same with the key held uphill: the same y(t)", steep_ramp_70_up},
-      {"steep_ramp_70_down", "the same with the key held downhill: never slower", steep_ramp_70_down},
-      {"steep_ramp_89", "down a ramp of 89°: slides by g sin² t² / 2", steep_ramp_89},
-      {"steep_ramp_89_up", "the same with the key held uphill: the same y(t)", steep_ramp_89_up},
-      {"steep_ramp_89_down", "the same with the key held downhill: never slower", steep_ramp_89_down},
+      {"gap_jumped_left", "the same to the left: the mirror image", [] { return mirrored(gap_jumped()); }},
+      {"steep_ramp_51", "down a ramp of 51° with a limit of 50°: slides by g sin² t² / 2",
+       [] { return steep_ramp(51, 0); }},
+      {"steep_ramp_51_up", "the same with the key held uphill: the same y(t)", [] { return steep_ramp(51, 1); }},
+      {"steep_ramp_51_down", "the same with the key held downhill: never slower", [] { return steep_ramp(51, -1); }},
+      {"steep_ramp_70", "down a ramp of 70°: slides by g sin² t² / 2", [] { return steep_ramp(70, 0); }},
+      {"steep_ramp_70_up", "the same with the key held uphill: the same y(t)", [] { return steep_ramp(70, 1); }},
+      {"steep_ramp_70_down", "the same with the key held downhill: never slower", [] { return steep_ramp(70, -1); }},
+      {"steep_ramp_89", "down a ramp of 89°: slides by g sin² t² / 2", [] { return steep_ramp(89, 0); }},
+      {"steep_ramp_89_up", "the same with the key held uphill: the same y(t)", [] { return steep_ramp(89, 1); }},
+      {"steep_ramp_89_down", "the same with the key held downhill: never slower", [] { return steep_ramp(89, -1); }},
       {"slope_wall_hop", "up 45° into a wall, key held: comes to rest in the corner, grounded", slope_wall_hop},
       {"slope_into_ceiling", "up 30° under a level ceiling, key held: comes to rest between the two, grounded",
        slope_into_ceiling},
       {"slope_into_steep", "up 30° to where it becomes 60°, key held: comes to rest there, grounded", slope_into_steep},
-      {"climb45_3m", "a slope of 45°, 3 m high, with a limit of 45°: is walked up", climb45_3m},
-      {"climb45_5m", "the same 5 m high: is walked up, too", climb45_5m},
-      {"climb45_far", "the same 1.7 m high, 1,000.1 m from the origin: is walked up, too", climb45_far},
-      {"kerb_1mm", "a kerb of 1 mm, without a step height: stops at its edge", kerb_1mm},
-      {"kerb_10cm", "a kerb of 10 cm: stops at its edge", kerb_10cm},
-      {"low_step", "a step of 30 cm: stops at its edge", low_step},
+      {"climb45_3m", "a slope of 45°, 3 m high, with a limit of 45°: is walked up", [] { return climb_45(3, 0); }},
+      {"climb45_5m", "the same 5 m high: is walked up, too", [] { return climb_45(5, 0); }},
+      {"climb45_far", "the same 1.7 m high, 1,000.1 m from the origin: is walked up, too",
+       [] { return climb_45(1.7, 1000.1); }},
+      {"kerb_1mm", "a kerb of 1 mm, without a step height: stops at its edge", [] { return kerb_of(0.001); }},
+      {"kerb_10cm", "a kerb of 10 cm: stops at its edge", [] { return kerb_of(0.1); }},
+      {"low_step", "a step of 30 cm: stops at its edge", [] { return kerb_of(0.3); }},
       {"oneway_hill", "over a one-way hill: it holds everywhere, to its end", oneway_hill},
       {"oneway_peak", "dropped onto the peak of a one-way roof: stands on it", oneway_peak},
       {"oneway_noise", "over a one-way platform that is level but for 1e-6 m: it holds, to its end", oneway_noise},

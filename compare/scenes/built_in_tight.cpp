@@ -57,8 +57,7 @@ Scene closing_walls(const ParameterValues& values) {
   const double speed = values["closing"];
   const double thickness = values["thickness"];
   const double distance = begin - half_width - clearance;
-  Scene scene = flight(aside, half_height + 0.01, 0, 0, 0);
-  scene.gravity = {0, -10};
+  Scene scene = flight(aside, half_height + 0.01, 0, 0, 0, 10);
   scene.steps = steps_for(scene, distance, speed);
   add_box(scene, "floor", -4, -1, 4, 0);
   for (const double side : {-1.0, 1.0}) {
@@ -80,8 +79,7 @@ Scene closing_lift(const ParameterValues& values) {
   const double clearance = values["clearance"];
   const double speed = values["closing"];
   const double thickness = values["thickness"];
-  Scene scene = flight(0, half_height, 0, 0, 0);
-  scene.gravity = {0, -10};
+  Scene scene = flight(0, half_height, 0, 0, 0, 10);
   scene.steps = steps_for(scene, rise, speed);
   const double ceiling = 2 * half_height + rise + clearance;
   add_box(scene, "ceiling", -4, ceiling, 4, ceiling + thickness);

@@ -29,14 +29,20 @@ class InputError : public std::runtime_error {
 /// The one scene of that name. @throws InputError as well where there are several.
 [[nodiscard]] Scene load_scene(const std::string& name_or_path, std::span<const ParameterSetting> settings);
 
-/// The names of the built-in scenes with their descriptions, in the order of registration.
+/// A built-in scene: by itself, or a member of a family with these settings.
 struct BuiltInScene {
+  BuiltInScene(std::string own_name, std::string about, Scene (*made_by)())
+      : name(std::move(own_name)), description(std::move(about)), make(made_by) {}
+  BuiltInScene(std::string own_name, std::string about, std::string_view of, std::vector<ParameterSetting> set = {})
+      : name(std::move(own_name)), description(std::move(about)), family(of), settings(std::move(set)) {}
+
   std::string name;
   std::string description;
   Scene (*make)() = nullptr;  ///< Null for a member of a family.
   std::string_view family{};
   std::vector<ParameterSetting> settings{};
 };
+/// All of them, in the order of registration.
 [[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();
 
 /// The family of a built-in member, empty where it has none; any other name as it is.
