@@ -203,13 +203,8 @@ RandomRun draw_among_presses(bool rims, std::uint64_t seed) {
   InputNotes notes(scene.input);
   for (int step = 0; step < scene.steps; step += 11)
     notes.note(step, {.move = random.integer(-1, 1), .jump = random.chance(0.3)});
-  const StepTimes times(scene);
-  for (const Shuttle& shuttle : chamber.shuttles) {
-    MoverDef& mover = scene.movers.emplace_back();
-    mover.id = std::to_string(scene.movers.size());
-    for (int step = 0; step <= scene.steps; ++step)
-      mover.path.push_back({times.begin(step), shuttle.at(step * scene.dt)});
-  }
+  for (const Shuttle& shuttle : chamber.shuttles)
+    add_sampled_mover(scene, [&](int step) { return shuttle.at(step * scene.dt); });
   return run;
 }
 

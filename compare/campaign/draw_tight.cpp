@@ -22,10 +22,7 @@ double reach_of(const Scene& scene, const Vec2d& way) {
 
 /// A mover that goes on by the same way in each step.
 MoverIndex add_steady(Scene& scene, const Vec2d& from, const Vec2d& way) {
-  const StepTimes times(scene);
-  MoverDef& mover = scene.movers.emplace_back();
-  mover.id = std::to_string(scene.movers.size());
-  for (int step = 0; step <= scene.steps; ++step) mover.path.push_back({times.begin(step), from + step * way});
+  add_sampled_mover(scene, [&](int step) { return Vec2d(from + step * way); });
   return static_cast<MoverIndex>(scene.movers.size() - 1);
 }
 

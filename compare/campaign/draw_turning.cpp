@@ -2,11 +2,9 @@
 #include "campaign/drawing.hpp"
 #include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
-#include "scenes/step_times.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 namespace paperproof::compare {
 namespace {
@@ -156,14 +154,10 @@ RandomRun draw_among_turning(Turning family, std::uint64_t seed) {
   draw_rules(random, scene.character);
   scene.dt = random.chance(0.8) ? 1.0 / 60 : random.log_between(1e-3, 0.05);
   scene.steps = 80;
-  const StepTimes times(scene);
   for (const Course& course : room.courses) {
-    MoverDef& mover = scene.movers.emplace_back();
-    mover.id = std::to_string(scene.movers.size());
-    for (int step = 0; step <= scene.steps; ++step) {
-      mover.path.push_back({times.begin(step), course.offset_at(step * scene.dt)});
-      mover.turns.push_back({times.begin(step), course.angle_at(step * scene.dt)});
-    }
+    MoverDef& mover = add_sampled_mover(scene, [&](int step) { return course.offset_at(step * scene.dt); });
+    for (int step = 0; step <= scene.steps; ++step)
+      mover.turns.push_back({mover.path[static_cast<std::size_t>(step)].time, course.angle_at(step * scene.dt)});
   }
   const auto hull = scene.character.shape.hull();
   const ExactScenery solids(scenery_at(scene, 0), {hull.begin(), hull.end()});

@@ -3,9 +3,11 @@
 
 #include "campaign/random.hpp"
 #include "campaign/random_run.hpp"
+#include "scenes/step_times.hpp"
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace paperproof::compare {
 
@@ -31,6 +33,16 @@ inline void draw_rules(Random& random, CharacterDef& character) {
 inline void press_keys(Random& random, Input& input) {
   if (random.chance(0.1)) input.move = random.integer(-1, 1);
   if (random.chance(0.1)) input.jump = !input.jump;
+}
+
+/// Adds a mover that is at `offset_at(step)` when each step begins.
+template <class OffsetAt>
+MoverDef& add_sampled_mover(Scene& scene, const OffsetAt& offset_at) {
+  const StepTimes times(scene);
+  MoverDef& mover = scene.movers.emplace_back();
+  mover.id = std::to_string(scene.movers.size());
+  for (int step = 0; step <= scene.steps; ++step) mover.path.push_back({times.begin(step), offset_at(step)});
+  return mover;
 }
 
 /// Adds a launch; before the first step it is what the character begins with.

@@ -17,35 +17,20 @@ class LevelBuilder {
   }
 
   SceneryDef level(PlayLevel level) {
+    using Part = void (LevelBuilder::*)();
+    using B = LevelBuilder;
+    constexpr std::array<Part, play_level_names.size()> parts{&B::gap,        &B::kerb,  &B::ramp, &B::funnel,
+                                                              &B::turned_box, &B::tooth, &B::arch, &B::dead_end};
+    const Part part = parts[static_cast<std::size_t>(level)];
     if (level == PlayLevel::platforms)
-      for (int i = 0; i < 150; ++i) turned_box();
+      for (int i = 0; i < 150; ++i) (this->*part)();
     else
-      while (x_ < half_hall - 8) part(level);
+      while (x_ < half_hall - 8) (this->*part)();
     return std::move(def_);
   }
 
  private:
   void add(ColliderDef collider) { def_.colliders.push_back(std::move(collider)); }
-
-  void part(PlayLevel level) {
-    switch (level) {
-      case PlayLevel::gaps:
-        return gap();
-      case PlayLevel::kerbs:
-        return kerb();
-      case PlayLevel::ramps:
-        return ramp();
-      case PlayLevel::funnels:
-        return funnel();
-      case PlayLevel::sawtooth:
-        return tooth();
-      case PlayLevel::arches:
-        return arch();
-      case PlayLevel::dead_ends:
-      case PlayLevel::platforms:
-        return dead_end();
-    }
-  }
 
   void gap() {
     const double width = random_.between(1, 6);

@@ -24,27 +24,21 @@ std::string lengths(const Scene& scene) {
 }
 
 std::string colliders(const SceneryDef& scenery) {
-  std::size_t polygons = 0;
+  const auto many = [&scenery](const auto& is_so) {
+    return static_cast<std::size_t>(std::count_if(scenery.colliders.begin(), scenery.colliders.end(), is_so));
+  };
+  const auto of = [&many](ColliderDef::Shape shape, bool one_way) {
+    return many([&](const ColliderDef& def) { return def.shape == shape && def.one_way.has_value() == one_way; });
+  };
   std::size_t holes = 0;
-  std::size_t chains = 0;
-  std::size_t one_way = 0;
-  std::size_t one_way_polygons = 0;
-  std::size_t circles = 0;
-  std::size_t moving = 0;
-  std::size_t sensors = 0;
-  for (const ColliderDef& collider : scenery.colliders) {
-    if (collider.mover != no_mover) ++moving;
-    if (collider.sensor) ++sensors;
-    if (collider.shape == ColliderDef::Shape::polygon) {
-      ++polygons;
-      if (collider.one_way) ++one_way_polygons;
-      holes += collider.holes.size();
-    } else if (collider.shape == ColliderDef::Shape::circle) {
-      ++circles;
-    } else {
-      ++(collider.one_way ? one_way : chains);
-    }
-  }
+  for (const ColliderDef& collider : scenery.colliders) holes += collider.holes.size();
+  const std::size_t one_way_polygons = of(ColliderDef::Shape::polygon, true);
+  const std::size_t polygons = of(ColliderDef::Shape::polygon, false) + one_way_polygons;
+  const std::size_t chains = of(ColliderDef::Shape::chain, false);
+  const std::size_t one_way = of(ColliderDef::Shape::chain, true);
+  const std::size_t circles = of(ColliderDef::Shape::circle, false);
+  const std::size_t moving = many([](const ColliderDef& def) { return def.mover != no_mover; });
+  const std::size_t sensors = many([](const ColliderDef& def) { return def.sensor; });
   std::string out = fmt::format("{} ({}), {}, {}", counted(polygons, "polygon"), counted(holes, "hole"),
                                 counted(chains, "two-sided chain"), counted(one_way, "one-way chain"));
   if (circles > 0) out += fmt::format(", {}", counted(circles, "circle"));

@@ -10,7 +10,7 @@
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
-#include "scenes/picture_map.hpp"
+#include "scenes/picture.hpp"
 #include "scenes/sets.hpp"
 #include "scenes/supertux.hpp"
 #include "scenes/tiled.hpp"

@@ -1,22 +1,21 @@
-/// What a map lacks that comes without a scene.
+/// What a map lacks that comes without a scene, and where its character can begin.
 #pragma once
 
 #include "scenes/scene.hpp"
 
-#include <fmt/format.h>
+#include <optional>
 
 namespace paperproof::compare {
 
-/// @param scene has its scale.
-inline void set_map_defaults(Scene& scene) {
-  scene.steps = 3600;
-  scene.character.max_fall_speed = 25;  // [m/s]; a fall down a whole level would reach 60 m/s
-  scene.moves_at_random = 1;            // a character that stands still meets nothing
-  // Where a slope or a floor is drawn by hand its ends lie on whole or half pixels: beside its neighbour, which is off
-  // by as much, there is a kerb of up to a pixel. Without a step height 6 mm hold a walker up for ever.
-  scene.character.step_height = 1 / scene.pixels_per_metre;
-  scene.description =
-      fmt::format("its character climbs kerbs up to a pixel of the map ({:.4g} m)", scene.character.step_height);
-}
+/// Steps, input and what its character can do. @param scene has its scale.
+void set_map_defaults(Scene& scene);
+
+/// Above the first ground: columns of `column` metres from the left of `box`, in each from top to bottom, the first
+/// place where the character stands free within the box, one sixteenth of a metre above a collider.
+[[nodiscard]] std::optional<Vec2d> first_ground(const Scene& scene, const Box2& box, double column);
+
+/// The free place nearest to `wanted` on a grid of 1/32 m: straight up to 5 m, else in the columns beside it (1 m
+/// apart, up to 8), else straight up to the top of `box`. `wanted` itself where that is free.
+[[nodiscard]] std::optional<Vec2d> free_place_near(const Scene& scene, const Box2& box, const Vec2d& wanted);
 
 }  // namespace paperproof::compare

@@ -63,60 +63,56 @@ void scale_character(CharacterDef& character, double scale) {
   std::vector<Vec2d> points;
   for (const Vec2d& point : character.shape.points()) points.push_back(point * scale);
   character.shape = CharacterShape(points);
-  character.walk_speed *= scale;
-  character.acceleration *= scale;
-  character.jump_speed *= scale;
-  character.snap *= scale;
-  character.step_height *= scale;
-  character.wall_reach *= scale;
+  for (double* length : {&character.walk_speed, &character.acceleration, &character.jump_speed, &character.snap,
+                         &character.step_height, &character.wall_reach})
+    *length *= scale;
   if (character.air_acceleration) *character.air_acceleration *= scale;
   if (character.max_fall_speed) *character.max_fall_speed *= scale;
 }
 
+/// Calls `change` with each place that a scene names, but for points of colliders and paths of movers.
+template <class Change>
+void for_each_place(Scene& scene, const Change& change) {
+  change(scene.start.position);
+  for (OtherCharacter& other : scene.others) change(other.start.position);
+  for (Joint& joint : scene.joints) {
+    change(joint.point);
+    change(joint.end);
+  }
+  if (!scene.respawn_box) return;
+  change(scene.respawn_box->lower);
+  change(scene.respawn_box->upper);
+}
+
 void scale_by(Scene& scene, double scale) {
-  scene.gravity *= scale;
+  const auto enlarge = [scale](auto& length) { length *= scale; };
+  for_each_place(scene, enlarge);
+  enlarge(scene.gravity);
   scene.pixels_per_metre /= scale;
   scale_character(scene.character, scale);
-  const auto scale_start = [scale](Start& start) {
-    start.position *= scale;
-    start.velocity *= scale;
-  };
-  scale_start(scene.start);
-  for (OtherCharacter& other : scene.others) scale_start(other.start);
+  enlarge(scene.start.velocity);
+  for (OtherCharacter& other : scene.others) enlarge(other.start.velocity);
   for (ColliderDef& collider : scene.scenery.colliders) {
-    for_each_point(collider, [scale](Vec2d& point) { point *= scale; });
-    collider.surface_speed *= scale;
-    collider.radius *= scale;
+    for_each_point(collider, enlarge);
+    enlarge(collider.surface_speed);
+    enlarge(collider.radius);
   }
   for (MoverDef& mover : scene.movers) {
-    for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at *= scale;
-    if (mover.body) mover.body->velocity *= scale;
+    for (MoverDef::Waypoint& waypoint : mover.path) enlarge(waypoint.at);
+    if (mover.body) enlarge(mover.body->velocity);
   }
-  for (Joint& joint : scene.joints) {  // forces grow as lengths do, so that stiffness and damping stay
-    joint.point *= scale;
-    joint.end *= scale;
-    joint.length *= scale;
-  }
-  if (scene.respawn_box) scene.respawn_box = Box2{scene.respawn_box->lower * scale, scene.respawn_box->upper * scale};
+  for (Joint& joint : scene.joints) enlarge(joint.length);  // forces grow alike: stiffness and damping stay
 }
 
 void shift_by(Scene& scene, double along) {
-  const Vec2d way(along, 0);
-  scene.start.position += way;
-  for (OtherCharacter& other : scene.others) other.start.position += way;
+  const auto shift = [along](Vec2d& place) { place += Vec2d(along, 0); };
+  for_each_place(scene, shift);
   // What turns does so about the point that it is written around: its path is shifted instead.
-  for (ColliderDef& collider : scene.scenery.colliders) {
-    const bool turns = collider.mover != no_mover && !scene.movers[collider.mover].turns.empty();
-    if (!turns) for_each_point(collider, [&](Vec2d& point) { point += way; });
-  }
+  for (ColliderDef& collider : scene.scenery.colliders)
+    if (collider.mover == no_mover || scene.movers[collider.mover].turns.empty()) for_each_point(collider, shift);
   for (MoverDef& mover : scene.movers)
     if (!mover.turns.empty())
-      for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at += way;
-  for (Joint& joint : scene.joints) {
-    joint.point += way;
-    joint.end += way;
-  }
-  if (scene.respawn_box) scene.respawn_box = Box2{scene.respawn_box->lower + way, scene.respawn_box->upper + way};
+      for (MoverDef::Waypoint& waypoint : mover.path) shift(waypoint.at);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// A picture as scenery.
+/// A picture as scenery, and alone as a scene.
 #pragma once
 
 #include "scenes/pixel_rectangles.hpp"
@@ -35,5 +35,9 @@ struct PictureRule {
 /// @throws InputError: not one solid pixel, or too many rectangles of them.
 [[nodiscard]] PixelScenery scenery_of(const PngPicture& picture, const PictureRule& rule, double pixels_per_metre,
                                       const std::string& given);
+
+/// White pixels are solid, 32 to a metre, as in a JSON scene that says nothing else; the character begins above the
+/// first ground. @throws InputError
+[[nodiscard]] Scene read_picture_map(const std::string& path, const std::string& given);
 
 }  // namespace paperproof::compare

@@ -20,47 +20,27 @@ struct Rectangle {
   int bottom;
 };
 
-class Rectangles {
- public:
-  void add_row(const SolidPixels& pixels, int row) {
-    std::map<std::pair<int, int>, std::size_t> now;
-    for (int left = 0; left < pixels.width;) {
-      if (!pixels.is_solid(left, row)) {
-        ++left;
-        continue;
-      }
-      int right = left + 1;
-      while (right < pixels.width && pixels.is_solid(right, row)) ++right;
-      now[{left, right}] = place({left, row, right, row + 1});
-      left = right;
-    }
-    above_ = std::move(now);
-  }
-  [[nodiscard]] const std::vector<Rectangle>& all() const noexcept { return all_; }
-
- private:
-  /// Where the row above has the same run, its rectangle grows.
-  std::size_t place(const Rectangle& run) {
-    const auto same = above_.find({run.left, run.right});
-    if (same == above_.end()) {
-      all_.push_back(run);
-      return all_.size() - 1;
-    }
-    all_[same->second].bottom = run.bottom;
-    return same->second;
-  }
-
-  std::vector<Rectangle> all_;
-  std::map<std::pair<int, int>, std::size_t> above_;  ///< The runs of the row above, by their ends.
-};
-
 }  // namespace
 
 PixelScenery scenery_of_pixels(const SolidPixels& pixels, double pixels_per_metre, const std::string& given) {
-  Rectangles rectangles;
+  std::vector<Rectangle> rectangles;
+  std::map<std::pair<int, int>, std::size_t> above;  // the runs of the row above, by their ends
   for (int row = 0; row < pixels.height; ++row) {
-    rectangles.add_row(pixels, row);
-    if (rectangles.all().size() > max_rectangles)
+    std::map<std::pair<int, int>, std::size_t> now;
+    for (int left = 0; left < pixels.width; ++left) {
+      if (!pixels.is_solid(left, row)) continue;
+      int right = left + 1;
+      while (right < pixels.width && pixels.is_solid(right, row)) ++right;
+      // Where the row above has the same run, its rectangle grows.
+      const auto same = above.find({left, right});
+      const std::size_t grown = same == above.end() ? rectangles.size() : same->second;
+      if (same == above.end()) rectangles.push_back({left, row, right, row});
+      rectangles[grown].bottom = row + 1;
+      now[{left, right}] = grown;
+      left = right;
+    }
+    above = std::move(now);
+    if (rectangles.size() > max_rectangles)
       refuse(given, fmt::format("expected a drawing; its solid pixels make more than {} rectangles", max_rectangles));
   }
   const auto corner = [&](int column, int row) {
@@ -68,7 +48,7 @@ PixelScenery scenery_of_pixels(const SolidPixels& pixels, double pixels_per_metr
                  static_cast<double>(pixels.top - row) / pixels_per_metre);
   };
   PixelScenery result;
-  for (const Rectangle& r : rectangles.all()) {
+  for (const Rectangle& r : rectangles) {
     result.scenery.colliders.push_back({.points = {corner(r.left, r.bottom), corner(r.right, r.bottom),
                                                    corner(r.right, r.top), corner(r.left, r.top)}});
     result.ids.push_back(fmt::format("{},{}", r.left, r.top));

@@ -8,7 +8,6 @@
 
 #include "scenes/input_error.hpp"
 #include "scenes/map_defaults.hpp"
-#include "scenes/spawn.hpp"
 #include "scenes/supertux_level.hpp"
 #include "scenes/validate.hpp"
 

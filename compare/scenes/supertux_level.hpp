@@ -1,14 +1,35 @@
-/// A SuperTux level as it is written, apart from everything that has nothing to do with collisions.
+/// A SuperTux level as it is written, and what its tile numbers mean: what collisions need of it.
 #pragma once
 
 #include "scenes/scene.hpp"
-#include "scenes/supertux_tiles.hpp"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace paperproof::compare {
+
+/// A tile, as `images/tiles.strf` has it.
+struct SuperTuxTile {
+  std::uint32_t attributes = 0;
+  std::uint32_t data = 0;
+
+  enum class Kind : std::uint8_t { nothing, solid, slope, one_way };
+  /// A slope must be solid too; one-way is written together with solid, and a slope is never one-way.
+  [[nodiscard]] Kind kind() const noexcept;
+
+  /// Slopes: the solid part within the unit square, x right, y **down**; convex, vertices in order.
+  [[nodiscard]] std::vector<Vec2d> solid_part() const;
+
+  /// One-way tiles: the side that blocks.
+  enum class Direction : std::uint8_t { north, south, west, east };
+  [[nodiscard]] Direction direction() const noexcept { return static_cast<Direction>(data & 3U); }
+};
+
+/// By tile number. Tile 0 is empty and not in it.
+using SuperTuxTiles = std::map<std::uint32_t, SuperTuxTile>;
 
 struct SuperTuxPath {
   enum class Mode : std::uint8_t { circular, one_shot, ping_pong, unordered };

@@ -10,7 +10,6 @@
 
 #include "scenes/input_error.hpp"
 #include "scenes/map_defaults.hpp"
-#include "scenes/spawn.hpp"
 #include "scenes/tiled_model.hpp"
 #include "scenes/tiled_rule.hpp"
 #include "scenes/tiled_shapes.hpp"
@@ -249,8 +248,8 @@ class MapBuilder {
     low = std::min(low, 0.0);  // one that begins beyond a turning point turns where it began
     high = std::max(high, 0.0);
     if (!(low < high)) return {};
-    constexpr double frames_per_second = 60;
-    const double per_second = std::abs(speed) * frames_per_second;
+    constexpr double steps_per_second = 60;
+    const double per_second = std::abs(speed) * steps_per_second;
     std::vector<MoverDef::Waypoint> path{{.time = 0, .at = Vec2d::Zero()}};
     double before = 0;
     for (const double next : {speed > 0 ? high : low, speed > 0 ? low : high, 0.0}) {
