@@ -85,7 +85,9 @@ bool ContactJudge::comes_to(const ExactImpact& contact, std::size_t corner, std:
 /// differ the contact may be another one.
 bool ContactJudge::comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const {
   if (grown_scenery_ == nullptr || grown_scenery_->overlaps(place(corner), contact.collider)) return true;
-  const std::vector<ExactImpact> impacts = grown_scenery_->impacts(place(corner), step_.requested);
+  const auto [known, is_new] = grown_impacts_.try_emplace(corner);
+  std::vector<ExactImpact>& impacts = known->second;
+  if (is_new) impacts = grown_scenery_->impacts(place(corner), step_.requested);
   return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& grown) {
     return grown.collider == contact.collider && side_of(grown) == side_of(contact) &&
            comes_to(grown, corner, impacts, *grown_scenery_);
