@@ -588,18 +588,20 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
     };
     if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
       // It gives way from the start, and meets no later than what was requested touches. What begins at rest on its
-      // ground goes with it from the start, and meets it by its own motion.
+      // ground may go with it from the start, and meets it by its own motion then.
+      const Place start(record.path.front(), record.movers);
+      const auto late = [&](const Vec2d& way) {
+        const double approach = (carried - way).dot(contact.normal);
+        const auto touch = scenery().time_of_impact(start, way, contact.collider);
+        const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
+                             static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
+        return at_once && approach > 0 ? (contact.fraction - static_cast<double>(touch->fraction)) * approach : 0;
+      };
       const Vec2d up = up_in(record, header_);
       const bool rests = wanted.carried.isZero(0) && right_of(up).dot(record.requested) == 0 &&
                          up.dot(record.requested) <= 0 && detail::is_walkable(contact.normal, header_, up);
-      const Vec2d way = rests ? Vec2d(record.requested + carried) : record.requested;
-      const Place start(record.path.front(), record.movers);
-      const double approach = (carried - way).dot(contact.normal);
-      const auto touch = scenery().time_of_impact(start, way, contact.collider);
-      const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
-                           static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
-      if (at_once && approach > 0)
-        check(contact, (contact.fraction - static_cast<double>(touch->fraction)) * approach, 2 * guaranteed_gap);
+      const double off = late(record.requested);
+      check(contact, rests ? std::min(off, late(record.requested + carried)) : off, 2 * guaranteed_gap);
       continue;
     }
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
