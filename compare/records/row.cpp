@@ -19,6 +19,12 @@ std::optional<double> parameter_of(const Row& row, std::string_view key) {
   return std::nullopt;
 }
 
+std::optional<double> time_per_second(const Row& row) {
+  const std::optional<double> dt = parameter_of(row, "dt_s");
+  const std::optional<double> ns = row.ns_per_step_bare ? row.ns_per_step_bare : row.ns_per_step;
+  return dt && ns ? std::optional(*ns / *dt) : std::nullopt;
+}
+
 std::string called(const Row& row) {
   std::string name = row.contender;
   if (!row.knob.empty()) name += " with " + row.knob;

@@ -37,4 +37,9 @@ void settle(Row& row) {
   }
 }
 
+bool falls_short(const Row& row, Axis axis) {
+  const std::string named = std::string(name_of(axis)) + ": ";
+  return row.reason.starts_with(named) || row.reason.find("; " + named) != std::string::npos;
+}
+
 }  // namespace paperproof::compare

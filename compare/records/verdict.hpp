@@ -13,4 +13,7 @@ void add_fault(Row& row, Axis axis, Verdict verdict, std::string words);
 /// called again after more were added. A run that was not made at all keeps what it says.
 void settle(Row& row);
 
+/// Whether the reason names an axis at fault: also of a row that was read from a file.
+[[nodiscard]] bool falls_short(const Row& row, Axis axis);
+
 }  // namespace paperproof::compare

@@ -13,6 +13,8 @@ ordered_json json_of(const ChartPoint& point) {
   ordered_json json{{"x", point.x}, {"y", point.y}};
   if (!point.words.empty()) json["words"] = point.words;
   if (point.front) json["front"] = true;
+  if (point.hollow) json["hollow"] = true;
+  if (point.struck) json["struck"] = true;
   return json;
 }
 

@@ -14,6 +14,8 @@ struct ChartPoint {
   double y = 0;
   std::string words{};  ///< Shown while the point is pointed at: the value of the knob.
   bool front = false;   ///< No other point of the chart is better along both axes; drawn larger.
+  bool hollow = false;  ///< It is beyond a limit that its contender documents.
+  bool struck = false;  ///< Its run passes something, or ends inside it.
 };
 
 struct ChartSeries {

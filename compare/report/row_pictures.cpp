@@ -1,5 +1,7 @@
 #include "report/row_pictures.hpp"
 
+#include "records/verdict.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -152,11 +154,14 @@ ChartSeries series_of(const Row& curve, const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     if (!is_on(row, curve, knobs)) continue;
     const std::optional<double>& error = row.error_max_m;
-    if (!error || !row.ns_per_step) continue;
+    const std::optional<double> time = time_per_second(row);
+    if (!error || !time) continue;
+    std::string words = fmt::format("{} = {:.4g}, error {:.3g} m", axis_words(over), *parameter_of(row, over), *error);
+    const bool hollow = falls_short(row, Axis::validity);
+    const bool struck = falls_short(row, Axis::safety);
+    if (hollow || struck) words += "; " + row.reason;
     series.points.push_back(
-        {*row.ns_per_step / parameter_of(row, "dt_s").value_or(1), std::max(*error, least_error),
-         fmt::format("{} = {:.4g}, error {:.3g} m", axis_words(over), *parameter_of(row, over), *error),
-         row.on_front.value_or(false)});
+        {*time, std::max(*error, least_error), std::move(words), row.on_front.value_or(false), hollow, struck});
   }
   return series;
 }
@@ -206,7 +211,12 @@ ChartPage precision_page(const std::vector<Row>& rows) {
       "are measured apart; times are the minimum of nine runs after a warm-up, contenders taking turns.",
       "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
       "its own law: Box2D with that of a body without friction, octagon_sweep and the techniques of the article with "
-      "that of walking. Box2D stops 15 mm away from what it meets: its curves end there."};
+      "that of walking. The article's jump rules are off for all. Box2D stops 15 mm away from what it meets: its "
+      "curves "
+      "end there. Its time is that of the engine alone.",
+      "Every run is judged. A struck-out point passes something or ends inside it, and a hollow one goes beyond a "
+      "limit "
+      "that its contender documents. Neither counts for the front and the slope."};
   page.charts = charts_of(rows);
   page.table.heading = {"motion", "contender", "over", "slope"};
   for (const Row& row : rows) {

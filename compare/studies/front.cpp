@@ -1,5 +1,7 @@
 #include "studies/front.hpp"
 
+#include "records/verdict.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +10,6 @@
 
 namespace paperproof::compare {
 namespace {
-
-/// Of an engine by itself, where the harness adds something to it.
-double cost_of(const Row& row) { return row.ns_per_step_bare.value_or(row.ns_per_step.value_or(0)); }
 
 bool better(const Row& row, const Row& than) {
   const double error = *row.error_max_m - *than.error_max_m;
@@ -35,7 +34,7 @@ std::string reason(const Row& ours, const Row& other) {
     return fmt::format(
         "Both make the same motion there, and a step without the sweep of the whole octagon costs less "
         "({:.0f} ns against {:.0f} ns).",
-        cost_of(other), cost_of(ours));
+        *time_per_second(other) * *parameter_of(other, "dt_s"), *time_per_second(ours) * *parameter_of(ours, "dt_s"));
   if (same_error) return "Its error is as small with longer steps.";
   return "Its error is smaller for the time.";
 }
@@ -59,17 +58,9 @@ std::optional<double> slope_of(std::span<const std::pair<double, double>> log_po
   return below > 0 ? std::optional(above / below) : std::nullopt;
 }
 
-std::optional<double> time_per_second(const Row& row) {
-  const std::optional<double> dt = parameter_of(row, "dt_s");
-  if (!dt || !row.ns_per_step) return std::nullopt;
-  return cost_of(row) / *dt;
-}
-
 bool counts(const Row& row) {
-  return row.error_max_m && time_per_second(row) &&
-         std::none_of(row.faults.begin(), row.faults.end(), [](const AxisFault& fault) {
-           return fault.axis == Axis::safety || fault.axis == Axis::validity;
-         });
+  return row.error_max_m && time_per_second(row) && !falls_short(row, Axis::safety) &&
+         !falls_short(row, Axis::validity);
 }
 
 void mark_front(std::vector<Row>& rows) {

@@ -14,10 +14,6 @@ namespace paperproof::compare {
 /// Of a line through points, by least squares. Nothing for less than two points with different `x`.
 [[nodiscard]] std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points);
 
-/// What a second of motion takes [ns], of an engine by itself where the harness adds something to it; nothing for a row
-/// without time or length of a step.
-[[nodiscard]] std::optional<double> time_per_second(const Row& row);
-
 /// Whether a row has an error and a time, and they mean something: its run passes nothing, ends inside nothing, and
 /// stays within the limits that the contender documents.
 [[nodiscard]] bool counts(const Row& row);

@@ -24,7 +24,7 @@ const std::map<char, Rgba> colours{{'#', {255, 255, 255, 255}},
 
 /// Of a drawing in letters, one for each pixel.
 std::string png_of(const std::vector<std::string>& rows) {
-  PngFile file{.colour = PngColour::rgb_alpha, .width = int(rows[0].size()), .height = int(rows.size())};
+  PngFile file{.colour = LCT_RGBA, .width = int(rows[0].size()), .height = int(rows.size())};
   for (const std::string& row : rows) {
     for (const char letter : row) {
       const Rgba& colour = colours.at(letter);
@@ -36,9 +36,14 @@ std::string png_of(const std::vector<std::string>& rows) {
 
 /// One row of four pixels, with the indices 0 to 3. Entries 1 and 2 look the same, and entry 3 is glass.
 std::string four_entries() {
-  const std::string palette =
-      png_chunk("PLTE", std::string("\0\0\0ggggggwww", 12)) + png_chunk("tRNS", "\xff\xff\xff\x10");
-  return PngFile{PngColour::indexed, 2, false, 4, 1, {0, 1, 2, 3}, palette}.bytes();
+  return PngFile{LCT_PALETTE,
+                 2,
+                 false,
+                 4,
+                 1,
+                 {0, 1, 2, 3},
+                 {{0, 0, 0, 255}, {103, 103, 103, 255}, {103, 103, 103, 255}, {119, 119, 119, 16}}}
+      .bytes();
 }
 
 /// @param entry of the scenery, in ' for ".

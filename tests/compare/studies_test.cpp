@@ -111,7 +111,7 @@ TEST(Front, is_who_has_less_error_for_less_time) {
                         row("discrete", 0.05, 0.1, 200), row("wind_back", 0.05, 0.2, 200),
                         row("grid", 0.1, 0, 0),          row("box2d", 0.1, 0, 1)};
   rows[4].ns_per_step.reset();
-  rows[5].faults = {{Axis::validity, Verdict::flagged, "beyond a limit"}};
+  rows[5].reason = "progress: hangs; validity: beyond a limit";
   mark_front(rows);
   std::vector<std::optional<bool>> front;
   for (const Row& one : rows) front.push_back(one.on_front);

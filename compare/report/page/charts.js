@@ -36,17 +36,20 @@ function colourOfSeries(series, all) {
   return list[contenders.indexOf(who(series.name)) % list.length];
 }
 
+/// What is struck out or hollow does not count; the curve of our own is the thick one.
 function datasetOf(series, i, all) {
-  const colour = colourOfSeries(series, all);
+  const colour = colourOfSeries(series, all), mark = MARKS[i % MARKS.length];
   return {
     label: series.name,
     data: series.points,
     hidden: !series.shown,
     borderColor: colour,
     backgroundColor: colour,
-    borderWidth: 1.5,
-    pointStyle: MARKS[i % MARKS.length],
-    pointRadius: series.points.map((point) => (point.front ? 7 : 4)),
+    borderWidth: series.name.startsWith('octagon_sweep') ? 3 : 1.5,
+    pointBackgroundColor: series.points.map((point) => (point.hollow ? 'transparent' : colour)),
+    pointBorderColor: series.points.map((point) => (point.struck ? theme().text : colour)),
+    pointStyle: series.points.map((point) => (point.struck ? 'crossRot' : mark)),
+    pointRadius: series.points.map((point) => (point.front || point.struck ? 7 : 4)),
     pointHoverRadius: 8,
     borderDash: DASHES[Math.floor(i / MARKS.length) % DASHES.length],
   };
