@@ -83,8 +83,6 @@ class ContactJudge {
   double touch_;   ///< Up to this gap the contender may hold a contact that it has [m].
   double hit_;     ///< Below this gap at the end of the motion it may call it a contact already [m].
   mutable std::map<const Contact*, std::optional<Vec2d>> faces_{};  ///< See `face_of`.
-  /// By corner, what the requested motion enters from there when grown.
-  mutable std::map<std::size_t, std::vector<ExactImpact>> grown_impacts_{};
 };
 
 }  // namespace paperproof::compare::detail

@@ -58,6 +58,11 @@ struct View {
   Number radius{};  ///< Of a disc.
 };
 
+template <class Number>
+Point<Number> scaled(const Number& by, const Point<Number>& v) {
+  return {by * v.x, by * v.y};
+}
+
 /// What the octagon may meet: see `first_meeting`.
 struct Part {
   std::span<const std::size_t> vertices;

@@ -85,9 +85,7 @@ bool ContactJudge::comes_to(const ExactImpact& contact, std::size_t corner, std:
 /// differ the contact may be another one.
 bool ContactJudge::comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const {
   if (grown_scenery_ == nullptr || grown_scenery_->overlaps(place(corner), contact.collider)) return true;
-  const auto [known, is_new] = grown_impacts_.try_emplace(corner);
-  std::vector<ExactImpact>& impacts = known->second;
-  if (is_new) impacts = grown_scenery_->impacts(place(corner), step_.requested);
+  const std::vector<ExactImpact> impacts = grown_scenery_->impacts(place(corner), step_.requested);
   return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& grown) {
     return grown.collider == contact.collider && side_of(grown) == side_of(contact) &&
            comes_to(grown, corner, impacts, *grown_scenery_);
@@ -100,7 +98,7 @@ void ContactJudge::add_contacts_at(std::size_t corner, std::span<const ExactImpa
   const double fraction = step_.path[corner].fraction;
   // What the step only comes near to is entered in the next one, if the motion goes on.
   const auto in_time = [&](const ExactImpact& impact) {
-    return !header_.path_exact || impact.fraction + fraction <= 1 ||
+    return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
            (fraction < 1 && std::find(met.begin(), met.end(), impact.collider) != met.end());
   };
   // What an earlier contact took of the motion does not come this far.

@@ -154,16 +154,9 @@ void MoverWayJudge::tell_time(const TraceStep& step) {
   before_ = std::exchange(now_, {});
   step_ = step.step;
   vary_ = step.dt.has_value();
-  begin_ = step.step * header_.dt;
-  end_ = (step.step + 1) * header_.dt;
-  if (!vary_) return;
-  const int unit = std::min(time_unit_, detail::lowest_bit(*step.dt));
-  const auto rounded = [&] { return std::ldexp(detail::nearest_double(time_, 1), unit); };
-  time_ = time_ << (time_unit_ - unit);
-  time_unit_ = unit;
-  begin_ = rounded();
-  time_ = time_ + detail::Convert<detail::Integer>{unit}(*step.dt);
-  end_ = rounded();
+  begin_ = vary_ ? static_cast<double>(time_) : step.step * header_.dt;
+  if (vary_) time_ += Rational(*step.dt);
+  end_ = vary_ ? static_cast<double>(time_) : (step.step + 1) * header_.dt;
 }
 
 MoverWayJudge::Course MoverWayJudge::course_of(MoverIndex mover) const {

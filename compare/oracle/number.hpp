@@ -2,9 +2,9 @@
 /// never wrong. The same algorithms run on both; the second is asked where the first does not know.
 #pragma once
 
-#include "oracle/integer.hpp"
-
 #include <paperproof/types.hpp>
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -77,6 +77,10 @@ struct Approximate {
   return x.radius == 0 ? Sign::zero : Sign::unknown;  // an infinite or NaN radius is unknown too
 }
 
+/// Grows without limit; the first 512 bits need no allocation.
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<512>, boost::multiprecision::et_off>;
+
 [[nodiscard]] inline Sign sign_of(const Integer& x) noexcept {
   const int sign = x.sign();
   return sign > 0 ? Sign::positive : sign < 0 ? Sign::negative : Sign::zero;
@@ -88,22 +92,12 @@ struct Approximate {
   return {std::min(a.value, b.value), std::max(a.radius, b.radius)};
 }
 
-/// mantissa * 2^exponent, as a finite double is stored: its sign apart.
-struct BinaryParts {
-  std::uint64_t mantissa = 0;
-  int exponent = 0;
-};
-[[nodiscard]] inline BinaryParts binary_of(double x) noexcept {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
-  const std::uint64_t mantissa = bits & 0xfffffffffffff;
-  return exponent == 0 ? BinaryParts{mantissa, -1074} : BinaryParts{mantissa | 0x10000000000000, exponent - 1075};
-}
-
 /// The exponent of the lowest bit that is set in a finite double; large for zero.
 [[nodiscard]] inline int lowest_bit(double x) noexcept {
-  const BinaryParts binary = binary_of(x);
-  return binary.mantissa == 0 ? std::numeric_limits<int>::max() : binary.exponent + std::countr_zero(binary.mantissa);
+  if (x == 0) return std::numeric_limits<int>::max();
+  int exponent = 0;
+  const auto mantissa = static_cast<std::uint64_t>(std::abs(std::ldexp(std::frexp(x, &exponent), 53)));
+  return exponent - 53 + std::countr_zero(mantissa);
 }
 
 /// The lowest bit that the exact product of two doubles can have set.
@@ -128,11 +122,11 @@ struct Convert<Integer> {
   int unit = 0;
   [[nodiscard]] Integer operator()(double x) const {
     if (x == 0) return 0;
-    const BinaryParts binary = binary_of(x);
-    const int shift = binary.exponent - unit;
-    const auto size = static_cast<std::int64_t>(shift < 0 ? binary.mantissa >> -shift : binary.mantissa);  // exact
-    const Integer number = x < 0 ? -size : size;
-    return shift > 0 ? number << shift : number;
+    int exponent = 0;
+    const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+    const int shift = exponent - 53 - unit;
+    if (shift < 0) return Integer(mantissa / (std::int64_t{1} << -shift));  // exact: those bits are zero
+    return Integer(mantissa) << shift;
   }
   /// `unit` is no larger than the sum of the lowest bits of the two.
   [[nodiscard]] Integer product(double a, double b) const {
@@ -164,11 +158,6 @@ template <class Number>
 }
 
 template <class Number>
-[[nodiscard]] Point<Number> scaled(const Number& by, const Point<Number>& v) {
-  return {by * v.x, by * v.y};
-}
-
-template <class Number>
 [[nodiscard]] Point<Number> convert(const Convert<Number>& to, const Vec2d& v) {
   return {to(v.x()), to(v.y())};
 }
@@ -180,15 +169,17 @@ template <class Number>
   return lowest;
 }
 
-/// value * 2^exponent, the value from the leading bits.
+/// The leading bits of an integer: value * 2^exponent, rounded towards zero.
 struct Leading {
   double value = 0;
   int exponent = 0;
 };
 [[nodiscard]] inline Leading leading_bits(const Integer& x) {
-  const LeadingBits leading = leading_bits_of(x);
-  const auto value = static_cast<double>(leading.bits);
-  return {x.sign() < 0 ? -value : value, leading.exponent};
+  if (x == 0) return {};
+  const Integer size = abs(x);
+  const int drop = std::max(0, static_cast<int>(msb(size)) - 62);
+  const auto value = static_cast<double>(static_cast<std::int64_t>(Integer(size >> drop)));
+  return {x < 0 ? -value : value, drop};
 }
 
 /// x * 2^exponent.

@@ -1,17 +1,10 @@
 #include "oracle/pair.hpp"
 
-#include "oracle/predicates.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace paperproof::compare {
-
-using detail::Convert;
-using detail::Integer;
-using Point = detail::Point<Integer>;
-
 namespace {
 
 /// The largest depth on a way is closed in on by thirds this often: the interval shrinks to less than rounding.
@@ -24,9 +17,7 @@ double largest(const Vec2d& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-ExactPair::ExactPair(std::span<const Vec2d> hull) : unit_(detail::lowest_bit_of(hull)) {
-  const Convert<Integer> number{unit_};
-  const auto exact = [&](const Vec2d& v) { return detail::convert(number, v); };
+ExactPair::ExactPair(std::span<const Vec2d> hull) {
   for (std::size_t k = 0; k < hull.size(); ++k) {
     const Vec2d& start = hull[k];
     const Vec2d edge = hull[(k + 1) % hull.size()] - start;
@@ -35,11 +26,21 @@ ExactPair::ExactPair(std::span<const Vec2d> hull) : unit_(detail::lowest_bit_of(
               .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
               .width = 0};
     for (const Vec2d& corner : hull) {
-      side.reach = std::max(side.reach, abs(cross(side.edge, exact(corner) - exact(start))));
+      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
       side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
     }
     sides_.push_back(std::move(side));
   }
+}
+
+ExactPair::Point ExactPair::Part::at(double fraction) const {
+  if (fraction == from.fraction) return exact(from.position);
+  if (fraction == to.fraction) return exact(to.position);
+  const Rational share =
+      (Rational(fraction) - Rational(from.fraction)) / (Rational(to.fraction) - Rational(from.fraction));
+  const Point start = exact(from.position);
+  const Point way = exact(to.position) - start;
+  return {start.x + way.x * share, start.y + way.y * share};
 }
 
 Vec2d ExactPair::Part::near(double fraction) const {
@@ -95,58 +96,30 @@ bool ExactPair::surely_apart(const Part& one, const Part& other) const {
   });
 }
 
-namespace {
-
-/// A place, times `over`, which is above zero.
-struct Spot {
-  Point at;
-  Integer over;
-
-  friend Spot operator-(const Spot& a, const Spot& b) {
-    return {scaled(b.over, a.at) - scaled(a.over, b.at), a.over * b.over};
-  }
-};
-
-/// The place at a moment of what leads evenly from one corner to the next.
-Spot spot_at(const PathPoint& from, const PathPoint& to, double fraction, const Convert<Integer>& place) {
-  const Point start = convert(place, from.position);
-  const Point end = convert(place, to.position);
-  if (fraction == from.fraction) return {start, 1};
-  if (fraction == to.fraction) return {end, 1};
-  const Convert<Integer> time{
-      std::min({detail::lowest_bit(from.fraction), detail::lowest_bit(to.fraction), detail::lowest_bit(fraction)})};
-  const Integer all = time(to.fraction) - time(from.fraction);
-  return {scaled(all, start) + scaled(time(fraction) - time(from.fraction), end - start), all};
-}
-
-}  // namespace
-
-/// Whether the way of the difference of the two, from start to end, leads inside of all sides.
-bool ExactPair::meet_on(const Part& one, const Part& other) const {
-  if (surely_apart(one, other)) return false;
-  int unit = unit_;
-  for (const Part* part : {&one, &other})
-    unit = std::min({unit, detail::lowest_bit(part->from.position), detail::lowest_bit(part->to.position)});
-  const auto spot = [&](const Part& part, bool at_end) {
-    if (part.jump) return Spot{detail::convert(Convert<Integer>{unit}, (at_end ? part.to : part.from).position), 1};
-    return spot_at(part.from, part.to, at_end ? part.end : part.begin, {unit});
-  };
-  const Spot start = spot(one, false) - spot(other, false);
-  const Spot end = spot(one, true) - spot(other, true);
-  std::vector<Integer> before;
-  std::vector<Integer> after;
+/// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
+/// point, or the way is a single point that is inside.
+bool ExactPair::leads_inside(const Point& start, const Point& end) const {
+  Rational entry = 0;
+  Rational exit = 1;
+  const bool still = start.x == end.x && start.y == end.y;
   for (const Side& side : sides_) {
-    const Integer reach = (side.reach * start.over * end.over) << (unit_ - unit);
-    const Integer start_off = cross(side.edge, start.at) * end.over;
-    const Integer end_off = cross(side.edge, end.at) * start.over;
+    const Rational start_off = cross(side.edge, start);
+    const Rational end_off = cross(side.edge, end);
     for (const int sign : {1, -1}) {
       // Inside where above zero. What is right of the edge is beyond it.
-      before.push_back(sign * start_off + reach);
-      after.push_back(sign * end_off + reach);
-      if (before.back() <= 0 && after.back() <= 0) return false;
+      const Rational before = start_off * sign + side.reach;
+      const Rational after = end_off * sign + side.reach;
+      if (before <= 0 && after <= 0) return false;
+      if (still) continue;
+      if (before <= 0) entry = std::max(entry, Rational(before / (before - after)));
+      if (after <= 0) exit = std::min(exit, Rational(before / (before - after)));
     }
   }
-  return detail::enters_all<Integer>(before, after) == detail::Answer::yes;
+  return still || entry < exit;
+}
+
+bool ExactPair::meet_on(const Part& one, const Part& other) const {
+  return !surely_apart(one, other) && leads_inside(one.first() - other.first(), one.last() - other.last());
 }
 
 bool ExactPair::overlap(const Vec2d& one, const Vec2d& other) const { return meet_between(one, other, one, other); }

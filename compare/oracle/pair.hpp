@@ -1,14 +1,20 @@
 /// Two characters of one shape, exactly.
 #pragma once
 
+#include "oracle/exact.hpp"
 #include "oracle/number.hpp"
 
 #include <paperproof/report.hpp>
 
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace paperproof::compare {
+
+using Rational = boost::multiprecision::cpp_rational;
 
 /// Two open convex shapes overlap where no edge of either has the other wholly outside: with one shape twice these are
 /// its edges, looked at from both sides. Every double is the rational it is, places between two corners of a way are
@@ -37,12 +43,13 @@ class ExactPair {
   [[nodiscard]] double deepest(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 
  private:
+  using Point = detail::Point<Rational>;
   /// An edge of the shape: the two are apart along it where |edge x difference| is at least `reach`.
   struct Side {
-    detail::Point<detail::Integer> edge;  ///< In units of 2^unit.
-    detail::Integer reach;                ///< In units of 2^(2 unit).
-    Vec2d normal;                         ///< Unit, to the right of the edge; rounded, as the width is.
-    double width;                         ///< Of the shape along the normal [m].
+    Point edge;
+    Rational reach;
+    Vec2d normal;  ///< Unit, to the right of the edge; rounded, as the width is.
+    double width;  ///< Of the shape along the normal [m].
   };
   /// From `begin` to `end` of what leads evenly from one corner to the next; a jump takes no time and goes all the way.
   struct Part {
@@ -52,7 +59,10 @@ class ExactPair {
     double end = 0;
     bool jump = false;
 
-    [[nodiscard]] Vec2d near(double fraction) const;  ///< Where it is then, rounded.
+    [[nodiscard]] Point at(double fraction) const;
+    [[nodiscard]] Vec2d near(double fraction) const;  ///< The same, rounded.
+    [[nodiscard]] Point first() const { return jump ? exact(from.position) : at(begin); }
+    [[nodiscard]] Point last() const { return jump ? exact(to.position) : at(end); }
   };
   using Way = std::span<const PathPoint>;
 
@@ -60,11 +70,13 @@ class ExactPair {
   template <class Visit>
   static bool any_part(Way one, Way other, const Visit& visit);
   [[nodiscard]] static Part part_of(Way way, std::size_t corner, double now, double end);
+  [[nodiscard]] static Point exact(const Vec2d& v) { return {Rational(v.x()), Rational(v.y())}; }
   [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const;
   [[nodiscard]] bool meet_on(const Part& one, const Part& other) const;
+  /// Whether the way of the difference of the two, from start to end, leads inside.
+  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const;
   [[nodiscard]] double separation_of(const Vec2d& difference) const;
 
-  int unit_;  ///< The lowest bit of the shape.
   std::vector<Side> sides_;
 };
 

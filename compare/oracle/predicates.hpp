@@ -106,35 +106,8 @@ template <class Number>
   return false;
 }
 
-/// Cyrus and Beck 1978, with strict insides: what is left of a segment's parameter interval after every edge must
-/// contain more than a point. @param at_a, at_b how far inside of each edge the ends are; of no edge are both outside.
-template <class Number>
-[[nodiscard]] Answer enters_all(std::span<const Number> at_a, std::span<const Number> at_b) {
-  const Convert<Number> number;
-  Number low = number(0);
-  Number low_over = number(1);
-  Number high = low_over;
-  Number high_over = low_over;
-  for (std::size_t j = 0; j < at_a.size(); ++j) {
-    const bool in_a = sign_of(at_a[j]) == Sign::positive;
-    const bool in_b = sign_of(at_b[j]) == Sign::positive;
-    if (in_a && in_b) continue;
-    const Number numerator = in_a ? at_a[j] : -at_a[j];
-    const Number denominator = in_a ? at_a[j] - at_b[j] : at_b[j] - at_a[j];
-    Number& limit = in_a ? high : low;
-    Number& limit_over = in_a ? high_over : low_over;
-    const Number difference = numerator * limit_over - limit * denominator;
-    const Sign order = sign_of(in_a ? -difference : difference);
-    if (order == Sign::unknown) return Answer::unknown;
-    if (order == Sign::positive) {
-      limit = numerator;
-      limit_over = denominator;
-    }
-  }
-  return is(sign_of(high * low_over - low * high_over), Sign::positive);
-}
-
-/// Whether a closed segment enters an open convex polygon.
+/// Whether a closed segment enters an open convex polygon: Cyrus and Beck 1978, with strict insides. What is left of
+/// the segment's parameter interval after every edge must contain more than a point.
 template <class Number>
 [[nodiscard]] Answer segment_enters(const Hull<Number>& hull, const Point<Number>& a, const Point<Number>& b) {
   if (certainly_outside(hull, a, b)) return Answer::no;
@@ -152,7 +125,31 @@ template <class Number>
     unknown = unknown || sign_a == Sign::unknown || sign_b == Sign::unknown;
   }
   if (unknown) return Answer::unknown;
-  return enters_all<Number>({at_a.data(), hull.size}, {at_b.data(), hull.size});
+
+  const Convert<Number> number;
+  Number low = number(0);
+  Number low_over = number(1);
+  Number high = low_over;
+  Number high_over = low_over;
+  for (std::size_t j = 0; j < hull.size; ++j) {
+    const bool in_a = sign_of(at_a[j]) == Sign::positive;
+    const bool in_b = sign_of(at_b[j]) == Sign::positive;
+    if (in_a && in_b) continue;
+    const Number numerator = in_a ? at_a[j] : -at_a[j];
+    const Number denominator = in_a ? at_a[j] - at_b[j] : at_b[j] - at_a[j];
+    Number& limit = in_a ? high : low;
+    Number& limit_over = in_a ? high_over : low_over;
+    const Number difference = numerator * limit_over - limit * denominator;
+    const Sign order = sign_of(in_a ? -difference : difference);
+    if (order == Sign::unknown) return Answer::unknown;
+    if (order == Sign::positive) {
+      limit = numerator;
+      limit_over = denominator;
+    }
+  }
+  const Sign left = sign_of(high * low_over - low * high_over);
+  if (left == Sign::unknown) return Answer::unknown;
+  return left == Sign::positive ? Answer::yes : Answer::no;
 }
 
 /// Whether a ray from `point` to the right crosses the edge from a to b. `point` must not lie on the edge.

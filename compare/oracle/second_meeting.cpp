@@ -31,9 +31,9 @@ struct Binary {
   [[nodiscard]] double rounded() const { return ratio(count, Integer(1) << bits); }
 };
 
-std::strong_ordering compare(const Binary& a, const Binary& b) {
+int compare(const Binary& a, const Binary& b) {
   const int bits = std::max(a.bits, b.bits);
-  return a.at(bits) <=> b.at(bits);
+  return a.at(bits).compare(b.at(bits));
 }
 
 Binary middle(const Binary& a, const Binary& b) {
@@ -134,7 +134,7 @@ bool are_one(const Root& r, const Root& s) {
 /// Whether no moment that is no root lies between them, as far as they are isolated.
 bool may_be_one(const Root& r, const Root& s) {
   const auto is_apart = [](const Root& a, const Root& b) {
-    const std::strong_ordering order = compare(a.high, b.low);
+    const int order = compare(a.high, b.low);
     return order < 0 || (order == 0 && !(a.is_exact() && b.is_exact()));
   };
   return !is_apart(r, s) && !is_apart(s, r);
@@ -153,7 +153,7 @@ bool is_earlier(Root& r, Root& s) {
 /// A moment strictly between a root and a later one.
 Binary between(Root& r, Root& s) {
   for (;;) {
-    const std::strong_ordering order = compare(r.high, s.low);
+    const int order = compare(r.high, s.low);
     if (order < 0) return middle(r.high, s.low);
     if (order == 0 && !r.is_exact() && !s.is_exact()) return r.high;
     r.halve();
@@ -197,7 +197,7 @@ Quadratic dot(const Mover& u, const Mover& v) {
 /// The square of one without its own square.
 Quadratic squared(const Quadratic& line) { return {line.b * line.b, 2 * line.b * line.c, line.c * line.c}; }
 Quadratic operator-(Quadratic q, const Integer& constant) {
-  q.c = q.c - constant;
+  q.c -= constant;
   return q;
 }
 
