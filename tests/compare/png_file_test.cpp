@@ -94,6 +94,9 @@ TEST_F(PngFiles, with_an_index_beyond_their_palette_are_refused) {
   file.samples = {0, 1, 3};
   EXPECT_EQ(complaint_about(files, file.bytes()),
             "a.png: expected a PNG picture (a pixel has index 3, and its palette 2 colours)");
+  std::string without = file.bytes();
+  without.erase(without.find("PLTE") - 4, 4 + 4 + 6 + 4);  // its length, name, colours and checksum
+  EXPECT_TRUE(begins(complaint_about(files, without), "a.png: expected a PNG picture ("));
 }
 
 TEST_F(PngFiles, that_unpack_to_more_than_their_size_are_refused_on_the_way) {

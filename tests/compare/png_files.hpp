@@ -46,14 +46,17 @@ struct PngFile {
     kind.colortype = colour;
     kind.bitdepth = static_cast<unsigned>(depth);
     for (const auto& [red, green, blue, alpha] : palette) lodepng_palette_add(&kind, red, green, blue, alpha);
-    kind.key_defined = transparent.empty() ? 0 : 1;
-    if (!transparent.empty()) kind.key_r = transparent.front(), kind.key_b = transparent.back();
-    if (!transparent.empty()) kind.key_g = transparent[transparent.size() / 2];
+    if (!transparent.empty()) {
+      kind.key_defined = 1;
+      kind.key_r = transparent.front();
+      kind.key_g = transparent[transparent.size() / 2];
+      kind.key_b = transparent.back();
+    }
     lodepng_color_mode_copy(&state.info_raw, &kind);
-    std::vector<unsigned char> packed((samples.size() * static_cast<std::size_t>(depth) + 7) / 8);
-    for (std::size_t bit = 0; bit < samples.size() * static_cast<std::size_t>(depth); ++bit) {
-      const auto place = static_cast<std::size_t>(depth) - 1 - bit % static_cast<std::size_t>(depth);
-      const unsigned is_set = samples[bit / static_cast<std::size_t>(depth)] >> place & 1U;
+    const auto bits = static_cast<std::size_t>(depth);
+    std::vector<unsigned char> packed((samples.size() * bits + 7) / 8);
+    for (std::size_t bit = 0; bit < samples.size() * bits; ++bit) {
+      const unsigned is_set = samples[bit / bits] >> (bits - 1 - bit % bits) & 1U;
       packed[bit / 8] = static_cast<unsigned char>(packed[bit / 8] | is_set << (7 - bit % 8));
     }
     std::vector<unsigned char> file;

@@ -3,6 +3,7 @@
 
 #include "compare/scene_files.hpp"
 #include "scenes/describe.hpp"
+#include "scenes/input_error.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,41 +15,7 @@ using JsonScene = SceneFilesTest;
 using nlohmann::json;
 
 /// One of everything.
-const std::string full = R"({
-  "paperproof_scene": 1, "name": "room", "description": "one of everything", "pixels_per_metre": 4,
-  "gravity": [0, -30], "dt": 0.0078125, "steps": 120,
-  "character": { "points_px": [[0,0],[2,0],[1,3]], "position": [0, 3], "velocity": [0, -40], "walk_speed": 1,
-    "acceleration": 2, "air_acceleration": 3, "jump_speed": 4, "max_fall_speed": 5, "max_climb_degrees": 6, "snap": 7,
-    "step_height": 8, "no_jump_toward_wall": true, "side_hit_ends_rise": false, "sprite": ["##", "##", ".#"] },
-  "characters": [
-    { "position": [0.5, 3], "velocity": [1, 2], "input": [{ "step": 3, "move": -1 }] },
-    { "position": [-3, 0], "start_overlap": "resolve", "input": [{ "step": 5, "jump": true }] } ],
-  "scenery": [
-    { "id": "paper", "polygon": [[-4,0],[4,0],[4,0.25],[-4,0.25]] },
-    { "id": "wall", "chain": [[5,0],[5,4]] },
-    { "id": "ledge", "chain": [[-2,1],[0,1]], "one_way": [0, 1] },
-    { "id": "ring", "polygon": [[10,0],[20,0],[20,10],[10,10]], "holes": [[[12,2],[18,2],[18,8],[12,8]]],
-      "surface_speed": -2 },
-    { "id": "disc", "circle": [30, 0, 2] },
-    { "id": "gate", "polygon": [[-1,2],[1,2],[1,4],[-1,4]], "sensor": true },
-    { "id": "cloud", "decoration": [[0,9],[1,9],[1,8]] } ],
-  "movers": [
-    { "id": "lift", "polygon": [[0,0],[2,0],[2,0.25],[0,0.25]], "surface_speed": 3,
-      "path": [{ "t": 0, "at": [6,0] }, { "t": 2, "at": [6,3] }],
-      "angle": [{ "t": 0.5, "at": 0 }, { "t": 1.5, "at": -2 }], "loop": "ping_pong" },
-    { "id": "saw", "chain": [[0,8],[1,8]], "path": [{ "t": 0, "at": [0,0] }] } ],
-  "bodies": [
-    { "id": "plank", "polygon": [[48,2],[52,2],[52,2.25]], "mass": 1, "friction": 0, "restitution": 0,
-      "velocity": [0, 0] },
-    { "id": "crate", "polygon": [[53,2],[54,2],[54,3]], "mass": 25, "friction": 0.5, "restitution": 0.25,
-      "velocity": [1, -2] } ],
-  "joints": [
-    { "id": "left", "bodies": ["plank"], "distance": [[48.5,2],[48.5,0]], "length": 2, "stiffness": 1000, "damping": 8 },
-    { "id": "rod", "bodies": ["plank", "crate"], "distance": [[52,2],[53,2]], "length": 1.5 },
-    { "id": "rail", "bodies": ["plank"], "prismatic": [0, 1] },
-    { "id": "pin", "bodies": ["crate", "plank"], "revolute": [52.5, 2] } ],
-  "input": [{ "step": 0, "move": 1 }, { "step": 40, "jump": true }, { "step": 44, "jump": false, "drop": true }]
-})";
+const std::string full = read_file(PAPERPROOF_SOURCE_DIR "/tests/compare/one_of_everything.json", "");
 
 const std::string least = R"({ "paperproof_scene": 1, "name": "void", "gravity": [0, 0], "dt": 1, "steps": 1,
   "character": { "position": [0, 0] }, "scenery": [ { "chain": [[5,0],[5,4]] } ] })";
@@ -137,7 +104,7 @@ const std::string overlaps =
     ": /character/position: expected a start outside of every solid, but the character overlaps ";
 constexpr std::string_view paper = "[[-4,0],[4,0],[4,0.25],[-4,0.25]]";
 
-/// What the schema says itself is asked for here only now and then: `Schema` has each of its words.
+/// What the schema says itself is asked for here only now and then: trace_schema_test.py breaks it in each place.
 TEST_F(JsonScene, is_refused_in_one_line_with_its_place) {
   expect_refused(
       "room.json", full,

@@ -5,7 +5,7 @@ one place is refused with status 2, in one line that says where. check_trace.py 
     trace_schema_test.py PAPERPROOF SCHEMA
 
 The schema says what is tried: at each place of it a required key is taken out, a key is added, and a value becomes one that
-its type, enum, const, minimum or number of items forbids.
+its type, enum, const, limits or number of items forbid. The same is asked of the schema of scenes beside it, with `check`.
 """
 import copy
 import json
@@ -20,7 +20,7 @@ SCENES = ("lift_up", "turning_arm", "thin_sensor", "characters_head_on", "land_o
 OF_ANOTHER_TYPE = {"object": 7, "array": 7, "string": 7, "boolean": 7, "number": "seven", "integer": 1.5}
 # By what forbids it: values, of the schema's word and a good value.
 FORBIDDEN = {"type": lambda of, _: OF_ANOTHER_TYPE[of], "enum": lambda *_: "no_such_word", "const": lambda *_: "no_such_word",
-             "minimum": lambda least, _: least - 1, "maximum": lambda most, _: most + 1,
+             "minimum": lambda least, _: least - 1, "maximum": lambda most, _: most + 1, "exclusiveMinimum": lambda above, _: above,
              "minItems": lambda least, value: value[:least - 1], "maxItems": lambda most, value: value[:1] * (most + 1)}
 MADE_UP = {"respawn": True, "from": {"velocity": [0, 0]}}  # no scene of these puts anybody back
 
@@ -61,7 +61,7 @@ class Places:
         if schema.get("additionalProperties") is False:
             tries("additionalProperties", with_value((*at, "no_such_key"), 7))
         for kind, breaks in FORBIDDEN.items():
-            if at and kind in schema:
+            if at and isinstance(schema.get(kind), (str, int, float, list)) and schema[kind] != ["integer", "string"]:
                 tries(kind, with_value(at, breaks(schema[kind], value)))
         known, others = schema.get("properties", {}), schema.get("additionalProperties")
         if isinstance(value, dict) and (known or others):
@@ -73,6 +73,8 @@ class Places:
         for choice in schema.get("oneOf", []):
             if choice.get("type") == ("object" if isinstance(value, dict) else "array"):
                 self.walk(choice, value, f"{where}/{choice['type']}", at, line)
+            elif "properties" in choice and choice["required"][0] in value:  # a closed alternative
+                self.walk(choice, value, f"{where}/{choice['required'][0]}", at, line)
 
 
 def required_in(schema):
@@ -149,6 +151,25 @@ class SchemaOfTraces(unittest.TestCase):
                     status, out, err = self.judge(lines, CHECKER)
                     self.assertEqual((status, len(err.splitlines())), (2, 1), out + err)
                     self.assertIn(place[2], err)
+
+
+class SchemaOfScenes(unittest.TestCase):
+    def test_what_breaks_it_is_refused_at_its_place(self):
+        schema = json.loads(Path(SCHEMA).parents[1].joinpath("scenes/paperproof_scene.schema.json").read_text(encoding="utf-8"))
+        scene = json.loads(Path(__file__).with_name("one_of_everything.json").read_text(encoding="utf-8"))
+        places = Places(schema)
+        places.walk(schema, scene, "scene")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "spoilt.json"
+            for (where, kind, key), (_, at, change) in places.found.items():
+                spoilt = copy.deepcopy(scene)
+                change(spoilt)
+                path.write_text(json.dumps(spoilt), encoding="utf-8")
+                status, out, err = call(COMMAND, "check", path)
+                with self.subTest((where, kind, key, at)):
+                    self.assertEqual((status, len(err.splitlines())), (2, 1), out + err)
+                    self.assertIn("spoilt.json: /" + "/".join(map(str, at[:-1])), err)
+        self.assertEqual(len(places.found), 164, "so many things does the schema ask for in this scene")
 
 
 if __name__ == "__main__":
