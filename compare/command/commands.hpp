@@ -21,12 +21,12 @@ int demo_command(const std::string& technique);
 /// @param what scenes, contenders, families, knobs, metrics, parameters or schema.
 /// @return 0.
 int list_command(const std::string& what);
-/// What is in scenes. @return 0.
+/// Prints what scenes hold. @return 0.
 int check_command(const std::vector<std::string>& scenes);
-/// What runs of scenes leave out. @param seed of a random input that replaces the scenes' own. @return 0.
+/// Prints what runs of scenes leave out. @param seed of a random input that replaces the scenes' own. @return 0.
 int plan_command(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed);
 
-/// Makes one page of rows and of pages that `--report` has written, whose replays and pictures are taken over.
+/// Makes one page of rows and of other pages; it keeps the replays and pictures of those.
 /// For heat maps of rows some of their cases are run again: see `add_cell_replays`.
 /// @param inputs files of rows (.jsonl, .json) and pages (.html). Pages are shown first, then rows, each in this order.
 /// @return 0.

@@ -21,9 +21,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The work begins whose time is to be foretold. @param pieces that it consists of. @param noun what they are called.
+  /// The work begins now; `show` foretells its time. @param pieces it has so many. @param noun their name.
   void foretell(double pieces, std::string noun);
-  /// Something has to be prepared before the first step. @param seconds that it takes. @param why in words.
+  /// Says that the first step comes late, where it comes late. @param seconds until then. @param why in words.
   void prepare(const std::string& what, double seconds, const std::string& why) const;
   /// @param share of the work that is done. Zero says that it begins now. Where it gets less another part of the work
   /// begins, and the time in the log is that of this part.

@@ -1,6 +1,7 @@
 #include "command/study_view.hpp"
 
 #include "records/metric.hpp"
+#include "records/verdict.hpp"
 #include "runs/environment.hpp"
 #include "words.hpp"
 
@@ -14,10 +15,8 @@ constexpr std::size_t most_listed = 2000;
 
 /// Whether it is flagged for nothing but its validity: Box2D's travel cap, for example.
 bool is_beyond_limits(const Row& row) {
-  if (row.verdict != Verdict::flagged || !row.reason.starts_with("validity: ")) return false;
-  for (const char* axis : {"safety: ", "progress: ", "answer: "})
-    if (row.reason.find(axis) != std::string::npos) return false;
-  return true;
+  return row.verdict == Verdict::flagged && falls_short(row, Axis::validity) && !falls_short(row, Axis::safety) &&
+         !falls_short(row, Axis::progress) && !falls_short(row, Axis::answer);
 }
 
 /// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.

@@ -8,7 +8,7 @@
 //   group    `Metric::Group`
 //   of       `Metric::Of`
 //   title    of a column
-//   unit     in words: `m`, `steps`, `per 1000 steps`; empty for a pure number
+//   unit     as in `m`, `steps`, `per 1000 steps`; a pure number has none
 //   meaning  one sentence without its full stop
 //
 // To be included where METRIC is defined, as often as it is needed.

@@ -19,9 +19,13 @@ std::optional<double> parameter_of(const Row& row, std::string_view key) {
   return std::nullopt;
 }
 
+std::optional<double> time_per_step(const Row& row) {
+  return row.ns_per_step_bare ? row.ns_per_step_bare : row.ns_per_step;
+}
+
 std::optional<double> time_per_second(const Row& row) {
   const std::optional<double> dt = parameter_of(row, "dt_s");
-  const std::optional<double> ns = row.ns_per_step_bare ? row.ns_per_step_bare : row.ns_per_step;
+  const std::optional<double> ns = time_per_step(row);
   return dt && ns ? std::optional(*ns / *dt) : std::nullopt;
 }
 

@@ -137,8 +137,11 @@ struct Row {
 /// One of its `parameters`; nothing where it has none of that key.
 [[nodiscard]] std::optional<double> parameter_of(const Row& row, std::string_view key);
 
-/// What a second of motion takes [ns], of an engine by itself where the harness adds something to it; nothing for a row
-/// without time or length of a step.
+/// What a step takes [ns], of an engine by itself where the harness adds something to it; nothing for a row without
+/// time.
+[[nodiscard]] std::optional<double> time_per_step(const Row& row);
+
+/// What a second of motion takes [ns]; nothing for a row without time or length of a step.
 [[nodiscard]] std::optional<double> time_per_second(const Row& row);
 
 /// The contender in words, with the number type where it could be another: Box2D's is always float.

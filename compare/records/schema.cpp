@@ -72,7 +72,7 @@ const Json& part_of(const Json& schema, const char* keyword, const Json& otherwi
   return found == schema.end() ? otherwise : *found;
 }
 
-/// What a number must be, in words; empty where it is so. The limits may be `unlimited`.
+/// Says what a number must be; empty where it is that. A limit may be `unlimited`.
 std::string range_missed(const Json& number, const Json& least, const Json& above, const Json& most) {
   const bool is_within =
       (least.is_null() || number >= least) && (above.is_null() || number > above) && (most.is_null() || number <= most);

@@ -28,7 +28,7 @@ std::string pointer_to(const std::vector<Open>& open) {
   return at.empty() ? "/" : at.to_string();
 }
 
-/// What the library says after its own prefix with id and position. It quotes the file, whose bytes may be no text.
+/// The library's words without its prefix of id and position. They quote the file, and its bytes may be no text.
 std::string reason_of(const std::string& what) {
   std::string reason = what.substr(what.find(": ") + 2);
   std::replace_if(

@@ -71,73 +71,63 @@ std::vector<Runs> runs_of(const std::vector<std::string>& contenders) {
   return all;
 }
 
-/// A point of a curve.
-struct Point {
-  Row row;
-  std::string over;
-  double value = 0;
-};
+/// Of a point: the key in `parameters` that its curve is over, and what it is there. It stands last.
+const std::pair<std::string, double>& knob_of(const Row& point) { return point.parameters.back(); }
 
-std::vector<Point> points_of(const Motion& motion, const Runs& runs) {
+std::vector<Row> points_of(const Motion& motion, const Runs& runs) {
   RunOptions options;
   options.contenders = runs.contenders;
   options.scalars = {runs.scalar};
   options.knobs = runs.knobs;
   options.reference = false;
   options.continuous = true;
-  std::vector<Point> points;
-  for (Row& row : run_scene(scene_of(motion, runs.dt), options).rows) {
-    row.mode = "work_precision";
-    row.parameters = {{"dt_s", runs.dt}};
-    if (runs.over != "dt_s") row.parameters.emplace_back(runs.over, runs.value);
-    points.push_back({std::move(row), std::string(runs.over), runs.value});
+  std::vector<Row> points = run_scene(scene_of(motion, runs.dt), options).rows;
+  for (Row& point : points) {
+    point.mode = "work_precision";
+    point.parameters = {{"dt_s", runs.dt}};
+    if (runs.over != "dt_s") point.parameters.emplace_back(runs.over, runs.value);
   }
   return points;
 }
 
-bool same_curve(const Point& a, const Point& b) {
-  return a.row.contender == b.row.contender && a.row.scalar == b.row.scalar && a.over == b.over;
+bool same_curve(const Row& a, const Row& b) {
+  return a.contender == b.contender && a.scalar == b.scalar && knob_of(a).first == knob_of(b).first;
 }
 
-Row curve_of(const Point& first, const std::vector<Point>& points) {
+Row curve_of(const Row& first, const std::vector<Row>& points) {
   std::vector<std::pair<double, double>> logs;
   bool on_front = false;
-  for (const Point& point : points) {
+  for (const Row& point : points) {
     if (!same_curve(point, first)) continue;
-    on_front = on_front || point.row.on_front.value_or(false);
-    if (counts(point.row) && *point.row.error_max_m > least_error)
-      logs.emplace_back(std::log(point.value), std::log(*point.row.error_max_m));
+    on_front = on_front || point.on_front.value_or(false);
+    if (counts(point) && *point.error_max_m > least_error)
+      logs.emplace_back(std::log(knob_of(point).second), std::log(*point.error_max_m));
   }
   Row row;
-  row.scene = first.row.scene;
-  row.contender = first.row.contender;
-  row.scalar = first.row.scalar;
-  row.mode = "work_precision";
-  row.curve = first.over;
+  row.scene = first.scene;
+  row.contender = first.contender;
+  row.scalar = first.scalar;
+  row.mode = first.mode;
+  row.curve = knob_of(first).first;
   row.slope = slope_of(logs);
-  if (first.row.ns_per_step) row.on_front = on_front;
-  if (first.row.verdict == Verdict::not_applicable) {
-    row.verdict = first.row.verdict;
-    row.reason = first.row.reason;
+  if (first.ns_per_step) row.on_front = on_front;
+  if (first.verdict == Verdict::not_applicable) {
+    row.verdict = first.verdict;
+    row.reason = first.reason;
   }
   return row;
 }
 
 void add_motion(const Motion& motion, const std::vector<Runs>& all, WorkPrecision& found) {
-  std::vector<Point> points;
+  std::vector<Row> points;
   for (const Runs& runs : all)
-    for (Point& point : points_of(motion, runs)) points.push_back(std::move(point));
-  std::vector<Row> rows;
-  for (const Point& point : points) rows.push_back(point.row);
-  mark_front(rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) points[i].row.on_front = rows[i].on_front;
-  std::vector<const Point*> firsts;  // of each curve
-  for (const Point& point : points)
-    if (std::none_of(firsts.begin(), firsts.end(), [&](const Point* first) { return same_curve(*first, point); }))
-      firsts.push_back(&point);
-  for (const Point* first : firsts) found.curves.push_back(curve_of(*first, points));
-  found.sentences.push_back(words_of_front(std::string(motion.name), rows));
-  found.points.insert(found.points.end(), rows.begin(), rows.end());
+    for (Row& point : points_of(motion, runs)) points.push_back(std::move(point));
+  mark_front(points);
+  for (auto point = points.begin(); point != points.end(); ++point)
+    if (std::none_of(points.begin(), point, [&](const Row& before) { return same_curve(before, *point); }))
+      found.curves.push_back(curve_of(*point, points));  // it is the first of its curve
+  found.sentences.push_back(words_of_front(std::string(motion.name), points));
+  found.points.insert(found.points.end(), points.begin(), points.end());
 }
 
 }  // namespace

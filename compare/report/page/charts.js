@@ -38,7 +38,7 @@ function colourOfSeries(series, all) {
 
 /// What is struck out or hollow does not count; the curve of our own is the thick one.
 function datasetOf(series, i, all) {
-  const colour = colourOfSeries(series, all), mark = MARKS[i % MARKS.length];
+  const colour = colourOfSeries(series, all), mark = MARKS[i % MARKS.length], {text} = theme();
   return {
     label: series.name,
     data: series.points,
@@ -47,7 +47,7 @@ function datasetOf(series, i, all) {
     backgroundColor: colour,
     borderWidth: series.name.startsWith('octagon_sweep') ? 3 : 1.5,
     pointBackgroundColor: series.points.map((point) => (point.hollow ? 'transparent' : colour)),
-    pointBorderColor: series.points.map((point) => (point.struck ? theme().text : colour)),
+    pointBorderColor: series.points.map((point) => (point.struck ? text : colour)),
     pointStyle: series.points.map((point) => (point.struck ? 'crossRot' : mark)),
     pointRadius: series.points.map((point) => (point.front || point.struck ? 7 : 4)),
     pointHoverRadius: 8,
