@@ -1,5 +1,7 @@
 #include "oracle/depth.hpp"
 
+#include "oracle/doubled.hpp"
+
 namespace paperproof::compare::detail {
 namespace {
 
@@ -37,24 +39,6 @@ Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, st
          least_of(vertices, [&](const Vec2d& vertex) { return heights.below_vertex(vertex); });
 }
 
-/// The points that may be the lowest, as far as doubles know.
-template <class Height>
-std::vector<Vec2d> may_be_least(std::span<const Vec2d> points, const Height& height) {
-  double highest = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<double, Vec2d>> lows;
-  lows.reserve(points.size());
-  for (const Vec2d& point : points) {
-    const Approximate value = height(point);
-    highest = std::min(highest, value.value + value.radius);
-    lows.emplace_back(value.value - value.radius, point);
-  }
-  std::vector<Vec2d> possible;
-  for (const auto& [low, point] : lows) {
-    if (!(low > highest)) possible.push_back(point);
-  }
-  return possible;
-}
-
 double length_of(const AxisEdge& axis) {
   const Vec2d edge = axis.end - axis.start;
   const double scale = edge.cwiseAbs().maxCoeff();
@@ -65,14 +49,10 @@ double length_of(const AxisEdge& axis) {
 double exact_separation(const AxisEdge& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
                         const FramePlace& place) {
   constexpr double good_enough = 1e-13;  // relative; the length that it is divided by has a few ulp of its own
-  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part.points, octagon, place);
+  const Doubled quick = scaled_separation(Convert<Doubled>{}, axis, part.points, octagon, place);
   if (quick.radius <= good_enough * std::abs(quick.value)) return quick.value / length_of(axis);
-  const Heights<Approximate> heights({}, axis, place);
-  const auto corners = may_be_least(octagon, [&](const Vec2d& corner) { return heights.of_corner(corner); });
-  const auto vertices = may_be_least(part.points, [&](const Vec2d& vertex) { return heights.below_vertex(vertex); });
-  const int unit = std::min(
-      {place.unit(), lowest_bit(axis.start), lowest_bit(axis.end), lowest_bit_of(corners), lowest_bit_of(vertices)});
-  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, vertices, corners, place);
+  const int unit = std::min({common_unit(part, octagon, place), lowest_bit(axis.start), lowest_bit(axis.end)});
+  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part.points, octagon, place);
   return to_double(exact, 2 * unit) / length_of(axis);
 }
 

@@ -80,7 +80,7 @@ struct ExactScenery::Impl {
     const Vec2d normal = detail::best_axis(parts[disc].front(), world.points(), there).normal;
     const ColliderDef& def = scenery_of(disc);
     return {.collider = disc,
-            .fraction = Rational(touch),
+            .fraction = touch,
             .normal = normal,
             .point = def.points.front() + def.radius * normal + way.offset_after(touch),
             .exposed = true};

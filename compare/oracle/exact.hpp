@@ -14,10 +14,10 @@
 /// unlimited integers (all doubles scaled by one power of two) where that bound leaves it open.
 #pragma once
 
+#include "oracle/fraction.hpp"
+
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
-
-#include <boost/multiprecision/cpp_int.hpp>
 
 #include <functional>
 #include <memory>
@@ -26,8 +26,6 @@
 #include <vector>
 
 namespace paperproof::compare {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 /// A place of the octagon at a moment of a step: every mover is at from + fraction (to - from), unrounded. A position
 /// alone stands for that position while every mover is at offset zero.
@@ -51,7 +49,7 @@ struct Place {
 /// When and where a translation first touches a collider on its way to overlapping it.
 struct ExactImpact {
   ColliderIndex collider = 0;
-  Rational fraction;  ///< Of the way that was asked about, in [0, 1).
+  ExactFraction fraction;  ///< Of the way that was asked about, in [0, 1).
   /// Unit, from the obstacle towards the octagon, rounded. Where two facets meet at once it is the one more opposed to
   /// the motion.
   Vec2d normal{Vec2d::Zero()};
@@ -83,7 +81,7 @@ struct ExactSensorEvent {
   using Change = SensorEvent::Change;
   ColliderIndex sensor = 0;
   Change change = Change::enter;
-  Rational fraction;  ///< Of the step, in [0, 1].
+  ExactFraction fraction;  ///< Of the step, in [0, 1].
 };
 
 /// Which straight ways to free places are asked for. What moves goes on meanwhile.

@@ -286,10 +286,9 @@ ExactImpact find_impact(const World& world, const WayIn& way_in, ColliderIndex c
   const Touch& chosen = choose(world, frame, touches, way.rounded_displacement());
   const Vec2d normal = left_normal(world, chosen);
   const Range range = range_of(world, touches, chosen, normal);
-  using boost::multiprecision::cpp_int;
   const Vec2d offset = way.offset_after(ratio(chosen.timing.numerator, chosen.timing.denominator));
   return ExactImpact{.collider = collider,
-                     .fraction = Rational(cpp_int(chosen.timing.numerator), cpp_int(chosen.timing.denominator)),
+                     .fraction = ExactFraction(Ratio{chosen.timing.numerator, chosen.timing.denominator}),
                      .normal = normal,
                      .point = (range.first + range.last) / 2 + offset,
                      .exposed = is_exposed(world, touches, chosen, range, normal, way_in)};

@@ -740,7 +740,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
       continue;
     }
     taken[i] = true;
-    const double error = std::abs(static_cast<double>(Rational(step.sensors[i].fraction) - event.fraction));
+    const double error = std::abs(static_cast<double>(event.fraction - step.sensors[i].fraction));
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
     judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }

@@ -98,7 +98,7 @@ void ContactJudge::add_contacts_at(std::size_t corner, std::span<const ExactImpa
   const double fraction = step_.path[corner].fraction;
   // What the step only comes near to is entered in the next one, if the motion goes on.
   const auto in_time = [&](const ExactImpact& impact) {
-    return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
+    return !header_.path_exact || impact.fraction + fraction <= 1 ||
            (fraction < 1 && std::find(met.begin(), met.end(), impact.collider) != met.end());
   };
   // What an earlier contact took of the motion does not come this far.

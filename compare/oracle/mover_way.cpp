@@ -155,7 +155,7 @@ void MoverWayJudge::tell_time(const TraceStep& step) {
   step_ = step.step;
   vary_ = step.dt.has_value();
   begin_ = vary_ ? static_cast<double>(time_) : step.step * header_.dt;
-  if (vary_) time_ += Rational(*step.dt);
+  if (vary_) time_ = time_ + *step.dt;
   end_ = vary_ ? static_cast<double>(time_) : (step.step + 1) * header_.dt;
 }
 

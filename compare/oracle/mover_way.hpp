@@ -111,11 +111,11 @@ class MoverWayJudge {
   const TraceHeader& header_;
   std::vector<MoverScript> scripts_;
   bool is_float_ = false;
-  double extent_ = 0;  ///< Of the character [m].
-  double radius_ = 0;  ///< The largest distance of a corner from its position [m].
-  int step_ = -1;      ///< The last one.
-  Rational time_;      ///< When the present step ends, where steps have lengths of their own [s].
-  double begin_ = 0;   ///< Of the present step [s].
+  double extent_ = 0;   ///< Of the character [m].
+  double radius_ = 0;   ///< The largest distance of a corner from its position [m].
+  int step_ = -1;       ///< The last one.
+  ExactFraction time_;  ///< When the present step ends, where steps have lengths of their own [s].
+  double begin_ = 0;    ///< Of the present step [s].
   double end_ = 0;
   bool vary_ = false;
   bool goes_on_ = false;  ///< The step before is known.

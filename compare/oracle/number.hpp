@@ -81,6 +81,12 @@ struct Approximate {
 using Integer =
     boost::multiprecision::number<boost::multiprecision::cpp_int_backend<512>, boost::multiprecision::et_off>;
 
+/// numerator / denominator, the latter above zero.
+struct Ratio {
+  Integer numerator;
+  Integer denominator;
+};
+
 [[nodiscard]] inline Sign sign_of(const Integer& x) noexcept {
   const int sign = x.sign();
   return sign > 0 ? Sign::positive : sign < 0 ? Sign::negative : Sign::zero;

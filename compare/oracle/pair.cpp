@@ -1,8 +1,11 @@
 #include "oracle/pair.hpp"
 
+#include "oracle/number.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace paperproof::compare {
 namespace {
@@ -15,25 +18,35 @@ double margin_at(double size) { return 64 * std::numeric_limits<double>::epsilon
 
 double largest(const Vec2d& v) { return v.cwiseAbs().maxCoeff(); }
 
-}  // namespace
+using Rational = boost::multiprecision::cpp_rational;
+using Point = detail::Point<Rational>;
+using Corners = std::span<const PathPoint>;
 
-ExactPair::ExactPair(std::span<const Vec2d> hull) {
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2d& start = hull[k];
-    const Vec2d edge = hull[(k + 1) % hull.size()] - start;
-    Side side{.edge = exact(hull[(k + 1) % hull.size()]) - exact(start),
-              .reach = 0,
-              .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
-              .width = 0};
-    for (const Vec2d& corner : hull) {
-      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
-      side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
-    }
-    sides_.push_back(std::move(side));
-  }
-}
+Point exact(const Vec2d& v) { return {Rational(v.x()), Rational(v.y())}; }
 
-ExactPair::Point ExactPair::Part::at(double fraction) const {
+/// An edge of the shape: the two are apart along it where |edge x difference| is at least `reach`.
+struct Side {
+  Point edge;
+  Rational reach;
+  Vec2d normal;  ///< Unit, to the right of the edge; rounded, as the width is.
+  double width;  ///< Of the shape along the normal [m].
+};
+
+/// From `begin` to `end` of what leads evenly from one corner to the next; a jump takes no time and goes all the way.
+struct Part {
+  PathPoint from;
+  PathPoint to;
+  double begin = 0;
+  double end = 0;
+  bool jump = false;
+
+  [[nodiscard]] Point at(double fraction) const;
+  [[nodiscard]] Vec2d near(double fraction) const;  ///< The same, rounded.
+  [[nodiscard]] Point first() const { return jump ? exact(from.position) : at(begin); }
+  [[nodiscard]] Point last() const { return jump ? exact(to.position) : at(end); }
+};
+
+Point Part::at(double fraction) const {
   if (fraction == from.fraction) return exact(from.position);
   if (fraction == to.fraction) return exact(to.position);
   const Rational share =
@@ -43,26 +56,27 @@ ExactPair::Point ExactPair::Part::at(double fraction) const {
   return {start.x + way.x * share, start.y + way.y * share};
 }
 
-Vec2d ExactPair::Part::near(double fraction) const {
+Vec2d Part::near(double fraction) const {
   if (fraction == from.fraction) return from.position;
   return from.position + (fraction - from.fraction) / (to.fraction - from.fraction) * (to.position - from.position);
 }
 
 /// A character that has arrived waits there until the step ends.
-ExactPair::Part ExactPair::part_of(Way way, std::size_t corner, double now, double end) {
+Part part_of(Corners way, std::size_t corner, double now, double end) {
   if (corner + 1 < way.size()) return {way[corner], way[corner + 1], now, end, false};
   return {way[corner], {way[corner].position, std::max(end, 1.0)}, now, end, false};
 }
 
+/// Calls `visit(part, part)` for what the two do at the same time, in order, until it returns true.
 template <class Visit>
-bool ExactPair::any_part(Way one, Way other, const Visit& visit) {
+bool any_part(Corners one, Corners other, const Visit& visit) {
   std::size_t a = 0;
   std::size_t b = 0;
   double now = 0;
-  const auto jumps = [&now](Way way, std::size_t corner) {
+  const auto jumps = [&now](Corners way, std::size_t corner) {
     return corner + 1 < way.size() && way[corner + 1].fraction <= now;
   };
-  const auto end_of = [](Way way, std::size_t corner) {
+  const auto end_of = [](Corners way, std::size_t corner) {
     return corner + 1 < way.size() ? way[corner + 1].fraction : std::numeric_limits<double>::infinity();
   };
   while (a + 1 < one.size() || b + 1 < other.size()) {
@@ -82,11 +96,40 @@ bool ExactPair::any_part(Way one, Way other, const Visit& visit) {
   return false;
 }
 
+}  // namespace
+
+struct ExactPair::Impl {
+  std::vector<Side> sides;
+
+  explicit Impl(std::span<const Vec2d> hull);
+  [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const;
+  [[nodiscard]] bool meet_on(const Part& one, const Part& other) const;
+  /// Whether the way of the difference of the two, from start to end, leads inside.
+  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const;
+  [[nodiscard]] double separation_of(const Vec2d& difference) const;
+};
+
+ExactPair::Impl::Impl(std::span<const Vec2d> hull) {
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2d& start = hull[k];
+    const Vec2d edge = hull[(k + 1) % hull.size()] - start;
+    Side side{.edge = exact(hull[(k + 1) % hull.size()]) - exact(start),
+              .reach = 0,
+              .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
+              .width = 0};
+    for (const Vec2d& corner : hull) {
+      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
+      side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
+    }
+    sides.push_back(std::move(side));
+  }
+}
+
 /// By the normals of the sides, over the whole of what leads from corner to corner.
-bool ExactPair::surely_apart(const Part& one, const Part& other) const {
+bool ExactPair::Impl::surely_apart(const Part& one, const Part& other) const {
   const double size = std::max(
       {largest(one.from.position), largest(one.to.position), largest(other.from.position), largest(other.to.position)});
-  return std::any_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+  return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
     const auto range = [&side](const Part& part) {
       return std::minmax({side.normal.dot(part.from.position), side.normal.dot(part.to.position)});
     };
@@ -98,11 +141,11 @@ bool ExactPair::surely_apart(const Part& one, const Part& other) const {
 
 /// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
 /// point, or the way is a single point that is inside.
-bool ExactPair::leads_inside(const Point& start, const Point& end) const {
+bool ExactPair::Impl::leads_inside(const Point& start, const Point& end) const {
   Rational entry = 0;
   Rational exit = 1;
   const bool still = start.x == end.x && start.y == end.y;
-  for (const Side& side : sides_) {
+  for (const Side& side : sides) {
     const Rational start_off = cross(side.edge, start);
     const Rational end_off = cross(side.edge, end);
     for (const int sign : {1, -1}) {
@@ -118,31 +161,33 @@ bool ExactPair::leads_inside(const Point& start, const Point& end) const {
   return still || entry < exit;
 }
 
-bool ExactPair::meet_on(const Part& one, const Part& other) const {
+bool ExactPair::Impl::meet_on(const Part& one, const Part& other) const {
   return !surely_apart(one, other) && leads_inside(one.first() - other.first(), one.last() - other.last());
 }
+
+double ExactPair::Impl::separation_of(const Vec2d& difference) const {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Side& side : sides) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
+  return best;
+}
+
+ExactPair::ExactPair(std::span<const Vec2d> hull) : impl_(std::make_shared<const Impl>(hull)) {}
 
 bool ExactPair::overlap(const Vec2d& one, const Vec2d& other) const { return meet_between(one, other, one, other); }
 
 bool ExactPair::meet_between(const Vec2d& one_from, const Vec2d& other_from, const Vec2d& one_to,
                              const Vec2d& other_to) const {
-  return meet_on({{one_from, 0}, {one_to, 1}, 0, 1}, {{other_from, 0}, {other_to, 1}, 0, 1});
+  return impl_->meet_on({{one_from, 0}, {one_to, 1}, 0, 1}, {{other_from, 0}, {other_to, 1}, 0, 1});
 }
 
-bool ExactPair::meet(Way one, Way other) const {
-  return any_part(one, other, [this](const Part& a, const Part& b) { return meet_on(a, b); });
+bool ExactPair::meet(Corners one, Corners other) const {
+  return any_part(one, other, [this](const Part& a, const Part& b) { return impl_->meet_on(a, b); });
 }
 
-double ExactPair::separation_of(const Vec2d& difference) const {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Side& side : sides_) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
-  return best;
-}
-
-double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return separation_of(one - other); }
+double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return impl_->separation_of(one - other); }
 
 /// On a straight way the separation is convex: there is one deepest place, closed in on by thirds.
-double ExactPair::deepest(Way one, Way other) const {
+double ExactPair::deepest(Corners one, Corners other) const {
   double deepest = 0;
   any_part(one, other, [&](const Part& a, const Part& b) {
     const auto ends = [](const Part& part) {
@@ -153,7 +198,7 @@ double ExactPair::deepest(Way one, Way other) const {
     const auto [other_from, other_to] = ends(b);
     const Vec2d start = one_from - other_from;
     const Vec2d way = (one_to - other_to) - start;
-    const auto depth_at = [&](double t) { return -separation_of(start + t * way); };
+    const auto depth_at = [&](double t) { return -impl_->separation_of(start + t * way); };
     double low = 0;
     double high = 1;
     for (int i = 0; i < refinements; ++i) {

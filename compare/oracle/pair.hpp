@@ -1,20 +1,12 @@
 /// Two characters of one shape, exactly.
 #pragma once
 
-#include "oracle/exact.hpp"
-#include "oracle/number.hpp"
-
 #include <paperproof/report.hpp>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
-#include <optional>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace paperproof::compare {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 /// Two open convex shapes overlap where no edge of either has the other wholly outside: with one shape twice these are
 /// its edges, looked at from both sides. Every double is the rational it is, places between two corners of a way are
@@ -43,41 +35,8 @@ class ExactPair {
   [[nodiscard]] double deepest(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 
  private:
-  using Point = detail::Point<Rational>;
-  /// An edge of the shape: the two are apart along it where |edge x difference| is at least `reach`.
-  struct Side {
-    Point edge;
-    Rational reach;
-    Vec2d normal;  ///< Unit, to the right of the edge; rounded, as the width is.
-    double width;  ///< Of the shape along the normal [m].
-  };
-  /// From `begin` to `end` of what leads evenly from one corner to the next; a jump takes no time and goes all the way.
-  struct Part {
-    PathPoint from;
-    PathPoint to;
-    double begin = 0;
-    double end = 0;
-    bool jump = false;
-
-    [[nodiscard]] Point at(double fraction) const;
-    [[nodiscard]] Vec2d near(double fraction) const;  ///< The same, rounded.
-    [[nodiscard]] Point first() const { return jump ? exact(from.position) : at(begin); }
-    [[nodiscard]] Point last() const { return jump ? exact(to.position) : at(end); }
-  };
-  using Way = std::span<const PathPoint>;
-
-  /// Calls `visit(part, part)` for what the two do at the same time, in order, until it returns true.
-  template <class Visit>
-  static bool any_part(Way one, Way other, const Visit& visit);
-  [[nodiscard]] static Part part_of(Way way, std::size_t corner, double now, double end);
-  [[nodiscard]] static Point exact(const Vec2d& v) { return {Rational(v.x()), Rational(v.y())}; }
-  [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const;
-  [[nodiscard]] bool meet_on(const Part& one, const Part& other) const;
-  /// Whether the way of the difference of the two, from start to end, leads inside.
-  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const;
-  [[nodiscard]] double separation_of(const Vec2d& difference) const;
-
-  std::vector<Side> sides_;
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace paperproof::compare

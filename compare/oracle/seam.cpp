@@ -16,35 +16,30 @@ Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const In
              const Integer& denominator, const Box2& near)
     : world_(world) {
   const Way own_way = way_in(own);
+  const double fraction = ratio(numerator, denominator);
   for (const Group& group : world.groups()) {
     if (group.sensor) continue;
     if (&group == &own) {
       neighbours_.push_back({.group = &group, .shift = {}});
       continue;
     }
-    Neighbour neighbour = make_neighbour(group, own_way, way_in(group), numerator, denominator);
-    const Vec2d& shift = neighbour.rounded_shift;
-    if (group.box.overlaps(Box2{near.lower + shift, near.upper + shift}.inflated(neighbour.rounding))) {
-      neighbours_.push_back(std::move(neighbour));
-    }
+    const Way way = way_in(group);
+    const Vec2d shift = way.from.rounded() - own_way.from.rounded() +
+                        fraction * (way.rounded_displacement() - own_way.rounded_displacement());
+    const double rounding = (own_way.size() + way.size()) * 0x1p-48;
+    if (!group.box.overlaps(Box2{near.lower + shift, near.upper + shift}.inflated(rounding))) continue;
+    const Convert<Integer> number{std::min(own_way.unit(), way.unit())};
+    const Point<Integer> start = way.from.in(number)-own_way.from.in(number);
+    const Point<Integer> change = way.displacement(number) - own_way.displacement(number);
+    neighbours_.push_back(
+        {.group = &group,
+         .same_frame = false,
+         .unit = number.unit,
+         .over = denominator,
+         .shift = {start.x * denominator + change.x * numerator, start.y * denominator + change.y * numerator},
+         .rounded_shift = shift,
+         .rounding = rounding});
   }
-}
-
-Seams::Neighbour Seams::make_neighbour(const Group& group, const Way& own, const Way& way, const Integer& numerator,
-                                       const Integer& denominator) {
-  Neighbour neighbour;
-  neighbour.group = &group;
-  neighbour.same_frame = false;
-  neighbour.over = denominator;
-  neighbour.unit = std::min(own.unit(), way.unit());
-  const Convert<Integer> number{neighbour.unit};
-  const Point<Integer> start = way.from.in(number)-own.from.in(number);
-  const Point<Integer> change = way.displacement(number) - own.displacement(number);
-  neighbour.shift = {start.x * denominator + change.x * numerator, start.y * denominator + change.y * numerator};
-  neighbour.rounded_shift = {std::ldexp(ratio(neighbour.shift.x, denominator), neighbour.unit),
-                             std::ldexp(ratio(neighbour.shift.y, denominator), neighbour.unit)};
-  neighbour.rounding = (own.size() + way.size()) * 0x1p-48;
-  return neighbour;
 }
 
 Sign Seams::side(const Neighbour& neighbour, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {

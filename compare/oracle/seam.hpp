@@ -30,14 +30,12 @@ class Seams {
   struct Neighbour {
     const Group* group = nullptr;
     bool same_frame = true;
+    int unit = 0;
     Integer over = 1;
     Point<Integer> shift;  ///< In units of 2^unit.
-    int unit = 0;
     Vec2d rounded_shift{Vec2d::Zero()};
     double rounding = 0;  ///< Of the rounded shift [m].
   };
-  [[nodiscard]] static Neighbour make_neighbour(const Group& group, const Way& own, const Way& way,
-                                                const Integer& numerator, const Integer& denominator);
   /// The sign of (end - start) × (to - from), exact; `to` is in the frame of the neighbour, and all of `start`, `end`
   /// are in one frame.
   [[nodiscard]] static Sign side(const Neighbour& neighbour, const Vec2d& start, const Vec2d& end, const Vec2d& from,

@@ -10,8 +10,8 @@ namespace {
 
 /// A stay, in legs of the way: 2.5 is half-way along the third. An end belongs to it only where a leg begins or ends.
 struct Stay {
-  Rational first;
-  Rational last;
+  ExactFraction first;
+  ExactFraction last;
   bool has_first = false;
   bool has_last = false;
 };
@@ -20,7 +20,6 @@ struct Stay {
 std::optional<Stay> stay_in(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& from,
                             const FramePlace& to) {
   assert(part.radius == 0);
-  using boost::multiprecision::cpp_int;
   const int unit = std::min(common_unit(part, octagon, from), common_unit(part, octagon, to));
   const std::vector<Integer> at_from = scaled_separations(part, octagon, from, unit);
   const std::vector<Integer> at_to = scaled_separations(part, octagon, to, unit);
@@ -30,8 +29,7 @@ std::optional<Stay> stay_in(const ConvexPart& part, std::span<const Vec2d> octag
     const bool in_at_to = at_to[i] < 0;
     if (in_at_from && in_at_to) continue;
     if (!in_at_from && !in_at_to) return std::nullopt;
-    const Integer over = abs(Integer(at_from[i] - at_to[i]));
-    const Rational crossing(cpp_int(abs(at_from[i])), cpp_int(over));
+    const ExactFraction crossing(Ratio{abs(at_from[i]), abs(Integer(at_from[i] - at_to[i]))});
     if (in_at_to && crossing >= stay.first) {
       stay.first = crossing;
       stay.has_first = false;
@@ -55,8 +53,8 @@ std::optional<Stay> stay_in_disc(const World& world, ColliderIndex disc, const F
   };
   Stay stay{.first = 0, .last = 1, .has_first = Passage(world, group, Way::stay(from)).meets(disc)};
   stay.has_last = Passage(world, group, Way::stay(to)).meets(disc);
-  if (!stay.has_first) stay.first = Rational(first_of(from, to));
-  if (!stay.has_last) stay.last = 1 - Rational(first_of(to, from));
+  if (!stay.has_first) stay.first = first_of(from, to);
+  if (!stay.has_last) stay.last = ExactFraction(1) - first_of(to, from);
   if (stay.first >= stay.last) return std::nullopt;
   return stay;
 }
@@ -84,11 +82,11 @@ std::vector<Stay> joined(std::vector<Stay> stays) {
 }
 
 /// The fraction of the step at a place that is counted in legs.
-Rational fraction_at(const Rational& legs, std::span<const FramePlace> places) {
+ExactFraction fraction_at(const ExactFraction& legs, std::span<const FramePlace> places) {
   std::size_t leg = 0;
-  while (leg + 2 < places.size() && legs >= leg + 1) ++leg;
-  const Rational from(places[leg].fraction);
-  return from + (legs - leg) * (Rational(places[leg + 1].fraction) - from);
+  while (leg + 2 < places.size() && legs >= static_cast<double>(leg + 1)) ++leg;
+  const ExactFraction from = places[leg].fraction;
+  return from + (legs - static_cast<double>(leg)) * (places[leg + 1].fraction - from);
 }
 
 }  // namespace
@@ -103,14 +101,14 @@ void add_sensor_events(const World& world, ColliderIndex sensor, std::span<const
       std::optional<Stay> stay = part.radius > 0 ? stay_in_disc(world, sensor, places[leg], places[leg + 1])
                                                  : stay_in(part, world.points(), places[leg], places[leg + 1]);
       if (!stay) continue;
-      stay->first += leg;
-      stay->last += leg;
+      stay->first = stay->first + static_cast<double>(leg);
+      stay->last = stay->last + static_cast<double>(leg);
       stays.push_back(std::move(*stay));
     }
   }
   for (const Stay& stay : joined(std::move(stays))) {
     const bool before = stay.has_first && stay.first == 0;
-    const bool after = stay.has_last && stay.last == places.size() - 1;
+    const bool after = stay.has_last && stay.last == static_cast<double>(places.size() - 1);
     if (!before) events.push_back({sensor, ExactSensorEvent::Change::enter, fraction_at(stay.first, places)});
     if (!after) events.push_back({sensor, ExactSensorEvent::Change::exit, fraction_at(stay.last, places)});
   }

@@ -103,7 +103,7 @@ class Questions {
     double first = 2;
     for (ColliderIndex collider = 0; collider < colliders().size(); ++collider)
       if (const auto impact = oracle_.impact_between(from, to, collider))
-        first = std::min(first, impact->fraction.convert_to<double>());
+        first = std::min(first, static_cast<double>(impact->fraction));
     tally.hits += first <= 1;
     if (!hit && first > 1) return;
     if (hit && first <= 1 && std::abs(hit->fraction - first) <= 1e-9) return;

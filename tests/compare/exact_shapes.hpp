@@ -17,6 +17,7 @@ using Motions = std::vector<MoverMotion>;
 inline double one_ulp_up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 inline double one_ulp_down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 
+using paperproof::test::Rational;
 using Exact = Rational;
 using paperproof::test::cross;
 using paperproof::test::ExactPoint;
