@@ -12,7 +12,7 @@ that there is room. None found is no proof that there is none.
 from itertools import islice
 from math import cos, hypot, pi, sin
 
-from trace_geometry import ZERO, Fraction, add, between, cross, dot, hull, less, scaled, sides, turn, vector
+from trace_geometry import ZERO, Fraction, add, between, hull, less, scaled, sides, turn, vector
 from trace_world import wider
 
 BEYOND = 0.25  # how far may be pushed beyond the crusher's own motion [m]
@@ -23,41 +23,46 @@ STRIDES = (0.02, 0.1, 0.25, 0.5, 0.75, 0.98)  # of the longest way
 MOST_TRIED = 400
 
 
-def crossing(a, b, c, d):
-    """Where two segments cross, in doubles; None where they do not."""
-    one, other, off = less(b, a), less(d, c), less(c, a)
-    over = cross(one, other)
-    if over == 0:
-        return None
-    t, s = cross(off, other) / over, cross(off, one) / over
-    return add(a, scaled(one, t)) if 0 <= t <= 1 and 0 <= s <= 1 else None
-
-
-def is_in(point, convex):
-    return all(turn(a, b, point) > 1e-12 for a, b in sides(convex))
+def is_in(point, convex, low, high):
+    return (low[0] < point[0] < high[0] and low[1] < point[1] < high[1]
+            and all(turn(a, b, point) > 1e-12 for a, b in sides(convex)))
 
 
 def guesses(world, motion, at, reach):
-    """Displacements from `at` (x, y, 1), the nearest first."""
+    """Displacements from `at` (x, y, 1), the nearest first. A rim is its start and its way to the end."""
     body = wider(world.body, CLEAR * Fraction(LEFT))
     taken = []
     for _, edge in world.edges_near(motion, at, reach, body):
         ends = [less(end, at[:2]) for end in edge]
         # Around nothing larger than the reach: what lies beyond does not matter, and doubles are fine near zero.
         taken.append([tuple(map(float, p)) for p in hull([less(end, corner) for end in ends for corner in body])])
-    rims = [(ring[k - 1], ring[k]) for ring in taken for k in range(len(ring))]
+    rims = [(start, less(end, start)) for ring in taken for start, end in sides(ring) if start != end]
     found = [(0.0, 0.0)] + [(d * reach * cos(2 * pi * k / FAN), d * reach * sin(2 * pi * k / FAN)) for k in range(FAN) for d in STRIDES]
-    for i, (a, b) in enumerate(rims):
-        along = less(b, a)
-        length = dot(along, along)
-        foot = -dot(a, along) / length if length else 0
-        places = sorted([0.0, 1.0, min(max(foot, 0.0), 1.0)] + [
-            dot(less(p, a), along) / length
-            for j, other in enumerate(rims) if j != i for p in [crossing(a, b, *other)] if p and length])
-        shares = places + [(p + q) / 2 for p, q in zip(places, places[1:])]
-        found += [add(a, scaled(along, share)) for share in shares]
-    near = {d for d in found if hypot(*d) <= reach}
-    return sorted((d for d in near if not any(is_in(d, ring) for ring in taken)), key=lambda d: hypot(*d))
+    for rim in rims:
+        shares = crossings(rim, rims)
+        shares += [(p + q) / 2 for p, q in zip(shares, shares[1:])]
+        found += [add(rim[0], scaled(rim[1], share)) for share in shares]
+    near = sorted({d for d in found if hypot(*d) <= reach}, key=lambda d: hypot(*d))
+    boxes = [tuple(tuple(pick(axis) for axis in zip(*ring)) for pick in (min, max)) for ring in taken]
+    return (d for d in near if not any(is_in(d, ring, *box) for ring, box in zip(taken, boxes)))
+
+
+def crossings(rim, rims):
+    """Where others cross a rim, as shares of it, in order; with its ends and the place nearest to the origin."""
+    (x, y), (along, up) = rim
+    shares = [0.0, 1.0, min(max(-(x * along + y * up) / (along * along + up * up), 0.0), 1.0)]
+    # Plain products: millions of pairs are looked at.
+    for (other_x, other_y), (other_along, other_up) in rims:
+        off_x, off_y = x - other_x, y - other_y
+        begin = other_along * off_y - other_up * off_x
+        end = begin + other_along * up - other_up * along
+        if (begin > 0) == (end > 0):
+            continue
+        share = begin / (begin - end)
+        place = other_along * (off_x + share * along) + other_up * (off_y + share * up)
+        if 0 <= place <= other_along * other_along + other_up * other_up:
+            shares.append(share)
+    return sorted(shares)
 
 
 class Room:
