@@ -18,8 +18,8 @@ struct Doubled {
     const auto [sum, error] = two_sum(a.value, b.value);
     const auto [rests, lost] = two_sum(a.rest, b.rest);
     const auto [low, dropped] = two_sum(error, rests);
-    const auto [value, rest] = two_sum(sum, low);
-    return {value, rest, (a.radius + b.radius + std::abs(lost) + std::abs(dropped)) * Approximate::outward};
+    const auto [high, left] = two_sum(sum, low);
+    return {high, left, (a.radius + b.radius + std::abs(lost) + std::abs(dropped)) * Approximate::outward};
   }
   friend Doubled operator*(const Doubled& a, const Doubled& b) noexcept {
     const double product = a.value * b.value;
@@ -27,14 +27,14 @@ struct Doubled {
     const double one = a.value * b.rest;
     const double two = a.rest * b.value;
     const double low = error + (one + two);
-    const auto [value, rest] = two_sum(product, low);
+    const auto [high, left] = two_sum(product, low);
     const bool is_exact = a.rest == 0 && b.rest == 0 && a.radius == 0 && b.radius == 0;
     // The error of a product of doubles is a double.
     double bound = a.size() * b.radius + b.size() * a.radius + a.radius * b.radius + std::abs(a.rest * b.rest) +
                    2 * rounding * (std::abs(one) + std::abs(two) + (is_exact ? 0 : std::abs(low)));
     const bool may_underflow = std::abs(product) < 0x1p-900 && a.value != 0 && b.value != 0;
     if (!is_exact || may_underflow) bound += Approximate::underflow;
-    return {value, rest, bound * Approximate::outward};
+    return {high, left, bound * Approximate::outward};
   }
 
  private:
