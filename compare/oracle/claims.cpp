@@ -285,8 +285,7 @@ void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
   const Vec2d ahead = (wanted_.displacement - (stopped - step_.path.front().position)).dot(right) * right;
   const Vec2d own = wanted_.velocity - wanted_.carried / dt_;
   const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, own);
-  const bool may_leave =
-      character.snap > 0 && !step_.grounded && (climbs || (step_.velocity - wanted_.rode).dot(up_) <= 0);
+  const bool may_leave = character.snap > 0 && !step_.grounded && climbs;
   const bool may_miss = character.step_height > 0 && header_.characters == 1 && climbs && ahead.norm() > least_left &&
                         ahead.dot(wanted_.velocity) > 0;
   if (!(may_leave || may_miss) || !is_alone(character.snap + character.step_height)) return;
