@@ -142,14 +142,12 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
   return enters(wanted, ground.normal) && !leaves(step, ground.piece, ground.normal);
 }
 
-/// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
-/// such a seam the walk is above its ground by up to `touch` more than before.
+/// Follows the ground down where a walk has left it, over a crest as well: as far as `snap` allows, and at seams that
+/// hardly bend. Beyond such a seam the walk is above its ground by up to `touch` more than before.
 PAPERPROOF_COLD inline void follow_ground_down(Step& step) {
   constexpr Real bend = 4 * tolerances.touch;          // straight down: enough on ground as steep as 60 degrees
   if (is_passed_through(step)) return;                 // a crushed character does not move
   const Vec2 left_ground = step.moving.ride.velocity;  // of the ground that was walked on
-  // A character that rises has left the ground on purpose, unless it only climbs: a walk goes on over a crest.
-  if (step.up.up_of(step.velocity) > step.up.up_of(left_ground) && !step.climbs) return;
   const Real snap =
       step.movers.active ? std::max(step.settings.snap, falls_away_below_rider(step)) : step.settings.snap;
   const Real down = std::max(snap, bend);
