@@ -21,7 +21,7 @@ function(paperproof_sanitized_copy part)
   # -w: some of the options are for another compiler, which has warned already.
   target_compile_options(${part}_sanitized PRIVATE $<TARGET_PROPERTY:${part},COMPILE_OPTIONS> -w -O1 -fno-omit-frame-pointer ${paperproof_sanitizers}
     "SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")  # calls of the checks, not their code at every access
-  set_target_properties(${part}_sanitized PROPERTIES UNITY_BUILD ${paperproof_unite_tests} CXX_COMPILER_LAUNCHER "${paperproof_clang}")
+  set_target_properties(${part}_sanitized PROPERTIES UNITY_BUILD ${paperproof_unite_tests} UNITY_BUILD_BATCH_SIZE 0 CXX_COMPILER_LAUNCHER "${paperproof_clang}")
 endfunction()
 
 if(PAPERPROOF_SANITIZED_TESTS)

@@ -69,6 +69,7 @@ struct Found {
 const std::vector<Clause> safety{Clause::overlap, Clause::passage, Clause::one_way,      Clause::gap,
                                  Clause::crush,   Clause::hanging, Clause::start_inside, Clause::time_of_impact};
 const std::vector<Found> all_found{
+    {"static/circles", {15001177}, {Clause::velocity}},
     {"movers/tiles", {2001356}, safety},
     {"movers/slopes", {4000198, 4001578}, safety},
     {"movers/papers", {8001016, 8001922}, safety},

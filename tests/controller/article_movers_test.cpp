@@ -1,4 +1,5 @@
-/// What the article's techniques refuse of movers. tests/situations/techniques.json has what carries, pushes and crushes.
+/// What the article's techniques refuse of movers. tests/situations/techniques.json has what carries, pushes and
+/// crushes.
 #include "controller/article_support.hpp"
 
 #include <gtest/gtest.h>
