@@ -41,12 +41,6 @@ struct Doubled {
   static constexpr double rounding = 0x1p-53;
 
   [[nodiscard]] double size() const noexcept { return std::abs(value) + std::abs(rest); }
-  /// The rounded sum, and what rounding took from it: exact.
-  [[nodiscard]] static std::pair<double, double> two_sum(double a, double b) noexcept {
-    const double sum = a + b;
-    const double part = sum - a;
-    return {sum, (a - (sum - part)) + (b - part)};
-  }
 };
 
 /// The smaller of two; the bound holds for either choice.

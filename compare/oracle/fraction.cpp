@@ -12,7 +12,7 @@ namespace {
 double nearest_double(const Ratio& ratio) {
   if (ratio.numerator == 0) return 0;
   const Integer size = abs(ratio.numerator);
-  // The quotient has 62 or 63 bits, and its lowest one stands for all that follow: what is left is rounded once.
+  // The quotient has 62 or 63 bits. Its lowest bit is set if the division leaves a rest: so only one rounding follows.
   const int shift = 62 + static_cast<int>(msb(ratio.denominator)) - static_cast<int>(msb(size));
   Integer quotient;
   Integer rest;

@@ -10,7 +10,7 @@ namespace detail {
 struct Ratio;
 }
 
-/// An exact fraction. Immutable; copies share what is long.
+/// An exact fraction. Immutable. Copies share the numerator and the denominator.
 class ExactFraction {
  public:
   ExactFraction(double value = 0) : rounded_(value) {}  // NOLINT(google-explicit-constructor): a double is one

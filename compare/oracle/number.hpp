@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace paperproof::compare::detail {
 
@@ -42,6 +43,13 @@ enum class Answer : std::uint8_t { no, yes, unknown };
   return a == Answer::yes ? Answer::no : Answer::yes;
 }
 
+/// A rounded sum, and what rounding took from it: exact.
+[[nodiscard]] inline std::pair<double, double> two_sum(double a, double b) noexcept {
+  const double sum = a + b;
+  const double part = sum - a;
+  return {sum, (a - (sum - part)) + (b - part)};
+}
+
 /// A double and a bound on its distance from the exact value. The bound follows the real rounding errors (two-sum, and
 /// the fused product for two-product), so it stays 0 while every operation is exact: a character that touches a tile on
 /// whole pixels is known to touch, without any exact arithmetic. T. J. Dekker 1971; J. R. Shewchuk 1997.
@@ -54,9 +62,7 @@ struct Approximate {
   static constexpr double underflow = std::numeric_limits<double>::min();
 
   friend Approximate operator+(const Approximate& a, const Approximate& b) noexcept {
-    const double sum = a.value + b.value;
-    const double part = sum - a.value;
-    const double error = (a.value - (sum - part)) + (b.value - part);
+    const auto [sum, error] = two_sum(a.value, b.value);
     return {sum, (a.radius + b.radius + std::abs(error)) * outward};
   }
   friend Approximate operator-(const Approximate& a) noexcept { return {-a.value, a.radius}; }
