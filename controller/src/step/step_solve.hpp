@@ -228,7 +228,7 @@ inline void solve(Step& step) {
     find_ground(step);
     if (step.result.grounded && !step.met_ground && !step.wedged) land(step, wanted);
     if (step.settings.step_height > 0) climb_stairs(step, wanted, walk);
-    if (step.climbs && !step.result.grounded) follow_ground_down(step);  // who was launched has left it on purpose
+    if (step.climbs && !step.result.grounded) follow_ground_down(step);  // a launch leaves the ground
     if (step.movers.active) end_ride(step);
   }
   if (!step.memory.marked.empty()) find_movers_that_still_overlap(step);

@@ -100,8 +100,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) {
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
 PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) {
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
-  if (!step.request.grounded || !step.climbs || step.result.status != StepStatus::moved || is_passed_through(step))
-    return;
+  if (!step.climbs || step.result.status != StepStatus::moved || is_passed_through(step)) return;
   for (int stair = 0; stair < most_stairs; ++stair) {
     const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(step.request.state.position))));
     const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > tolerances.touch;
