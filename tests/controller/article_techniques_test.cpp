@@ -1,6 +1,7 @@
-/// What several techniques do with the same situations. What they do at a chain and how they slide is in
-/// tests/situations/techniques.json.
+/// What several techniques do with the same situations, and what they refuse. What they do at a chain and among movers,
+/// and how they slide, is in tests/situations/techniques.json.
 #include "controller/article_support.hpp"
+#include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -114,6 +115,62 @@ TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
     EXPECT_EQ(message({}), "");
     for (const auto& [bad, begins] : cases) EXPECT_EQ(message(bad).substr(0, begins.size()), begins);
   }
+}
+
+ColliderDef conveyor(ColliderDef def, double speed) {
+  def.surface_speed = speed;
+  return def;
+}
+
+constexpr std::array moving_kinds{"discrete", "penetration_resolution", "speculative_march", "speculative"};
+
+TEST(Movers, that_carry_and_crush_make_no_technique_take_memory) {
+  // The floor goes to and fro. The ceiling comes down by 1/64 m in each step, of which 10.4 are free.
+  const double free = 10.4 / 64;
+  for (const std::string_view kind : moving_kinds) {
+    SCOPED_TRACE(kind);
+    Rig rig(kind, {compare::box(-9, -3, 9, 0, 0), compare::box(-9, 2 * half_height + free, 9, 9, 1)});
+    std::array<MoverMotion, 2> motions{};
+    rig.request.movers = motions;
+    rig.request.dt = 1;
+    rig.result.position = {0, half_height};
+    rig.result.reserve(8);
+    const std::size_t before = tests::allocations();
+    for (int step = 1; step <= 30; ++step) {
+      const double aside = step % 2 == 1 ? 0.1 : 0;
+      motions = {MoverMotion{{0.1 - aside, 0}, {aside, 0}}, MoverMotion{{0, (1 - step) / 64.0}, {0, -step / 64.0}}};
+      rig.request.ride = rig.result.ride;
+      rig.move(rig.result.position, {0, -px});
+    }
+    EXPECT_EQ(tests::allocations(), before);
+    EXPECT_EQ(rig.result.status, StepStatus::crushed);
+  }
+}
+
+TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
+  for (const std::string_view kind : moving_kinds) {
+    SCOPED_TRACE(kind);
+    Rig by_conveyor(kind, {conveyor(rectangle(-9, -1, 9, 0), 1e300)});
+    by_conveyor.request.dt = 1;
+    EXPECT_EQ(by_conveyor.move({0, 1}, {0, -2}).status, StepStatus::out_of_range);
+    EXPECT_EQ(by_conveyor.result.position, Vec2d(0, 1));
+  }
+}
+
+TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
+  const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
+    return refusal_by<NotExpressible>([&] { Rig(kind, {collider}); });
+  };
+  const ColliderDef mover = compare::box(0, 0, 1, 1, 0);
+  const ColliderDef belt = conveyor(rectangle(0, 0, 1, 1), 1);
+  for (const std::string_view kind : {"grid", "pixel_colour", "pixel_tile", "mask", "wind_back"})
+    for (const ColliderDef& each : {mover, belt})
+      EXPECT_EQ(refusal(kind, each), std::string(kind) + " is for scenery that stands still");
+  for (const std::string_view kind : {"wind_back", "penetration_resolution", "speculative", "discrete"})
+    EXPECT_EQ(refusal(kind, compare::circle({0, 0}, 1)),
+              std::string(kind) + " knows no circles: make a polygon of them");
+  EXPECT_EQ(refusal("bounding_box", mover), "");
+  EXPECT_EQ(refusal("bounding_box", belt), "bounding_box carries nobody: there is a conveyor");
 }
 
 }  // namespace
