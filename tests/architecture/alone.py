@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """alone.py BUILD: does each source compile by itself? A build without unity sources compiles it so, and a unity source
-hides that one of its files lacks an include.
+hides that one of its files lacks an include. Tests are built by clang where they are built together: here the
+project's own compiler sees them, with its warnings.
 
 Reads BUILD/compile_commands.json and checks the syntax of every 64th source of a unity source; which, goes on with
 each commit. PAPERPROOF_LONG_TESTS=1: of all."""
@@ -14,12 +15,12 @@ def united(build):
     seen = {}
     for entry in json.load(open(os.path.join(build, 'compile_commands.json'))):
         # What the sanitizers look at has the flags of another compiler.
-        if not re.search(r'(?<!_sanitized)\.dir/Unity/unity_\d+_cxx\.cxx$', entry['file']):
+        if not re.search(r'(?<!_sanitized)\.dir/Unity/unity_\d+_cxx\.cxx$|_tests_\d+\.cpp$', entry['file']):
             continue
         words = shlex.split(entry['command'])
         at = words.index('-o')
         command = [word for word in words[:at] + words[at + 2:] if word not in ('-c', entry['file'])]
-        for source in re.findall(r'^#include "(.*\.cpp)"$', open(entry['file']).read(), re.MULTILINE):
+        for source in re.findall(r'^#(?:include|line 1) "(.*\.cpp)"$', open(entry['file']).read(), re.MULTILINE):
             seen.setdefault(source, command)
     return sorted(seen.items())
 

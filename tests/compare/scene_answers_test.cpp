@@ -62,8 +62,9 @@ TEST(Answers, are_met_by_octagon_sweep_and_each_missed_by_a_run_that_does_someth
     const Row& row = result.rows.front();
     ASSERT_TRUE(row.answer_ok && row.answer_error) << name;
     EXPECT_TRUE(*row.answer_ok) << name << ": " << row.answer;
-    if (name.starts_with("tiles_") || name.starts_with("replica_1e"))
+    if (name.starts_with("tiles_") || name.starts_with("replica_1e")) {
       EXPECT_EQ(row.verdict, Verdict::holds) << name << ": " << row.reason;
+    }
     const ReportRun& run = result.runs.at(0);
     std::vector<TraceStep> all = run.steps;
     for (const std::vector<TraceStep>& other : run.others) all.insert(all.end(), other.begin(), other.end());
@@ -81,9 +82,9 @@ TEST(Answers, are_met_by_octagon_sweep_and_each_missed_by_a_run_that_does_someth
       const bool missed = std::any_of(spoilt.begin(), spoilt.end(), [&](const std::vector<TraceStep>& steps) {
         AnswerCheck check({answer}, run.header);
         for (const TraceStep& step : steps) check.add(step);
-        Row row;
-        check.write(row);
-        return row.answer_ok == false;
+        Row told;
+        check.write(told);
+        return told.answer_ok == false;
       });
       EXPECT_TRUE(missed) << name << ", answer " << (&answer - scene.answers.data());
     }
