@@ -2,7 +2,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE "${WORK}")
-if(WINE)
+if(NOT "${WINE}" STREQUAL "")  # it may say that it was not found
   file(MAKE_DIRECTORY "${WORK}")
   set(ENV{WINEPREFIX} "${WORK}/wine")
   set(ENV{WINEDEBUG} -all)
@@ -37,7 +37,7 @@ if(CONFIGURE_ONLY)
   return()
 endif()
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}" --target consumer COMMAND_ERROR_IS_FATAL ANY)
-if(WINE)
+if(NOT "${WINE}" STREQUAL "")
   execute_process(COMMAND "${WINE}" "${WORK}/consumer.exe" COMMAND_ERROR_IS_FATAL ANY)
   file(REMOVE_RECURSE "$ENV{WINEPREFIX}")  # wine copies 0.7 GB to there
 else()
