@@ -274,10 +274,10 @@ void StepLedger::add_crossings() {
                        fmt::format("Box2D passes or enters `{}`, {:.3g} m deep at the end of the step",
                                    mine_.header->ids[collider], depth)});
   }
-  for (const ColliderIndex collider : now_.reference.judged.corner_cut)
+  for (const ColliderIndex collider : now_.reference.judged.clipped)
     events_.push_back(
         {EventKind::crossing, Cause::skin, false,
-         fmt::format("Box2D cuts a corner of `{}` no deeper than its skin", mine_.header->ids[collider])});
+         fmt::format("Box2D clips `{}` no deeper than its skin", mine_.header->ids[collider])});
 }
 
 /// After settling, one changes the sides of its contacts. Exact arithmetic has a reason where its own sides change too.

@@ -59,7 +59,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter :
-       {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.hanging_steps,
+       {&sums_.tunnels, &sums_.clipped, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.hanging_steps,
         &sums_.stuck_steps, &sums_.stuck_refuted, &sums_.ground_refuted, &sums_.dropped_steps}) {
     *counter = 0;
   }
@@ -188,7 +188,9 @@ void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judge
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
   const StepJudgement::Company& company = judgement.company;
   count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
-  count(sums_.corner_cuts, !judgement.corner_cut.empty() || !company.corner_cut.empty());
+  const bool clips = !judgement.clipped.empty() || !company.clipped.empty();
+  count(sums_.clipped, clips);
+  if (clips) raise(sums_.clipped_depth_max_m, judgement.clipped_depth);
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
     return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider) &&
            !contains(judgement.drawn, collider);
@@ -251,7 +253,7 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   const auto exempt = [this](Exempt which, bool happened) {
     if (happened) ++sums_.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)];
   };
-  exempt(Exempt::corner_cut, !judgement.corner_cut.empty() || !judgement.company.corner_cut.empty());
+  exempt(Exempt::clipped, !judgement.clipped.empty() || !judgement.company.clipped.empty());
   exempt(Exempt::hover, judgement.hovers);
   exempt(Exempt::drawn, !judgement.drawn.empty());
   exempt(Exempt::late_ground, judgement.ground_late);

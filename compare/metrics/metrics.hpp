@@ -21,7 +21,7 @@ namespace paperproof::compare {
 /// Collects one run. Feed every step with its judgement in order, then write the row. Memory does not grow with the
 /// number of steps. Not thread-safe.
 ///
-/// - `tunnels`, `corner_cuts`, `one_way_violations`, `steps_ending_inside`: steps with any; see `Judge`. The third only
+/// - `tunnels`, `clipped`, `one_way_violations`, `steps_ending_inside`: steps with any; see `Judge`. The third only
 ///   where the scenery has a one-way chain. What `Measured` leaves out is absent.
 /// - `max_penetration_m`: deepest exact penetration at the end of a step. `max_contact_gap_m`: largest exact separation
 ///   at which a reported contact stopped the character.

@@ -41,7 +41,7 @@ Vec2d place_at(std::span<const PathPoint> way, double fraction) {
 }
 
 CompanyJudge::CompanyJudge(const TraceHeader& header)
-    : header_(header), pair_(header.points), box_(Box2::around(header.points)), slop_(detail::slop_of(header)) {}
+    : header_(header), pair_(header.points), box_(Box2::around(header.points)), rim_(detail::rim_of(header)) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
@@ -130,7 +130,10 @@ void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, Ste
 void CompanyJudge::judge_ways(Way one, Way other, CharacterIndex whom, StepJudgement& judgement) const {
   if (!pair_.meet(one, other)) return;
   StepJudgement::Company& company = judgement.company;
-  (slop_ > 0 && pair_.deepest(one, other) <= slop_ ? company.corner_cut : company.passed).push_back(whom);
+  const double depth = rim_ > 0 ? pair_.deepest(one, other) : 0;
+  const bool clips = rim_ > 0 && depth <= rim_;
+  (clips ? company.clipped : company.passed).push_back(whom);
+  if (clips) judgement.clipped_depth = std::max(judgement.clipped_depth, depth);
 }
 
 }  // namespace paperproof::compare

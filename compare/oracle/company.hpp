@@ -29,7 +29,7 @@ namespace paperproof::compare {
 ///
 /// **Passed.** They are apart at both ends, and overlap at some moment between; or they overlapped since an earlier
 /// step, and the straight way of their difference from the last step without to the end of this one leads through
-/// overlap: they left on other sides. No deeper than the slop (see `Judge`) on that way it is a corner cut.
+/// overlap: they left on other sides. No deeper than a rim (see `Judge`) on that way, they clip each other.
 /// Where paths are sampled (Box2D) their moments are estimates that do not go together: of one step, too, the straight
 /// way counts then.
 class CompanyJudge {
@@ -60,7 +60,7 @@ class CompanyJudge {
   TraceHeader header_;
   ExactPair pair_;
   Box2 box_;  ///< Around the shape, relative to the position [m].
-  double slop_;
+  double rim_;
   std::vector<Vec2d> last_ends_;  ///< Empty before the first step.
   std::map<std::pair<CharacterIndex, CharacterIndex>, FreeFrom> inside_;
 };

@@ -11,14 +11,17 @@ namespace {
 
 /// See `own_reach` [m].
 constexpr double least_reach = 1e-6;
+/// Box2D's skin, for all: what one is excused the others are [m].
+constexpr double clip_depth = box2d_skin;
 
 //                                                                 octagon_sweep  Box2D          by units  others
 constexpr std::array<Exemption, 14> all_exemptions{{
-    {Exempt::corner_cut,
-     "corner_cut",
-     "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
+    {Exempt::clipped,
+     "clipped",
+     "passes a solid with a rim of the octagon no deeper than this, than its unit or than its pixel (and an eighth of "
+     "the octagon's width)",
      "m",
-     {0, box2d_skin, 0.005, 0.005}},
+     {0, clip_depth, clip_depth, clip_depth}},
     {Exempt::late_match, "late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
     {Exempt::reach,
      "reach",
@@ -50,7 +53,7 @@ constexpr std::array<Exemption, 14> all_exemptions{{
      {0, 1, 1, 1}},
     {Exempt::drawn,
      "drawn",
-     "is inside, or passes, pixels no deeper than this: it is drawn on whole pixels, and the octagon is not",
+     "is inside pixels no deeper than this: it is drawn on whole pixels, and the octagon is not",
      "m",
      {0, 0, its_pixel, 0}},
     {Exempt::deflected,
@@ -108,6 +111,8 @@ std::span<const Exemption> exemptions() { return all_exemptions; }
 double allowed(Exempt which, const TraceHeader& header) {
   const double size = all_exemptions[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
   if (size == its_pixel) return tolerance_named(header, "pixel");
+  if (which == Exempt::clipped && size > 0)
+    return std::max({size, tolerance_named(header, "unit"), tolerance_named(header, "pixel")});
   return size == its_own ? own_reach(header) : size;
 }
 

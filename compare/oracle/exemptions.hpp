@@ -23,7 +23,7 @@ enum class Party : std::uint8_t {
 [[nodiscard]] Party party_of(const TraceHeader& header);
 
 enum class Exempt : std::uint8_t {
-  corner_cut,
+  clipped,
   late_match,
   reach,
   hover,
@@ -40,7 +40,7 @@ enum class Exempt : std::uint8_t {
 };
 
 struct Exemption {
-  Exempt which = Exempt::corner_cut;
+  Exempt which = Exempt::clipped;
   std::string_view name;          ///< As rows have it in `exempted`.
   std::string_view meaning;       ///< What happened that is not held against it.
   std::string_view unit;          ///< "m" or "steps"; empty where there is no size, and 1 means that it applies.

@@ -67,7 +67,7 @@ Judge::Judge(const TraceHeader& header, const Judge* like)
       turning_(std::make_unique<detail::TurningJudge>(header_)),
       sceneries_(like != nullptr ? like->sceneries_ : std::make_shared<Sceneries>(header)),
       scenery_(sceneries_->octagon) {
-  slop_ = detail::slop_of(header);
+  rim_ = detail::rim_of(header);
   promises_ = party_of(header) == Party::promising;
   for (const ColliderDef& def : header.scenery.colliders) {
     has_sensors_ = has_sensors_ || def.sensor;
@@ -314,7 +314,7 @@ void Judge::begin_episodes(const Place& start) {
 void Judge::leave_bodies_out(StepJudgement& judgement) const {
   const auto is_body = [this](ColliderIndex collider) { return header_.is_body(collider); };
   for (std::vector<ColliderIndex>* found : {&judgement.entered, &judgement.rounded, &judgement.pressed,
-                                            &judgement.drawn, &judgement.tunnelled, &judgement.corner_cut})
+                                            &judgement.drawn, &judgement.tunnelled, &judgement.clipped})
     std::erase_if(*found, is_body);
   std::erase_if(judgement.passings, [&](const Passing& passing) { return is_body(passing.collider); });
 }
@@ -348,6 +348,8 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     Episode& episode = it->second;
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
+    // Through a paper it is half its width deep on the way, and less where the step ends.
+    if (rim_ > 0 && episode.depth <= rim_) episode.depth = std::max(episode.depth, depth_of(path, collider));
     const bool crushes = is_said_as_crush(path.back(), collider, judgement);
     if (!is_new && crushes) {
       // The octagon left this solid earlier in the step: it is judged from its last free position.
@@ -412,9 +414,9 @@ bool Judge::went_through(const Vec2d& from, const Place& end, ColliderIndex coll
 /// @param from, to both free of the collider; the straight way between them meets it.
 void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                           StepJudgement& judgement) const {
-  if (slop_ > 0 && std::max(depth, depth_of(path, collider)) <= slop_) {
-    judgement.corner_cut.push_back(collider);
-    return;
+  if (rim_ > 0) {
+    const double deepest = std::max(depth, depth_of(path, collider));
+    if (deepest <= rim_) return judgement.note_clipped(collider, deepest);
   }
   judgement.tunnelled.push_back(collider);
   Passing passing = detail::describe_passing(scenery_, from, to, collider);

@@ -43,7 +43,8 @@ struct StepJudgement {
   std::vector<ColliderIndex> drawn;        ///< Of these, the ones that are no deeper than a pixel: see `Judge`.
   std::vector<ColliderIndex> tunnelled;    ///< Solids that were passed through: see `Judge`.
   std::vector<Passing> passings;           ///< One for each of `tunnelled`.
-  std::vector<ColliderIndex> corner_cut;   ///< The same, but no deeper than the slop.
+  std::vector<ColliderIndex> clipped;      ///< The same, but with a rim of the octagon only.
+  double clipped_depth = 0;                ///< The deepest of these, and of `Company::clipped` [m].
   /// One-way chains that were passed against their normal, and not on purpose.
   std::vector<ColliderIndex> one_way_broken;
   std::vector<ColliderIndex> crushed;            ///< Reported as crushing, and there was no room: see `Judge`.
@@ -103,11 +104,11 @@ struct StepJudgement {
 
   /// What happened with characters of a higher index; each pair is told once. See `CompanyJudge`.
   struct Company {
-    std::vector<CharacterIndex> overlap;     ///< Overlapped at the end of the step.
-    std::vector<CharacterIndex> entered;     ///< Of these, the ones that are new.
-    std::vector<CharacterIndex> passed;      ///< Got past each other.
-    std::vector<CharacterIndex> corner_cut;  ///< The same, but no deeper than the slop.
-    std::vector<CharacterIndex> rounded;     ///< Overlapped anew, by no more than rounding.
+    std::vector<CharacterIndex> overlap;  ///< Overlapped at the end of the step.
+    std::vector<CharacterIndex> entered;  ///< Of these, the ones that are new.
+    std::vector<CharacterIndex> passed;   ///< Got past each other.
+    std::vector<CharacterIndex> clipped;  ///< The same, but with a rim of the octagon only.
+    std::vector<CharacterIndex> rounded;  ///< Overlapped anew, by no more than rounding.
 
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
@@ -121,6 +122,11 @@ struct StepJudgement {
   std::optional<double> turning_toi_error{};
   bool beside_another = false;  ///< Another that goes at the same time is near: see `Judge`.
 
+  /// @param depth [m].
+  void note_clipped(ColliderIndex solid, double depth) {
+    clipped.push_back(solid);
+    clipped_depth = std::max(clipped_depth, depth);
+  }
   /// The step entered a solid or another character, passed one, or passed a one-way chain against its normal.
   [[nodiscard]] bool broke() const {
     return !entered.empty() || !tunnelled.empty() || !one_way_broken.empty() || company.broke();
@@ -179,10 +185,10 @@ struct StepJudgement {
 /// **Drawn.** Who draws a level that is made of pixels lays itself on whole pixels, up to one beside the octagon. Where
 /// it ends no deeper inside than that, it is `drawn` (exempted): no overlap, but its depth counts.
 ///
-/// **Corner cut.** The same as tunnelling, but nowhere deeper than the slop (exempted), and never more than an eighth
-/// of the octagon's narrowest width. The depth is the octagon's, not the solid's: however thin a paper is, an octagon
-/// that passes it is half its own width deep at some instant. What a cut touches is therefore only a rim of the
-/// octagon; its core stays free all along.
+/// **Clipped.** The same as tunnelling, but with a rim of the octagon only, and its core stays free all along: it is
+/// nowhere deeper than 20 mm, its contender's unit or its pixel (exempted), nor than an eighth of the octagon's
+/// narrowest width. The rule is the same for all who promise nothing. The depth is the octagon's, not the solid's:
+/// however thin a paper is, an octagon that passes it is half its own width deep at some instant.
 ///
 /// **Contact.** A collider that the requested displacement, from a corner of the path (for Box2D: from its start or
 /// end), enters after at most 1e-6 m along the contact normal, if it enters it in what is left of the step there, or
@@ -374,7 +380,7 @@ class Judge {
   const ExactScenery& scenery_;
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
-  double slop_ = 0;
+  double rim_ = 0;
   bool promises_ = false;  ///< See `Party::promising`.
   Leaving leaving_;        ///< Of the step that is being judged.
   double dt_ = 0;          ///< Of the step that is being judged [s].

@@ -9,9 +9,9 @@ namespace paperproof::compare::detail {
 namespace {
 
 constexpr double degrees = 180 / 3.14159265358979323846;
-/// So much of the octagon's narrowest width the slop may be at most: a character of a few millimetres that is passed by
+/// So much of the octagon's narrowest width the rim may be at most: a character of a few millimetres that is passed by
 /// a paper is half a width deep, which must not be excused.
-constexpr double slop_of_width = 0.125;
+constexpr double rim_of_width = 0.125;
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -71,9 +71,8 @@ double narrowest_width(const std::vector<Vec2d>& ring) {
   return narrowest;
 }
 
-double slop_of(const TraceHeader& header) {
-  const double slop = std::max(allowed(Exempt::corner_cut, header), allowed(Exempt::drawn, header));
-  return std::min(slop, slop_of_width * narrowest_width(header.points));
+double rim_of(const TraceHeader& header) {
+  return std::min(allowed(Exempt::clipped, header), rim_of_width * narrowest_width(header.points));
 }
 
 }  // namespace paperproof::compare::detail

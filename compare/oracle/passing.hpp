@@ -12,7 +12,7 @@ namespace paperproof::compare::detail {
 /// The smallest distance of two parallel lines that hold the convex ring between them [m].
 [[nodiscard]] double narrowest_width(const std::vector<Vec2d>& ring);
 
-/// Passing something by no deeper than this is a corner cut [m]; 0: nothing is.
-[[nodiscard]] double slop_of(const TraceHeader& header);
+/// Whoever passes something no deeper than this clips it [m]; 0: nothing is clipped.
+[[nodiscard]] double rim_of(const TraceHeader& header);
 
 }  // namespace paperproof::compare::detail

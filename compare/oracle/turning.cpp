@@ -522,9 +522,8 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const Ex
 }
 
 void TurningJudge::judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
-  if (const double slop = slop_of(header_); slop > 0 && depth_on(solid, step) <= slop) {
-    judgement.corner_cut.push_back(solid.collider);
-    return;
+  if (const double rim = rim_of(header_); rim > 0) {
+    if (const double depth = depth_on(solid, step); depth <= rim) return judgement.note_clipped(solid.collider, depth);
   }
   std::vector<Vec2d> ring;
   for (const std::size_t i : solid.parts.front()) ring.push_back(way_of(step, solid.collider).vertices.front()[i]);

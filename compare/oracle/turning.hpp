@@ -17,7 +17,7 @@ namespace paperproof::compare::detail {
 /// Solids that turn: their vertices go as `TraceStep::vertex_ways` says, and at every moment they are the hulls of
 /// those that make up the convex parts of their definition. Feed it every step of one run in order. Not thread-safe.
 ///
-/// - **Overlap** at the end of a step, **tunnelled** and **corner cut** as of what does not turn (see `Judge`), but for
+/// - **Overlap** at the end of a step, **tunnelled** and **clipped** as of what does not turn (see `Judge`), but for
 ///   one that is left on another side in a later step than it was entered.
 /// - **Crushed**: a solid that is named is excused if there is no room, and with room its overlap and passage are a
 ///   matter of `crush`, of who promises that: see `Judge`. The way to a place that is room leaves free what turns, too,

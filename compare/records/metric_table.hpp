@@ -35,7 +35,9 @@ METRIC(real, border_high, study, one, "Fails from", "",
 METRIC(count, characters, progress, sum, "Characters", "",
        "Characters in the run; absent for one; counts are sums over them")
 METRIC(count, tunnels, safety, sum, "Tunnels", "steps", "Steps whose way crosses a solid and ends free of it")
-METRIC(count, corner_cuts, safety, sum, "Corner cuts", "steps", "Crossings no deeper than the slop, counted apart")
+METRIC(count, clipped, safety, sum, "Clipped", "steps",
+       "Steps that pass a solid with a rim only: no deeper than 20 mm, its unit or its pixel; no tunnels")
+METRIC(measure, clipped_depth_max_m, safety, most, "Clipped by", "m", "How deep the deepest of them is")
 METRIC(count, steps_ending_inside, safety, sum, "Ending inside", "steps",
        "Steps that end overlapping a solid, in exact arithmetic")
 METRIC(count, one_way_violations, safety, sum, "One-way broken", "steps",

@@ -12,7 +12,7 @@ namespace paperproof::compare {
 
 /// A step that a reader may want to jump to. The first contact needs none: the page finds it in the steps.
 struct ReportEvent {
-  enum class Kind : std::uint8_t { tunnel, corner_cut, inside, one_way, crush, drop, sensor, note };
+  enum class Kind : std::uint8_t { tunnel, clipped, inside, one_way, crush, drop, sensor, note };
   int step = 0;
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.

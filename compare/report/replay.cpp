@@ -19,8 +19,8 @@ std::string_view name_of(ReportEvent::Kind kind) {
   switch (kind) {
     case ReportEvent::Kind::tunnel:
       return "tunnel";
-    case ReportEvent::Kind::corner_cut:
-      return "corner cut";
+    case ReportEvent::Kind::clipped:
+      return "clipped";
     case ReportEvent::Kind::inside:
       return "inside";
     case ReportEvent::Kind::one_way:

@@ -203,8 +203,8 @@ void Lane::note_events(std::size_t character) {
   };
   note(ReportEvent::Kind::tunnel, judged.tunnelled, "passes");
   note_company(ReportEvent::Kind::tunnel, judged.company.passed, "passes");
-  note(ReportEvent::Kind::corner_cut, judged.corner_cut, "cuts a corner of");
-  note_company(ReportEvent::Kind::corner_cut, judged.company.corner_cut, "cuts a corner of");
+  note(ReportEvent::Kind::clipped, judged.clipped, "clips");
+  note_company(ReportEvent::Kind::clipped, judged.company.clipped, "clips");
   note(ReportEvent::Kind::one_way, judged.one_way_broken, "passes against its normal:");
   note(ReportEvent::Kind::crush, record.crushed, "is crushed by");
   note(ReportEvent::Kind::drop, record.dropped_through, "drops through");

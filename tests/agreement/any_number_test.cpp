@@ -82,7 +82,7 @@ struct Judged {
 
 /// No step enters or passes what is not named, or names what had left room or came no closer.
 bool holds(const StepJudgement& judged) {
-  return judged.entered.empty() && judged.tunnelled.empty() && judged.corner_cut.empty() &&
+  return judged.entered.empty() && judged.tunnelled.empty() && judged.clipped.empty() &&
          judged.one_way_broken.empty() && judged.crushed_with_room.empty();
 }
 
@@ -234,7 +234,7 @@ TEST(AnyNumber, with_more_on_it_than_is_remembered_it_gives_way_to_nothing_and_i
     for (std::size_t k = 0; k < run.motions.size(); ++k)
       run.motions[k] = {run.motions[k].to, run.motions[k].to + Vec2d(k < ram ? 0 : 0.3, 0)};
     const StepJudgement judged = run.step();
-    EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.corner_cut.empty());
+    EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.clipped.empty());
     if (papers <= static_cast<int>(Crushers::capacity())) continue;
     EXPECT_EQ(run.state.position, stays);
     EXPECT_EQ(run.crushed(), Colliders{static_cast<ColliderIndex>(papers) + 1});

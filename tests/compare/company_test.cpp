@@ -83,7 +83,7 @@ std::string told_of_other(const StepJudgement& judged) {
   for (const auto& [what, characters] : {std::pair{"inside ", &company.overlap},
                                          {"entered ", &company.entered},
                                          {"passed ", &company.passed},
-                                         {"corner cut ", &company.corner_cut}}) {
+                                         {"clipped ", &company.clipped}}) {
     if (*characters == std::vector<CharacterIndex>{1}) all += what;
   }
   EXPECT_EQ(judged.broke(), company.broke());
@@ -104,8 +104,8 @@ TEST(CompanyJudge, follows_a_stay_inside_of_another_over_steps) {
     bool path_exact = true;
   };
   const std::vector<Row> rows{
-      {"a rim cut by less than the slop", {step({{-2, 0}, {2, 0}})}, {"corner cut "}, 1.246},
-      {"by more", {step({{-2, 0}, {2, 0}})}, {"passed "}, 1.244},
+      {"a rim that is clipped", {step({{-2, 0}, {2, 0}})}, {"clipped "}, 1.246},
+      {"by more", {step({{-2, 0}, {2, 0}})}, {"passed "}, 1.229},
       {"an overlap is new once, and its end on the same side no passing",
        {enters, resting({-0.5, 0}), step({{-0.5, 0}, {-1, 0}})},
        {"inside entered ", "inside ", ""}},
@@ -196,7 +196,7 @@ TEST(CompanyJudge, in_turns_each_goes_while_the_other_stands) {
         Row{"where it will be", through, 0, falls, ""}, Row{"to where it ended", comes, 1, falls, "inside entered "},
         Row{"the other goes through where it ended", falls, 0, through, "passed "},
         Row{"the other goes to where it was", leaves, 0, comes, ""},
-        Row{"a rim cut by less than the slop", through, 1, resting({0, 1.246}), "corner cut "}}) {
+        Row{"a rim that is clipped", through, 1, resting({0, 1.246}), "clipped "}}) {
     const auto steps = in_turns(one, turn, other);
     EXPECT_EQ(told_of_other(Two()(steps[0], steps[1])), told) << what;
   }

@@ -77,7 +77,7 @@ inline std::string told(const StepJudgement& judged) {
                                         {"rounded", &judged.rounded},
                                         {"drawn", &judged.drawn},
                                         {"tunnelled", &judged.tunnelled},
-                                        {"corner cut", &judged.corner_cut},
+                                        {"clipped", &judged.clipped},
                                         {"one-way broken", &judged.one_way_broken},
                                         {"crushed", &judged.crushed},
                                         {"crushed with room", &judged.crushed_with_room}}) {

@@ -87,25 +87,40 @@ TEST(Judge, a_passing_is_told_with_speed_thickness_and_angle_to_the_face) {
   }
 }
 
-TEST(Judge, a_paper_of_any_thickness_is_never_a_corner_cut_nor_for_who_is_smaller_than_the_slop) {
+TEST(Judge, a_paper_of_any_thickness_is_never_clipped_nor_by_who_is_smaller_than_the_rim) {
   for (const double thickness : {1e-3, 1e-6, 1e-12, 0.0})
     for (const double size : {1.0, 0x1p-10})
       for (const bool path_exact : {true, false}) {
         TraceHeader paper = header({thickness > 0 ? box(-4, 0, 4, thickness) : chain({{-4, 0}, {4, 0}})}, path_exact);
         for (Vec2d& point : paper.points) point *= size;
         EXPECT_EQ(told(judged(paper, step({{0, 1}, {0, -1}}))), "tunnelled 0") << thickness << " " << size;
+        // Nearly through where a step ends, it was half its height deep on the way there.
+        const Vec2d below{0, -0.99 * half_height * size};
+        Judge judge(paper);
+        EXPECT_EQ(told(judge.judge(step({{0, 1}, below}))), "inside 0, entered 0");
+        EXPECT_EQ(told(judge.judge(step({below, {0, -1}}))), "tunnelled 0") << thickness << " " << size;
       }
 }
 
-TEST(Judge, cutting_a_corner_shallower_than_the_slop_is_counted_apart_unless_it_is_promised_away) {
+TEST(Judge, whoever_passes_with_a_rim_clips_by_one_rule_for_all_who_promise_nothing) {
   const std::vector<ColliderDef> tile{box(0, -0.125, 1, 0.125)};
   using Row = std::pair<TraceHeader, double>;
-  for (const auto& [head, slop] : {Row{header(tile), 0.005}, Row{header(tile, false), 0.020}, Row{promising(tile), 0}})
-    for (const double depth : {1e-9, slop - 0.001, slop + 0.001}) {
+  const auto by_units_of = [&](double unit, const char* name) {
+    TraceHeader head = header(tile);
+    head.tolerances = {{.name = name, .metres = unit}};
+    return head;
+  };
+  for (const auto& [head, rim] :
+       {Row{header(tile), 0.020}, Row{header(tile, false), 0.020}, Row{by_units_of(1.0 / 32, "pixel"), 1.0 / 32},
+        Row{by_units_of(1.0 / 32, "unit"), 1.0 / 32}, Row{by_units_of(1e-3, "unit"), 0.020},
+        Row{by_units_of(1, "unit"), half_width / 4}, Row{promising(tile), 0}})
+    for (const double depth : {1e-9, rim - 0.001, rim + 0.001}) {
       if (depth < 0) continue;
       // The left arm passes the box's right face, `depth` beyond it.
       const double x = 1 + half_width - depth;
-      EXPECT_EQ(told(judged(head, step({{x, 2}, {x, -2}}))), depth < slop ? "corner cut 0" : "tunnelled 0") << depth;
+      const StepJudgement passed = judged(head, step({{x, 2}, {x, -2}}));
+      EXPECT_EQ(told(passed), depth < rim ? "clipped 0" : "tunnelled 0") << depth;
+      EXPECT_NEAR(passed.clipped_depth, depth < rim ? depth : 0, 1e-12);
     }
 }
 

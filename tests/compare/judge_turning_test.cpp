@@ -45,7 +45,7 @@ TEST(TurningArm, is_inside_of_or_passes_the_octagon_as_exactly_as_what_stands) {
     Judge judge(with_arm(promises));
     for (std::size_t i = 0; i < story.size(); ++i) EXPECT_EQ(told(judge.judge(story[i].first)), story[i].second) << i;
     EXPECT_NEAR(judged(with_arm(promises), from(0.75)).max_penetration, 0.05, 1e-9) << "so far above the feet";
-    EXPECT_EQ(told(judged(with_arm(promises), dip)), promises ? "tunnelled 0" : "corner cut 0");
+    EXPECT_EQ(told(judged(with_arm(promises), dip)), promises ? "tunnelled 0" : "clipped 0");
     TraceHeader sensor = with_arm(promises);
     sensor.scenery.colliders[0].sensor = true;
     EXPECT_EQ(told(judged(sensor, from(0.75))), "");

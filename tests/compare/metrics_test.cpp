@@ -78,15 +78,16 @@ TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
 
 TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
   std::vector<Moment> run = moments(5);
-  run[0].judged.corner_cut = {1};
+  run[0].judged.note_clipped(1, 0.01);
   run[1].judged.hovers = run[2].judged.hovers = true;
   run[3].judged.excused_crush = run[3].judged.ground_late = true;
   run[3].judged.end_overlap = run[3].judged.drawn = {1};
   run[4].step.contacts = {bottom};
   run[4].judged.beside_another = true;
   const std::map<std::string, int> expected{
-      {"company", 2}, {"corner_cut", 1}, {"drawn", 1}, {"hover", 2}, {"late_ground", 1}};
+      {"company", 2}, {"clipped", 1}, {"drawn", 1}, {"hover", 2}, {"late_ground", 1}};
   EXPECT_EQ(row_of(run).exempted, expected);
+  EXPECT_EQ(row_of(run).clipped_depth_max_m, 0.01);
   EXPECT_EQ(row_of(run).steps_ending_inside, 0);
 }
 

@@ -59,7 +59,7 @@ TEST_F(ReplayTest, notes_what_no_trace_says) {
   scene.runs[0].every = 3;
   scene.runs[0].events = {{2, ReportEvent::Kind::tunnel, "through", 0, 1},
                           {3, ReportEvent::Kind::note, "aside"},
-                          {4, ReportEvent::Kind::corner_cut, "cut", 1}};
+                          {4, ReportEvent::Kind::clipped, "cut", 1}};
   Disagreement disagreement;
   disagreement.step = 3;
   disagreement.statements = {{0, scene.runs[0].steps[3]}, {1, scene.runs[0].steps[3]}};
@@ -69,7 +69,7 @@ TEST_F(ReplayTest, notes_what_no_trace_says) {
   json expected = json::parse(R"({"dt_list": [0.015625, 0.0302734375], "disagreements_in_all": 9, "runs": [{"every": 3,
     "events": [{"step": 2, "kind": "tunnel", "words": "through", "collider": "tile_1"},
                {"step": 3, "kind": "note", "words": "aside"},
-               {"step": 4, "kind": "corner cut", "words": "cut", "character": 1}]}]})");
+               {"step": 4, "kind": "clipped", "words": "cut", "character": 1}]}]})");
   // Of a side without a replay nothing can be drawn.
   const json statement{{"run", 0}, {"record", json::parse(lines.at(3 + 3))}};
   expected["disagreements"] =

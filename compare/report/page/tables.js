@@ -40,7 +40,8 @@ const share = (value) =>
 const SAFETY = [
   ['tunnels', 'Tunnels', 'steps', count, 'Steps whose way crosses a solid and ends free of it'],
   ['steps_ending_inside', 'Ending inside', 'steps', count, 'Steps that end overlapping a solid, in exact arithmetic'],
-  ['corner_cuts', 'Corner cuts', 'steps', count, 'Crossings no deeper than the slop, counted apart'],
+  ['clipped', 'Clipped', 'steps', count, 'Steps that pass a solid with a rim only: no deeper than 20 mm, its unit or its pixel; no tunnels'],
+  ['clipped_depth_max_m', 'Clipped by', 'm', measure, 'How deep the deepest of them is'],
   ['one_way_violations', 'One-way broken', 'steps', count, 'One-way chains passed against their normal'],
   ['max_penetration_m', 'Max penetration', 'm', measure, 'Largest exact depth at the end of a step'],
   ['max_contact_gap_m', 'Max contact gap', 'm', measure, 'Largest exact gap left at a reported contact'],
