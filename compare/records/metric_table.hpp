@@ -152,6 +152,10 @@ METRIC(measure, ns_per_step_median, cost, most, "Cost, median", "ns per step", "
 METRIC(measure, ns_per_step_max, cost, most, "Cost, slowest", "ns per step", "Maximum of the repeats")
 METRIC(measure, ns_per_step_bare, cost, most, "Cost, bare", "ns per step",
        "Box2D alone, given its velocities, with nothing recorded; minimum of the repeats")
+METRIC(measure, impact_step_ns, cost, most, "Impact step", "ns",
+       "The step of the exact first impact alone, if it is among the first 120; least of the repeats; of Box2D bare")
+METRIC(measure, impact_step_cold_ns, cost, most, "Impact step, cold", "ns",
+       "The same, after 4 MB of other memory were written")
 METRIC(bytes, memory_bytes, cost, most, "Memory", "bytes", "Size of a contender's own picture of the level")
 
 #undef METRIC

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace paperproof::compare {
 namespace {
@@ -11,8 +12,14 @@ namespace {
 constexpr std::size_t repeats = 9;
 /// Enough for a clock that ticks every microsecond, few enough that a comparison of hundreds of levels stays short.
 constexpr int most_steps = 1000;
+/// A step is timed alone after all steps before it, in every repeat.
+constexpr int most_steps_before_one = 120;
+/// More than the caches that a core has for itself, of instructions, too [bytes].
+constexpr std::size_t other_memory = 4'000'000;
 
 using Clock = std::chrono::steady_clock;
+
+double nanoseconds(Clock::duration time) { return std::chrono::duration<double, std::nano>(time).count(); }
 
 /// The input of every step, formed before anything is timed.
 class TimedSteps {
@@ -63,7 +70,22 @@ double timed_pass(const TimedRun& run, const Scene& scene, std::size_t steps, co
     for (; step < end; ++step) step_at(step);
     took += Clock::now() - begin;
   }
-  return std::chrono::duration<double, std::nano>(took).count() / static_cast<double>(steps);
+  return nanoseconds(took) / static_cast<double>(steps);
+}
+
+void write_other_memory() {
+  static std::vector<char> memory(other_memory);
+  for (std::size_t at = 0; at < memory.size(); at += 64) static_cast<volatile char&>(memory[at]) = 1;
+}
+
+/// Least time between two readings [ns].
+double time_of_reading() {
+  double least = std::numeric_limits<double>::infinity();
+  for (int reading = 0; reading < 100; ++reading) {
+    const Clock::time_point begin = Clock::now();
+    least = std::min(least, nanoseconds(Clock::now() - begin));
+  }
+  return least;
 }
 
 /// One contender with what its passes took.
@@ -83,21 +105,40 @@ class Timing {
   void repeat() {
     full_.push_back(full_pass());
     if (has_bare_) bare_.push_back(bare_pass());
+    if (!step_is_timed()) return;
+    const StepCost now{one_step(false), one_step(true)};
+    if (!step_) step_ = now;
+    step_ = StepCost{std::min(step_->warm, now.warm), std::min(step_->cold, now.cold)};
   }
   [[nodiscard]] Costs costs() {
-    Costs costs{cost_of(full_), {}};
+    Costs costs{cost_of(full_), {}, step_};
     if (has_bare_) costs.bare = cost_of(bare_);
     return costs;
   }
 
  private:
+  void full_step(std::size_t step) const { run_.contender->step_unrecorded(inputs_[step]); }
+  void bare_step(std::size_t step) const { run_.contender->step_bare(inputs_[step], step); }
   [[nodiscard]] double full_pass() const {
-    return timed_pass(run_, scene_, inputs_.size(),
-                      [this](std::size_t step) { run_.contender->step_unrecorded(inputs_[step]); });
+    return timed_pass(run_, scene_, inputs_.size(), [this](std::size_t step) { full_step(step); });
   }
   [[nodiscard]] double bare_pass() const {
-    return timed_pass(run_, scene_, inputs_.size(),
-                      [this](std::size_t step) { run_.contender->step_bare(inputs_[step], step); });
+    return timed_pass(run_, scene_, inputs_.size(), [this](std::size_t step) { bare_step(step); });
+  }
+  [[nodiscard]] bool step_is_timed() const {
+    return run_.step && *run_.step < std::min(static_cast<int>(inputs_.size()), most_steps_before_one) &&
+           (run_.respawns.empty() || run_.respawns.front().step > *run_.step);
+  }
+  [[nodiscard]] double one_step(bool cold) const {
+    const auto step_at = [this](std::size_t step) { has_bare_ ? bare_step(step) : full_step(step); };
+    const auto step = static_cast<std::size_t>(*run_.step);
+    (void)timed_pass(run_, scene_, step, step_at);
+    if (cold) write_other_memory();
+    const Clock::time_point begin = Clock::now();
+    step_at(step);
+    const double took = nanoseconds(Clock::now() - begin);
+    static const double reading = time_of_reading();
+    return std::max(0.0, took - reading);
   }
   static Cost cost_of(std::vector<double>& passes) {
     std::sort(passes.begin(), passes.end());
@@ -110,6 +151,7 @@ class Timing {
   bool has_bare_ = false;
   std::vector<double> full_;
   std::vector<double> bare_;
+  std::optional<StepCost> step_;
 };
 
 }  // namespace

@@ -24,11 +24,19 @@ struct Respawn {
 struct TimedRun {
   Contender* contender = nullptr;
   std::span<const Respawn> respawns;  ///< Of the run that was judged, ascending: they are repeated, and not timed.
+  std::optional<int> step{};          ///< To be timed alone as well: one of the first 120, before any respawn.
+};
+
+/// Of one step, the least of the repeats [ns]. The time that reading the clock takes is taken off.
+struct StepCost {
+  double warm = 0;  ///< After the steps before it.
+  double cold = 0;  ///< After 4 MB of other memory were written as well: it finds nothing in the caches of its core.
 };
 
 struct Costs {
   Cost full;
-  std::optional<Cost> bare;  ///< Of an engine alone: see `Contender::step_bare`.
+  std::optional<Cost> bare;      ///< Of an engine alone: see `Contender::step_bare`.
+  std::optional<StepCost> step;  ///< Of an engine alone, too, where it can be timed so.
 };
 
 /// Of all characters together. Each runs the same steps from the start, at most 1,000 of them: once untimed, as a

@@ -78,6 +78,8 @@ const std::vector<Column<Row>>& columns_of_table() {
       {"memory", memory},
       {"ns/step", cost},
       {"bare", number(&Row::ns_per_step_bare, "{:.0f}")},
+      {"impact ns", number(&Row::impact_step_ns, "{:.0f}")},
+      {"cold", number(&Row::impact_step_cold_ns, "{:.0f}")},
   };
   return all;
 }
@@ -194,7 +196,9 @@ std::string headline(const std::vector<Row>& rows) {
   return view<Row>(rows, {{"contender", called},
                           {"what happens", outcome_of},
                           {"ns per step", number(&Row::ns_per_step, "{:.0f}")},
-                          {"bare", number(&Row::ns_per_step_bare, "{:.0f}")}});
+                          {"bare", number(&Row::ns_per_step_bare, "{:.0f}")},
+                          {"ns at impact", number(&Row::impact_step_ns, "{:.0f}")},
+                          {"cold", number(&Row::impact_step_cold_ns, "{:.0f}")}});
 }
 
 std::string summary_table(const std::vector<Row>& rows) {

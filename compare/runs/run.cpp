@@ -263,7 +263,7 @@ class SceneRun {
     for (const auto& lane : lanes_) {
       if (!lane->running()) continue;
       timed.push_back(lane.get());
-      runs.push_back({&lane->contender(), lane->respawns()});
+      runs.push_back({&lane->contender(), lane->respawns(), lane->row().exact_first_impact_step});
     }
     if (runs.empty()) return;
     const std::vector<Costs> costs = measure_costs(runs, scene_, script_, steps_);
@@ -273,6 +273,8 @@ class SceneRun {
       row.ns_per_step_median = costs[i].full.ns_per_step_median;
       row.ns_per_step_max = costs[i].full.ns_per_step_max;
       if (costs[i].bare) row.ns_per_step_bare = costs[i].bare->ns_per_step_min;
+      if (costs[i].step) row.impact_step_ns = costs[i].step->warm;
+      if (costs[i].step) row.impact_step_cold_ns = costs[i].step->cold;
     }
   }
 

@@ -35,15 +35,16 @@ TEST(Cost, contenders_take_turns_and_are_put_back_where_the_judged_run_was) {
   Scribe a('a', false, log);
   Scribe b('b', true, log);
   const std::vector<Respawn> respawns{{1, 0}, {3, 0}, {40, 0}};
-  const std::vector<TimedRun> runs{{&a, respawns}, {&b, {}}};
+  const std::vector<TimedRun> runs{{&a, respawns, 1}, {&b, {}, 2}};
   const std::vector<Costs> costs = measure_costs(runs, scene, script_of(scene), 4);
   const std::string round = "<a<aa<a<bbbb<0123";
   std::string expected;
-  for (int pass = 0; pass < 1 + 9; ++pass) expected += round;
-  EXPECT_EQ(log, expected) << "a warm-up and nine repeats";
+  for (int pass = 0; pass < 1 + 9; ++pass) expected += pass == 0 ? round : round + "<012<012";
+  EXPECT_EQ(log, expected) << "a warm-up and nine repeats; of b the third step twice more, warm and cold";
   ASSERT_EQ(costs.size(), 2U);
   EXPECT_FALSE(costs[0].bare);
-  ASSERT_TRUE(costs[1].bare);
+  ASSERT_TRUE(costs[1].bare && costs[1].step);
+  EXPECT_FALSE(costs[0].step) << "somebody was put back in it";
   for (const Cost& cost : {costs[0].full, costs[1].full, *costs[1].bare}) {
     EXPECT_GT(cost.ns_per_step_min, 0);
     EXPECT_LE(cost.ns_per_step_min, cost.ns_per_step_median);

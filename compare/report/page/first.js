@@ -114,27 +114,30 @@ class Strip {
   }
 }
 
-/// What a step of the first scene costs, cheapest first.
+/// What the step of the impact costs in the first scene, or a step where none was timed alone; cheapest first.
 function costBars(scene) {
-  const timed = scene.rows.filter((row) => row.ns_per_step > 0).sort((a, b) => a.ns_per_step - b.ns_per_step);
+  const alone = scene.rows.some((row) => row.impact_step_ns !== undefined);
+  const [least, most] = alone ? ['impact_step_ns', 'impact_step_cold_ns'] : ['ns_per_step', 'ns_per_step_max'];
+  const timed = scene.rows.filter((row) => row[least] > 0).sort((a, b) => a[least] - b[least]);
   if (timed.length === 0) return [];
-  const least = timed[0].ns_per_step / 2, most = timed[timed.length - 1].ns_per_step;
-  const length = (row) => 100 * Math.log(row.ns_per_step / least) / Math.log(most / least);
+  const longest = Math.max(...timed.map((row) => row[most]));
   const sound = timed.find((row) => row.verdict === 'holds');
+  const bar = (row, key, kind) => el('span', {class: `length ${kind}`, style: `width:${100 * row[key] / longest}%`});
   const bars = timed.map((row) => {
     const {mark, kind} = outcomeOf(row);
     return el(
         'li', {}, el('span', {class: `verdict ${kind}`}, mark), el('span', {class: 'who'}, row.contender),
-        el('span', {class: 'bar-box'}, el('span', {class: `length ${kind}`, style: `width:${length(row)}%`})),
-        el('span', {class: 'number'}, grouped(Math.round(row.ns_per_step))));
+        el('span', {class: 'bar-box'}, bar(row, most, `${kind} spread`), bar(row, least, kind)),
+        el('span', {class: 'number'}, grouped(Math.round(row[least]))));
   });
+  const what = alone ? 'the step of the impact' : 'a step';
   return [
-    el('h3', {}, 'What does a step cost here?'),
+    el('h3', {}, `What does ${what} cost here?`),
     el('p', {class: 'chart-title'},
-       sound ? `The cheapest that is right is ${rowLabel(sound)}: ${measure(sound.ns_per_step)} ns per step.` :
-               'Nobody is right here.'),
+       sound ? `The cheapest that is right is ${rowLabel(sound)}: ${measure(sound[least])} ns.` : 'Nobody is right here.'),
     el('ol', {class: 'costs'}, bars),
-    el('p', {class: 'quiet small'}, 'ns per step, bars on a logarithmic scale; \u2713 stops, \u2715 goes through')
+    el('p', {class: 'quiet small'},
+       `ns, from zero; the pale end is ${alone ? 'with cold caches' : 'the slowest of the runs'}; \u2713 stops, \u2715 goes through`)
   ];
 }
 

@@ -113,6 +113,11 @@ const QUALITY = [
     'Box2D alone: what is wanted is known beforehand, and nothing is recorded; minimum of the repeats'
   ],
   ['ns_per_step_max', 'Cost, slowest', 'ns per step', measure, 'Maximum of the repeats'],
+  [
+    'impact_step_ns', 'Impact step', 'ns', measure,
+    'The step of the exact first impact alone, if it is among the first 120; least of the repeats; of Box2D bare'
+  ],
+  ['impact_step_cold_ns', 'Impact step, cold', 'ns', measure, 'The same, after 4 MB of other memory were written'],
   ['memory_bytes', 'Memory', 'bytes', measure, 'Of a contender\'s own picture of the level'],
 ];
 const CONTACTS = [
