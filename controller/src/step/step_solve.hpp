@@ -14,10 +14,16 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
+/// Whether such a displacement is none, and nothing moves: then nothing that is touched is entered.
+[[nodiscard]] PAPERPROOF_INLINE bool lies_still(const Step& step, const Vec2& displacement) {
+  return !step.movers.active && displacement.x() == 0 && displacement.y() == 0;
+}
+
 /// Stops a motion at ground that is touched now and at the end of the motion. Under tiny gravity a walk enters its
 /// ground by less than the sweep sees. It would leave the ground, sink until the sweep hits it, and be put back, over
 /// and over.
 PAPERPROOF_COLD inline void stop_at_touched_ground(Step& step) {
+  if (lies_still(step, step.motion.displacement)) return;
   const Vec2 from = step.position;
   const Real begin = step.time;
   step.position += step.motion.displacement;
@@ -97,7 +103,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
   bool may_aim = true;
   int impacts = 0;
   for (std::size_t sweeps = 0; sweeps < most_sweeps && step.result.path.size() < most_corners; ++sweeps) {
-    if (!step.movers.active && displacement.x() == 0 && displacement.y() == 0) return;
+    if (lies_still(step, displacement)) return;
     if (sweeps > 0) sweep_along(step, displacement);
     if (step.found.hit && step.found.stop == 0 && displacement != desired.displacement.wanted) {
       // The gap cannot be restored here: give that up for this step.
@@ -174,6 +180,7 @@ PAPERPROOF_INLINE void find_ground(Step& step) {
 /// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
 /// ceiling. Nor is a one-way surface that the step began beneath.
 PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) {
+  if (lies_still(step, wanted)) return;
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const std::optional<TouchedSurface> ground = stood_on(step, piece);
