@@ -24,6 +24,11 @@ std::string_view name_of(Metric::Of of) noexcept {
   return names[static_cast<std::size_t>(of)];
 }
 
+std::string_view name_of(Metric::Kind kind) noexcept {
+  constexpr std::array<std::string_view, 5> names{"flag", "count", "measure", "real", "bytes"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 std::span<const Metric> metrics() noexcept { return all_metrics; }
 
 const Metric* find_metric(std::string_view key) noexcept {

@@ -33,6 +33,7 @@ struct Metric {
 
 [[nodiscard]] std::string_view name_of(Metric::Group group) noexcept;
 [[nodiscard]] std::string_view name_of(Metric::Of of) noexcept;
+[[nodiscard]] std::string_view name_of(Metric::Kind kind) noexcept;
 
 /// In the order in which they stand in files.
 [[nodiscard]] std::span<const Metric> metrics() noexcept;

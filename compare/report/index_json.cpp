@@ -1,5 +1,6 @@
 #include "report/index_json.hpp"
 
+#include "records/metric.hpp"
 #include "report/json_text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -49,6 +50,14 @@ std::string scene_index_json(const ReportScene& scene) {
 std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                        const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections,
                        const std::vector<std::string>& scenes, const std::vector<std::string>& studies) {
+  nlohmann::json columns = nlohmann::json::array();
+  for (const Metric& metric : metrics())
+    columns.push_back({{"key", metric.key},
+                       {"title", metric.title},
+                       {"unit", metric.unit},
+                       {"group", name_of(metric.group)},
+                       {"kind", name_of(metric.kind)},
+                       {"meaning", metric.meaning}});
   nlohmann::json names = nlohmann::json::array();
   for (const auto& [name, value] : environment) names.push_back({name, value});
   nlohmann::json lengths = nlohmann::json::array();
@@ -57,7 +66,7 @@ std::string index_json(const Environment& environment, const std::vector<NamedTo
   for (const ReportSection& section : sections)
     titled.push_back({{"title", section.title}, {"lines", section.lines}, {"table", section.table}});
   std::string text = script_safe(dumped(nlohmann::json{
-      {"environment", names}, {"tolerances", lengths}, {"guarantee_notes", guarantee_notes}, {"sections", titled}}));
+      {"environment", names}, {"metrics", columns}, {"tolerances", lengths}, {"guarantee_notes", guarantee_notes}, {"sections", titled}}));
   text.back() = ',';
   return text + "\"scenes\":" + list_of(scenes) + ",\"studies\":" + list_of(studies) + '}';
 }

@@ -36,107 +36,18 @@ const share = (value) =>
          value :
          (value * 100 >= 99.995 || value === 0 ? (value * 100).toFixed(0) : (value * 100).toFixed(2)));
 
-// key, heading, unit, how it is written, what it means
-const SAFETY = [
-  ['tunnels', 'Tunnels', 'steps', count, 'Steps whose way crosses a solid and ends free of it'],
-  ['steps_ending_inside', 'Ending inside', 'steps', count, 'Steps that end overlapping a solid, in exact arithmetic'],
-  ['clipped', 'Clipped', 'steps', count, 'Steps that pass a solid with a rim only: no deeper than 20 mm, its unit or its pixel; no tunnels'],
-  ['clipped_depth_max_m', 'Clipped by', 'm', measure, 'How deep the deepest of them is'],
-  ['one_way_violations', 'One-way broken', 'steps', count, 'One-way chains passed against their normal'],
-  ['max_penetration_m', 'Max penetration', 'm', measure, 'Largest exact depth at the end of a step'],
-  ['max_contact_gap_m', 'Max contact gap', 'm', measure, 'Largest exact gap left at a reported contact'],
-  [
-    'toi_error_max', 'Impact time error', 'of a step', measure,
-    'Largest error of the first time of impact, as a fraction of the step'
-  ],
-];
-const QUALITY = [
-  ['characters', 'Characters', '', count, 'That the run had; counts are sums over them'],
-  ['rest_peak_to_peak_m', 'Rest jitter', 'm, peak to peak', measure, 'Movement at rest after settling'],
-  ['rest_rms_m', 'Rest jitter', 'm, RMS', measure, 'Movement at rest after settling'],
-  ['contact_toggles', 'Contact toggles', 'per 1000 steps', measure, 'Contacts that come and go at rest'],
-  ['rest_sign_changes', 'Sign changes', 'per 1000 steps', measure, 'Of the velocity at rest: a tremble changes it in each step'],
-  ['rest_upper_band', 'Upper half band', 'share', measure, 'Of the power of the motion at rest, line taken out: 1 is a flutter from step to step'],
-  ['log_dimensionless_jerk', 'Smoothness', '', measure, 'Logarithm of the dimensionless jerk; larger is smoother'],
-  ['seam_hop_share', 'Seam hop', 'share of speed', measure, 'Largest change of speed between two steps on level ground'],
-  ['seam_hop_m', 'Seam hop', 'm', measure, 'Largest change of height between two steps on level ground'],
-  [
-    'max_position_difference_box2d_m', 'Max position difference to Box2D', 'm', measure,
-    'Between the two runs at the same step'
-  ],
-  [
-    'first_difference_box2d_step', 'First difference to Box2D', 'step', count,
-    'First step with other sides of contact, or positions further apart than Box2D\'s skin'
-  ],
-  ['ghost_speed_loss', 'Snag', 'share', measure, 'Largest share of the wanted speed lost in one step to nothing exact'],
-  ['crushes', 'Crushed', 'steps', count, 'Steps on which movers left no room, verified by exact arithmetic'],
-  ['crushes_refuted', 'Crushed with room', 'steps', count, 'Steps on which a crush was reported and there was room'],
-  ['sensor_events', 'Sensor events', '', count, 'Entries and exits that there were, exactly'],
-  ['sensor_errors', 'Sensor errors', '', count, 'Entries and exits that were missed, or reported and were not'],
-  ['max_sensor_error', 'Sensor time error', 'of a step', measure, 'Largest error of the fraction of a step'],
-  [
-    'steps_inside_after_crush', 'Inside after a crush', 'steps', count,
-    'Steps that end inside nothing but what a crush brought on, verified by exact arithmetic'
-  ],
-  ['hanging_steps', 'Hanging', 'steps', count, 'Steps that could have fallen, and did not'],
-  [
-    'stuck_steps', 'Stuck', 'steps', count,
-    'Steps on which it said that it is stuck inside something; they do not count for recall'
-  ],
-  [
-    'undecided_steps', 'Undecided', 'steps', count,
-    'Steps that came so near to what turns that halving the time did not tell whether they met it'
-  ],
-  [
-    'stuck_refuted', 'Stuck, refuted', 'steps', count,
-    'Steps on which it said that it is stuck, and exact arithmetic has a straight way out'
-  ],
-  [
-    'ground_refuted', 'Ground, refuted', 'steps', count,
-    'Steps on which it said that it stands, and exact arithmetic has nothing under it'
-  ],
-  ['wanted_motion_lost', 'Motion lost', 'share', measure, 'Share of the wanted horizontal motion lost to nothing exact'],
-  ['distance_m', 'Distance', 'm', measure, 'Length of the way that was travelled'],
-  ['exempted', 'Exempted', '', count, 'What was not held against it, and how often; the sizes stand in the summary'],
-  ['rounding', 'Rounding', 'steps', count, 'Steps that end inside by no more than an ulp of the largest coordinate'],
-  ['body_tunnels', 'Bodies through', 'steps', count, 'Steps on which a body that Box2D moves passed a solid'],
-  ['body_steps_inside', 'Bodies inside', 'steps', count, 'Steps on which such a body ended inside something'],
-  ['body_max_penetration_m', 'Bodies\' depth', 'm', measure, 'Largest exact depth of such a body'],
-  [
-    'dropped_steps', 'Displacement left over', 'steps', count,
-    'Steps on which a part of the displacement was left when the iterations ran out'
-  ],
-  ['ns_per_step', 'Cost', 'ns per step', measure, 'Minimum of the repeats'],
-  ['ns_per_step_median', 'Cost, median', 'ns per step', measure, 'Median of the repeats'],
-  [
-    'ns_per_step_bare', 'Cost, bare', 'ns per step', measure,
-    'Box2D alone: what is wanted is known beforehand, and nothing is recorded; minimum of the repeats'
-  ],
-  ['ns_per_step_max', 'Cost, slowest', 'ns per step', measure, 'Maximum of the repeats'],
-  [
-    'impact_step_ns', 'Impact step', 'ns', measure,
-    'The step of the exact first impact alone, if it is among the first 120; least of the repeats; of Box2D bare'
-  ],
-  ['impact_step_cold_ns', 'Impact step, cold', 'ns', measure, 'The same, after 4 MB of other memory were written'],
-  ['memory_bytes', 'Memory', 'bytes', measure, 'Of a contender\'s own picture of the level'],
-];
-const CONTACTS = [
-  ['contact_precision', 'Precision', '%, exact', share, 'Share of reported contacts that are exact, or that an exact contact deflected into; contacts in reach do not count'],
-  ['contact_recall', 'Recall', '%, exact', share, 'Share of the exact contacts that were reported'],
-  ['contact_band', 'In the band', '', count, 'Contacts between 1e-7 and 7e-7 m, where the guarantee lets hit and hold be either'],
-  ['normal_error_max_deg', 'Normal error', 'degrees', measure, 'Largest, of the reported contacts that are exact'],
-  ['contact_precision_box2d', 'Precision', '%, Box2D', share, 'Share of reported contacts that Box2D reports too'],
-  ['contact_recall_box2d', 'Recall', '%, Box2D', share, 'Share of Box2D\'s contacts that were reported'],
-  [
-    'contact_agreement_box2d', 'Same sides as Box2D', '% of steps', share,
-    'Steps on which the sides of contact are the same'
-  ],
-  ['first_contact_step', 'First contact', 'step', count, 'The first step with a contact'],
-  ['first_contact_fraction', 'First contact', 't in the step', measure, 'Its time of impact as a fraction of the step'],
-  ['contact_steps', 'With contact', 'steps', count, 'Steps with any contact'],
-  ['colliders_touched', 'Colliders touched', '', count, 'Different colliders'],
-  ['respawns', 'Respawns', '', count, 'Times the character was put back at the start'],
-];
+const WRITERS = {count, flag: (value) => (value === true ? 'yes' : value === false ? 'no' : value)};
+const EXEMPTED =
+    ['exempted', 'Exempted', '', count, 'What was not held against it, and how often; the sizes stand in the summary'];
+
+/// Of the metrics of a group: key, title, unit, how it is written, what it means.
+function columnsOf(group) {
+  const columns = INDEX.metrics.filter((metric) => metric.group === group).map(({key, title, unit, kind, meaning}) => {
+    const [name, write] = unit === 'share' ? ['%', share] : [unit, WRITERS[kind] || measure];
+    return [key, title, name, write, meaning];
+  });
+  return group === 'progress' ? [...columns, EXEMPTED] : columns;
+}
 
 function rowLabel(row) {
   return runLabel(row);
@@ -216,16 +127,16 @@ function notRun(scene) {
 /// What a scene was run for, and who may not be compared.
 function safetyTable(scene) {
   const ran = ranIn(scene);
-  const table = ran.length ? metricTable(ran, SAFETY, 'Safety', true) :
+  const table = ran.length ? metricTable(ran, columnsOf('safety'), 'Safety', true) :
                              el('p', {class: 'quiet'}, 'No contender ran in this scene.');
   return [table, ...notRun(scene)];
 }
 
 function furtherTables(scene) {
   const ran = ranIn(scene);
+  const tables = [['contacts', 'Contacts'], ['progress', 'Progress'], ['jitter', 'Rest and seams'], ['cost', 'Cost']];
   const nodes = [
-    metricTable(ran, CONTACTS, 'Contacts', false), metricTable(ran, QUALITY, 'Rest, difference to Box2D, cost', false),
-    findingsList(ran)
+    ...tables.map(([group, title]) => metricTable(ran, columnsOf(group), title, false)), findingsList(ran)
   ].filter(Boolean);
   return nodes.length ? [el('h3', {}, 'More about the runs'), ...nodes] : [];
 }
@@ -330,7 +241,7 @@ function pairs(list) {
 
 function definitions() {
   return el('details', {}, el('summary', {}, 'What the columns mean'), pairs([
-              ...SAFETY, ...CONTACTS, ...QUALITY
+              ...['safety', 'contacts', 'progress', 'jitter', 'cost'].flatMap(columnsOf)
             ].map(([, title, unit, , meaning]) => [unit ? `${title} (${unit})` : title, meaning])));
 }
 
