@@ -65,8 +65,11 @@ std::string index_json(const Environment& environment, const std::vector<NamedTo
   nlohmann::json titled = nlohmann::json::array();
   for (const ReportSection& section : sections)
     titled.push_back({{"title", section.title}, {"lines", section.lines}, {"table", section.table}});
-  std::string text = script_safe(dumped(nlohmann::json{
-      {"environment", names}, {"metrics", columns}, {"tolerances", lengths}, {"guarantee_notes", guarantee_notes}, {"sections", titled}}));
+  std::string text = script_safe(dumped(nlohmann::json{{"environment", names},
+                                                       {"metrics", columns},
+                                                       {"tolerances", lengths},
+                                                       {"guarantee_notes", guarantee_notes},
+                                                       {"sections", titled}}));
   text.back() = ',';
   return text + "\"scenes\":" + list_of(scenes) + ",\"studies\":" + list_of(studies) + '}';
 }
