@@ -169,14 +169,15 @@ def draw_maps(maps, theme):
 
 def curves_of(rows):
     """Of one motion, by contender: the points of its curve over the length of a step, from coarse to fine, the rows
-    that have no place, and the slope. Rows with a knob belong to curves over that knob, which a page shows."""
+    that have no place, and the slope in words. Rows with a knob belong to curves over that knob, which a page shows."""
     curves = {}
     for row in rows:
         if row.get("curve", "dt_s") != "dt_s" or "knob" in row:
             continue
         curve = curves.setdefault(who_ran(row), {"points": [], "without": [], "slope": None})
         if "curve" in row:
-            curve["slope"] = row.get("slope")
+            if "slope" in row:
+                curve["slope"] = f"{round(row['slope'], 2) + 0:.2f} \u00b1 {row['slope_within']:.2f}"
         elif row.get("error_max_m") is None or row.get("ns_per_step") is None:
             curve["without"].append(row)
         else:
@@ -226,7 +227,7 @@ def draw_curves(scene, rows, theme):
         if curve["points"]:
             line = draw_curve(axes, curve["points"], INKS[i % len(INKS)], MARKS[i % len(MARKS)], theme)
             line.set_gid(f"curve-{i}")
-            entries.append((line, who if curve["slope"] is None else f"{who}, slope {round(curve['slope'], 2) + 0:.2f}"))
+            entries.append((line, who if curve["slope"] is None else f"{who}, slope {curve['slope']}"))
         if curve["without"]:
             struck, = axes.plot([], [], "x", color=theme["text"], markersize=8)
             failed = sum(row["verdict"] == "failed" for row in curve["without"])

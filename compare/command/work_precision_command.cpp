@@ -35,7 +35,7 @@ std::string slopes(const WorkPrecision& found) {
     columns.push_back({std::string(motion.name), [&motion](const Line& line) -> Cell {
                          for (const Row* curve : line.second) {
                            if (curve->scene != motion.name) continue;
-                           const std::string slope = curve->slope ? fmt::format("{:.2f}", *curve->slope) : "";
+                           const std::string slope = curve->slope ? slope_in_words(*curve) : "";
                            const std::string mark = curve->on_front.value_or(false) ? "*" : "";
                            if (!slope.empty() || !mark.empty()) return slope + mark;
                          }
@@ -62,8 +62,10 @@ int work_precision_command(const PrecisionArguments& arguments) {
     }
     std::vector<Row> rows = found.points;
     rows.insert(rows.end(), found.curves.begin(), found.curves.end());
-    std::string text = "slope of log error over log knob; * on the front: no other has less error in less time\n\n" +
-                       slopes(found) + '\n';
+    std::string text =
+        "slope of log error over log knob, with its 95 % interval, where the three finest points or more lie on a "
+        "line; * on the front: no other has less error in less time\n\n" +
+        slopes(found) + '\n';
     for (const std::string& sentence : found.sentences) text += sentence + '\n';
     return Measurements{rows, page_of(rows, found.sentences), text};
   });

@@ -145,7 +145,10 @@ METRIC(count, first_difference_box2d_step, contacts, first, "First difference to
        "First step with other sides of contact than the Box2D twin, or further from it than its skin")
 METRIC(measure, error_max_m, study, most, "Error", "m", "Largest distance from the continuous motion")
 METRIC(measure, error_rms_m, study, most, "Error, RMS", "m", "Root mean square distance from the continuous motion")
-METRIC(real, slope, study, one, "Slope", "", "Slope of log error over the logarithm of the parameter named in `curve`")
+METRIC(real, slope, study, one, "Slope", "",
+       "Slope of log error over the logarithm of the parameter named in `curve`, where the three finest points or "
+       "more lie on one line")
+METRIC(measure, slope_within, study, one, "Slope, within", "", "Half of its 95 % interval")
 METRIC(flag, on_front, study, one, "On the front", "", "Whether no other run has less error in less time")
 METRIC(measure, ns_per_step, cost, most, "Cost", "ns per step", "Minimum of the repeats")
 METRIC(measure, ns_per_step_median, cost, most, "Cost, median", "ns per step", "Median of the repeats")

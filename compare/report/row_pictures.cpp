@@ -40,6 +40,10 @@ std::string verdict_and_reason(const Row& row) {
 
 }  // namespace
 
+std::string slope_in_words(const Row& curve) {
+  return in_hundredths(*curve.slope) + " \u00b1 " + in_hundredths(curve.slope_within.value_or(0));
+}
+
 std::string who_ran(const Row& row, const std::vector<std::string>& varied) {
   std::string name = row.contender;
   const bool is_float = row.scalar == "float" && !name.starts_with("box2d");
@@ -149,7 +153,7 @@ bool is_on(const Row& point, const Row& curve, const std::set<std::string>& knob
 ChartSeries series_of(const Row& curve, const std::vector<Row>& rows) {
   const std::string& over = curve.curve;
   ChartSeries series{who_ran(curve) + (over == "dt_s" ? "" : " over " + axis_words(over)), {}, over == "dt_s"};
-  if (curve.slope) series.name += ", slope " + in_hundredths(*curve.slope);
+  if (curve.slope) series.name += ", slope " + slope_in_words(curve);
   const std::set<std::string> knobs = knobs_of(curve, rows);
   for (const Row& row : rows) {
     if (!is_on(row, curve, knobs)) continue;
@@ -206,7 +210,9 @@ ChartPage precision_page(const std::vector<Row>& rows) {
       "How to read this: each point is one setting of a contender, and each curve goes over its settings from coarse "
       "to fine: the length of a step, or a knob of its own. Lower is closer to continuous motion, further left is "
       "faster, so that the best are below and to the left. Large points are on the front: no other is both faster and "
-      "closer. A slope of 1 means that half the knob gives half the error. Errors below 1e-9 m are drawn there. Errors "
+      "closer. A slope of 1 means that half the knob gives half the error; it is told with its 95 % interval, and only "
+      "where "
+      "the three finest points or more lie on a line. Errors below 1e-9 m are drawn there. Errors "
       "and times "
       "are measured apart; times are the minimum of nine runs after a warm-up, contenders taking turns.",
       "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
@@ -221,7 +227,7 @@ ChartPage precision_page(const std::vector<Row>& rows) {
   page.table.heading = {"motion", "contender", "over", "slope"};
   for (const Row& row : rows) {
     if (row.curve.empty()) continue;
-    page.table.rows.push_back({row.scene, who_ran(row), row.curve, row.slope ? in_hundredths(*row.slope) : row.reason});
+    page.table.rows.push_back({row.scene, who_ran(row), row.curve, row.slope ? slope_in_words(row) : row.reason});
   }
   return page;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,23 +40,42 @@ std::string reason(const Row& ours, const Row& other) {
   return "Its error is smaller for the time.";
 }
 
+constexpr std::size_t fewest_on_a_line = 3;
+constexpr double most_within = 0.15;
+
+/// Nothing where a point does not count.
+std::optional<Slope> line_through(std::span<const std::optional<std::pair<double, double>>> points) {
+  if (std::any_of(points.begin(), points.end(), [](const auto& point) { return !point; })) return std::nullopt;
+  const auto count = static_cast<double>(points.size());
+  double mean_x = 0;
+  double mean_y = 0;
+  for (const auto& point : points) {
+    mean_x += point->first / count;
+    mean_y += point->second / count;
+  }
+  double xx = 0;
+  double xy = 0;
+  for (const auto& point : points) {
+    xx += (point->first - mean_x) * (point->first - mean_x);
+    xy += (point->first - mean_x) * (point->second - mean_y);
+  }
+  const double slope = xy / xx;
+  double squares = 0;
+  for (const auto& point : points) squares += std::pow(point->second - mean_y - slope * (point->first - mean_x), 2);
+  const double free = count - 2;
+  const double quantile = boost::math::quantile(boost::math::students_t(free), 0.975);
+  return Slope{slope, quantile * std::sqrt(squares / free / xx)};
+}
+
 }  // namespace
 
-std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points) {
-  if (log_points.size() < 2) return std::nullopt;
-  double x = 0;
-  double y = 0;
-  for (const auto& point : log_points) {
-    x += point.first / static_cast<double>(log_points.size());
-    y += point.second / static_cast<double>(log_points.size());
+std::optional<Slope> slope_within_a_regime(std::span<const std::optional<std::pair<double, double>>> log_points) {
+  while (!log_points.empty() && !log_points.back()) log_points = log_points.first(log_points.size() - 1);
+  for (std::size_t count = log_points.size(); count >= fewest_on_a_line; --count) {
+    const std::optional<Slope> line = line_through(log_points.last(count));
+    if (line && line->within <= most_within) return line;
   }
-  double above = 0;
-  double below = 0;
-  for (const auto& point : log_points) {
-    above += (point.first - x) * (point.second - y);
-    below += (point.first - x) * (point.first - x);
-  }
-  return below > 0 ? std::optional(above / below) : std::nullopt;
+  return std::nullopt;
 }
 
 bool counts(const Row& row) {

@@ -11,8 +11,17 @@
 
 namespace paperproof::compare {
 
-/// Of a line through points, by least squares. Nothing for less than two points with different `x`.
-[[nodiscard]] std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points);
+/// Of a line through points of one regime, by least squares.
+struct Slope {
+  double value = 0;
+  double within = 0;  ///< Half of its 95 % interval, by Student's t.
+};
+
+/// Of as many of the finest points that count as lie on one line: three neighbours at least, and the slope is known
+/// within 0.15. Where a curve jumps, as a contender begins to go through, or bends, a line over all of it says nothing.
+/// @param log_points from coarse to fine; a point that does not count is nothing, and ends a run.
+[[nodiscard]] std::optional<Slope> slope_within_a_regime(
+    std::span<const std::optional<std::pair<double, double>>> log_points);
 
 /// Whether a row has an error and a time, and they mean something: its run passes nothing, ends inside nothing, and
 /// stays within the limits that the contender documents.

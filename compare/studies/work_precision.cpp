@@ -95,13 +95,14 @@ bool same_curve(const Row& a, const Row& b) {
 }
 
 Row curve_of(const Row& first, const std::vector<Row>& points) {
-  std::vector<std::pair<double, double>> logs;
+  std::vector<std::optional<std::pair<double, double>>> logs;
   bool on_front = false;
   for (const Row& point : points) {
     if (!same_curve(point, first)) continue;
     on_front = on_front || point.on_front.value_or(false);
+    logs.emplace_back();
     if (counts(point) && *point.error_max_m > least_error)
-      logs.emplace_back(std::log(knob_of(point).second), std::log(*point.error_max_m));
+      logs.back() = {std::log(knob_of(point).second), std::log(*point.error_max_m)};
   }
   Row row;
   row.scene = first.scene;
@@ -109,7 +110,10 @@ Row curve_of(const Row& first, const std::vector<Row>& points) {
   row.scalar = first.scalar;
   row.mode = first.mode;
   row.curve = knob_of(first).first;
-  row.slope = slope_of(logs);
+  if (const std::optional<Slope> slope = slope_within_a_regime(logs)) {
+    row.slope = slope->value;
+    row.slope_within = slope->within;
+  }
   if (first.ns_per_step) row.on_front = on_front;
   if (first.verdict == Verdict::not_applicable) {
     row.verdict = first.verdict;

@@ -22,8 +22,8 @@ struct WorkPrecision {
 /// Costs are measured in a phase of their own, the contenders of one length of a step or value of a knob taking turns,
 /// minimum of nine runs after a warm-up.
 /// - `error_max_m`, `error_rms_m`: distance from the continuous motion. Box2D's includes its skin of 15 mm.
-/// - `slope`: of log error over log knob, least squares over the points that count (`counts`) and whose error is above
-///   1e-9 m; two at least.
+/// - `slope`, `slope_within`: of log error over log knob, where points that count (`counts`), and whose error is above
+///   1e-9 m, lie on one line: see `slope_within_a_regime`.
 /// - `on_front`: no other point of the motion that counts has less error for less time per second of motion. Of a
 /// curve:
 ///   of any of its points.

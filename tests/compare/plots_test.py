@@ -78,12 +78,12 @@ class Curves(unittest.TestCase):
     def test_a_point_is_time_for_a_second_of_motion_against_error_and_its_bar_goes_to_the_largest_time(self):
         axes = self.figure([precise("mask", 0.1, 0.01, 50), precise("mask", 0.05, 0, 50),
                             precise("mask", 0.1, 1, 1, knob="unit=1"),
-                            {"contender": "mask", "mode": "work_precision", "verdict": "holds", "curve": "dt_s", "slope": -0.004}])
+                            {"contender": "mask", "mode": "work_precision", "verdict": "holds", "curve": "dt_s", "slope": -0.004, "slope_within": 0.02}])
         line, = [line for line in axes.lines if line.get_gid()]
         self.assertEqual(line.get_xydata().tolist(), [[500, 0.01], [1000, plots.LEAST_ERROR]])
         bars, = axes.collections
         self.assertEqual([bar.tolist() for bar in bars.get_segments()], [[[500, 0.01], [1000, 0.01]], [[1000, 1e-9], [2000, 1e-9]]])
-        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], ["mask, slope 0.00"])
+        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], ["mask, slope 0.00 \u00b1 0.02"])
 
     def test_what_failed_is_struck_out_at_its_place_or_else_in_the_legend_and_what_goes_beyond_a_limit_is_hollow(self):
         axes = self.figure([precise("mask", 0.1, 0.01, 50), precise("mask", 0.05, 0.5, 50, reason="safety: step 1: passed it"),

@@ -145,12 +145,12 @@ TEST(RowPictures, a_curve_over_the_step_has_the_points_without_another_knob) {
   ASSERT_EQ(page.charts.size(), 1U);
   const std::vector<ChartSeries>& series = page.charts[0].series;
   ASSERT_EQ(series.size(), 2U);
-  EXPECT_EQ(series[0].name, "mask, slope 1.00");
+  EXPECT_EQ(series[0].name, "mask, slope 1.00 ± 0.00");
   ASSERT_EQ(series[0].points.size(), 2U);
   EXPECT_DOUBLE_EQ(series[0].points[0].x, 50 / 0.1);  // ns per second of motion
   EXPECT_DOUBLE_EQ(series[0].points[0].y, 1e-2);
   EXPECT_DOUBLE_EQ(series[0].points[1].y, 1e-9) << "an error of zero has a place, too";
-  EXPECT_EQ(series[1].name, "mask over pixel [m], slope 2.00");
+  EXPECT_EQ(series[1].name, "mask over pixel [m], slope 2.00 ± 0.00");
   EXPECT_FALSE(series[1].shown);
   ASSERT_EQ(series[1].points.size(), 1U);
 }

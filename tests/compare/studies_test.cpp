@@ -19,12 +19,21 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(SlopeOf, is_that_of_a_line_and_none_of_a_point) {
-  using Point = std::pair<double, double>;
-  const std::vector<Point> line{{0, 1}, {1, 3}, {2, 5}};
-  EXPECT_DOUBLE_EQ(slope_of(line).value(), 2);
-  EXPECT_FALSE(slope_of(std::vector<Point>{{1, 1}}));
-  EXPECT_FALSE(slope_of(std::vector<Point>{{1, 1}, {1, 2}}));
+TEST(SlopeWithinARegime, is_that_of_the_finest_points_on_a_line) {
+  using Points = std::vector<std::optional<std::pair<double, double>>>;
+  EXPECT_DOUBLE_EQ(slope_within_a_regime(Points{{{0, 1}}, {{1, 3}}, {{2, 5}}})->value, 2);
+  EXPECT_FALSE(slope_within_a_regime(Points{{{0, 1}}, {{1, 3}}})) << "two points lie on any line";
+  EXPECT_FALSE(slope_within_a_regime(Points{{{0, 1}}, {{1, 3}}, {}, {{3, 7}}, {{4, 9}}})) << "one does not count";
+  // Flat over four points, a jump, a slope of one over three, and one that fails.
+  EXPECT_DOUBLE_EQ(
+      slope_within_a_regime(Points{{{7, 5}}, {{6, 5}}, {{5, 5}}, {{4, 5}}, {{3, 0}}, {{2, -1}}, {{1, -2}}, {}})->value,
+      1);
+  EXPECT_FALSE(slope_within_a_regime(Points{{{0, 0}}, {{1, 3}}, {{2, -1}}, {{3, 4}}})) << "on no line";
+  // Off the line y = x by e, -2 e, e: 6 e² with one degree of freedom over a sum of squares of 2; t is 12.706.
+  const double off = 0.005;
+  const auto near = slope_within_a_regime(Points{{{0, off}}, {{1, 1 - 2 * off}}, {{2, 2 + off}}});
+  EXPECT_NEAR(near->value, 1, 1e-12);
+  EXPECT_NEAR(near->within, 12.7062 * std::sqrt(6 * off * off / 2), 1e-5);
 }
 
 constexpr double root_3 = 1.7320508075688772;
