@@ -37,16 +37,6 @@ std::vector<std::uint8_t> unpacked(const std::vector<std::uint8_t>& packed, std:
   return indices;
 }
 
-/// The nearest of 8 bits for each channel of 16; the library takes the upper byte.
-void round_to_bytes(std::vector<std::uint8_t>& channels) {
-  const std::size_t count = channels.size() / 2;
-  for (std::size_t i = 0; i < count; ++i) {
-    const unsigned value = static_cast<unsigned>(channels[2 * i]) << 8U | channels[2 * i + 1];
-    channels[i] = static_cast<std::uint8_t>((value * 255 + 32767) / 65535);
-  }
-  channels.resize(count);
-}
-
 }  // namespace
 
 Rgba PngPicture::colour_at(int column, int row) const noexcept {
@@ -75,12 +65,11 @@ PngPicture read_png(const std::string& path, const std::string& given) {
   // A converted index would be lost where two entries of the palette look alike.
   state.decoder.color_convert = is_indexed ? 0 : 1;
   state.info_raw.colortype = LCT_RGBA;
-  state.info_raw.bitdepth = kind.bitdepth == 16 ? 16 : 8;
+  state.info_raw.bitdepth = 8;
   PngPicture picture;
   check(lodepng::decode(picture.bytes, width, height, state, begin, file.size()));
   picture.width = static_cast<int>(width);
   picture.height = static_cast<int>(height);
-  if (kind.bitdepth == 16) round_to_bytes(picture.bytes);
   if (!is_indexed) return picture;
   picture.palette = palette_of(kind);
   picture.bytes = unpacked(picture.bytes, kind.bitdepth, count);

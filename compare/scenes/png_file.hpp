@@ -29,7 +29,7 @@ struct PngPicture {
 };
 
 /// Reads a PNG of any kind: grey, true colour or indexed, of 1 to 16 bits, with or without alpha, interlaced or not.
-/// Channels of 16 bits become the nearest of 8, those of fewer bits the same share of 255. No gamma or colour profile
+/// Of channels of 16 bits the upper 8 count, and those of fewer bits become the same share of 255. No gamma or colour profile
 /// is applied: a level's colours are names.
 /// @param given the file as the user named it.
 /// @throws InputError: no file, no PNG or a broken one, more than 2^26 pixels (before anything is allocated for them),
