@@ -13,10 +13,10 @@ namespace {
 /// Rows that a page lists one by one.
 constexpr std::size_t most_listed = 2000;
 
-/// Whether it is flagged for nothing but its validity: Box2D's travel cap, for example.
+/// Whether it went beyond a limit that its contender documents, Box2D's travel cap for example. Then only what is unsafe
+/// is held against it: what comes late misses its answer.
 bool is_beyond_limits(const Row& row) {
-  return row.verdict == Verdict::flagged && falls_short(row, Axis::validity) && !falls_short(row, Axis::safety) &&
-         !falls_short(row, Axis::progress) && !falls_short(row, Axis::answer);
+  return row.verdict == Verdict::flagged && falls_short(row, Axis::validity) && !falls_short(row, Axis::safety);
 }
 
 /// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.

@@ -126,6 +126,12 @@ TEST_F(CommandStudy, of_any_kind_is_sharded_merged_and_gone_on_with) {
   EXPECT_EQ(rows_of("b.jsonl").size(), 3U);
 }
 
+/// 1,000 m/s are 17 m a step, of which it goes 2: it is late, and misses its answer.
+TEST_F(CommandStudy, what_comes_late_of_a_documented_limit_is_no_other_fault) {
+  const std::string out = runs("sweep paper --vary speed=100,1000 --contender box2d").out;
+  EXPECT_TRUE(holds(out, "box2d          2     1        0             0              1           0\n")) << out;
+}
+
 TEST_F(CommandStudy, bullet_counts_and_gives_the_lowest_speeds) {
   const std::string out = runs("study bullet --contender penetration_resolution --rows r.jsonl").out;
   std::string single;  // spaces
