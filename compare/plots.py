@@ -33,8 +33,9 @@ LIGHT = {"page": "#ffffff", "text": "#1d2125", "quiet": "#d9dcdf", "none": "#a9d
          "on_all": "#fffffe"}
 DARK = {"page": "#15181b", "text": "#e3e6e8", "quiet": "#363d44", "none": "#24506f", "some": "#8f6a24", "all": "#d9603b",
         "on_all": "#16181a"}
-# Of Okabe and Ito, who chose them for the colour-blind. Seven inks and eight marks: no two of 56 curves look alike.
-INKS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c7a3d")
+# Of Okabe and Ito, who chose them for the colour-blind. The first, blue, is that of octagon_sweep alone. Five inks and eight marks for
+# the others: no two of 40 curves look alike.
+INKS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#8c7a3d")
 MARKS = "os^DvP*h"
 
 
@@ -201,7 +202,7 @@ def draw_curve(axes, points, ink, mark, theme):
     spread = [(high - low) / dt for high, low, dt in zip(most, least, dts)]
     errors = [max(row["error_max_m"], LEAST_ERROR) for row in points]
     axes.errorbar(times, errors, xerr=[[0] * len(times), spread], fmt="none", ecolor=ink, elinewidth=0.8)
-    line, = axes.plot(times, errors, mark + "-", color=ink, markersize=4, linewidth=1.2)
+    line, = axes.plot(times, errors, mark + "-", color=ink, markersize=4)
     for chosen, how in ((lambda row: row.get("on_front"), {"marker": mark, "color": ink, "markersize": 8}),
                         (lambda row: falls_short(row, "validity"), {"marker": mark, "color": ink, "markersize": 6, "fillstyle": "none"}),
                         (lambda row: falls_short(row, "safety"), {"marker": "x", "color": theme["text"], "markersize": 10})):
@@ -225,7 +226,10 @@ def draw_curves(scene, rows, theme):
     entries = []
     for i, (who, curve) in enumerate(curves_of(rows).items()):
         if curve["points"]:
-            line = draw_curve(axes, curve["points"], INKS[i % len(INKS)], MARKS[i % len(MARKS)], theme)
+            ours = who.startswith("octagon_sweep")
+            ink = INKS[0] if ours else INKS[1 + i % (len(INKS) - 1)]
+            line = draw_curve(axes, curve["points"], ink, MARKS[i % len(MARKS)], theme)
+            line.set(linewidth=2.4 if ours else 1.2, zorder=3 if ours else 2)
             line.set_gid(f"curve-{i}")
             entries.append((line, who if curve["slope"] is None else f"{who}, slope {curve['slope']}"))
         if curve["without"]:

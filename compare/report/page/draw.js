@@ -22,14 +22,15 @@ function theme() {
   };
 }
 
+/// As many as there are contenders. Ours, the first, is the only blue one.
 const INKS = {
   light: [
     '#0b5cad', '#d1590a', '#2a7d3f', '#a3268f', '#7a5c00', '#007d84', '#6a4fc4', '#c0304f', '#4b5a66', '#5b7a12',
-    '#8c4a2f', '#2f6f9f'
+    '#8c4a2f', '#7d2f5e', '#b07a00'
   ],
   dark: [
     '#74b4f5', '#ff9a4d', '#74cf8d', '#eb86da', '#dcbb4b', '#55cdd4', '#ac98fa', '#ff8aa2', '#aebac4', '#b5d560',
-    '#dba184', '#93c5e8'
+    '#dba184', '#d79ac0', '#ffd27a'
   ],
 };
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4], [1, 2]];
