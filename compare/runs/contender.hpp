@@ -8,6 +8,7 @@
 #include <paperproof/techniques.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -32,8 +33,9 @@ struct Pose {
   bool jumping = false;
   bool jump_held = false;
   bool jump_pending = false;
-  Ride ride{};                          ///< Its `place` is not used: a character that is put down begins a new ride.
-  Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what it rides on.
+  Ride ride{};                            ///< Its `place` is not used: a character that is put down begins a new ride.
+  Vec2d ground_normal{Vec2d::UnitY()};    ///< Of what it rides on.
+  std::optional<TraceRide> on_another{};  ///< What carries it where that is another character: then `ride` has none.
 };
 
 /// What happens to every contender alike in one step.

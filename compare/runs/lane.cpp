@@ -89,6 +89,7 @@ void Lane::launch(const Vec2d& velocity, std::size_t character) {
   contender_->launch(velocity, character);
   const Pose launched = contender_->pose(character);
   begin_anew(launched, character, launched.ride);
+  if (launched.on_another) placed_in_[character].ride = launched.on_another;
 }
 
 void Lane::begin_anew(const Pose& pose, std::size_t character, const Ride& ride) {

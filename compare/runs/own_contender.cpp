@@ -225,17 +225,24 @@ class TogetherContender final : public OwnContender {
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
     Pose pose = pose_of(states_[character]);
-    if (is_body(pose.ride.ground)) pose.ride = {};
+    if (is_body(pose.ride.ground)) {
+      pose.on_another = on_another(pose.ride.ground, pose.ride.velocity);
+      pose.ride = {};
+    }
     return pose;
   }
 
  private:
   [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider != Ride::none && collider >= first_body_; }
 
+  [[nodiscard]] TraceRide on_another(ColliderIndex body, const Vec2d& velocity) const {
+    return {.velocity = velocity, .character = body - first_body_};
+  }
+
   /// Contacts with the bodies of others are those with characters, and so is what carries it.
   void name_others(TraceStep& record) const {
-    if (record.ride && record.ride->collider >= first_body_)
-      record.ride = TraceRide{.velocity = record.ride->velocity, .character = record.ride->collider - first_body_};
+    if (record.ride && is_body(record.ride->collider))
+      record.ride = on_another(record.ride->collider, record.ride->velocity);
     record.met.clear();
     for (const Contact& contact : record.contacts)
       if (contact.collider >= first_body_)
