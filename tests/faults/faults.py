@@ -162,7 +162,7 @@ def try_fault(copy, fault, full):
         return {**fault, 'no_fault': 'changes nothing'}  # three times 0.0
     before = put(copy, fault)
     if before is None:
-        return {**fault, 'gone': True}
+        return {**fault, 'no_fault': 'its line is no more'}
     try:
         if not copy.compiles():
             return {**fault, 'no_fault': 'does not compile'}
@@ -200,7 +200,7 @@ def table(files):
     runs = [[r for r in json.load(open(path)) if 'no_fault' not in r] for path in files]
     for result in runs[0]:
         same = [next((r for r in other if (r['part'], r['number']) == (result['part'], result['number'])), {}) for other in runs]
-        words = ['not run' if not r else 'gone' if r.get('gone') else f"{r.get('found') or 'survives'} {r.get('seconds', 0)} s {(r.get('tests') or [''])[0]}" for r in same]
+        words = ['not run' if not r else f"{r.get('found') or 'survives'} {r.get('seconds', 0)} s {(r.get('tests') or [''])[0]}" for r in same]
         print(f"{result['part']} {result['number']} {result['operator']}, {result['path']}:{result['line']} | {' | '.join(words)}")
     for path, results in zip(files, runs):
         quick = sum(r.get('found') == 'quick' for r in results)

@@ -32,6 +32,14 @@ Values constants() {
   };
 }
 
+/// Of `for` or `let`. @throws std::invalid_argument where formulas have that name for something else.
+void name_number(Values& values, const std::string& name, double number) {
+  static const std::string of_step = " step x y speed_x speed_y last_x last_y last_speed_x last_speed_y ";
+  if (constants().contains(name) || of_step.find(" " + name + " ") != std::string::npos)
+    throw std::invalid_argument(name + ": formulas have this name for something else");
+  values[name] = number;
+}
+
 /// A list of numbers, or all from one to another by steps of one size.
 std::vector<double> numbers_of(const json& given, const Values& values) {
   if (given.is_array()) return computed(given, values).get<std::vector<double>>();
@@ -49,7 +57,7 @@ std::vector<Values> cases_of(const ordered_json& given, const Values& others) {
   if (given.is_array()) {
     all.assign(given.size(), others);
     for (std::size_t i = 0; i < given.size(); ++i)
-      for (const auto& [name, number] : given[i].items()) all[i][name] = computed(json(number), all[i]).get<double>();
+      for (const auto& [name, number] : given[i].items()) name_number(all[i], name, computed(json(number), all[i]));
     return all;
   }
   for (const auto& [name, numbers] : given.items()) {
@@ -57,7 +65,7 @@ std::vector<Values> cases_of(const ordered_json& given, const Values& others) {
     for (const Values& values : all) {
       for (const double number : numbers_of(json(numbers), values)) {
         longer.push_back(values);
-        longer.back()[name] = number;
+        name_number(longer.back(), name, number);
       }
     }
     all = std::move(longer);
@@ -170,8 +178,9 @@ std::pair<int, int> steps_of(const json& expected, const Values& values, int cou
   const char* key = expected.contains("step") ? "step" : expected.contains("some") ? "some" : "steps";
   const json given = computed(expected.at(key), values);
   const auto step = [count](const json& number) {
-    const int at = number.get<int>();
-    return at < 0 ? count + at : at;
+    const double at = number;
+    if (at != std::rint(at)) throw std::invalid_argument(fmt::format("expected a whole number of a step, not {}", at));
+    return static_cast<int>(at) + (at < 0 ? count : 0);
   };
   return given.is_array() ? std::pair(step(given.at(0)), step(given.at(1))) : std::pair(step(given), step(given));
 }
@@ -270,7 +279,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
     for (const ordered_json* place : {&file, &text}) {
       const ordered_json lets = place->value("let", ordered_json::object());
       for (const auto& [name, formula] : lets.items())
-        values[name] = formula.is_number() ? formula.get<double>() : value_of(formula, values);
+        name_number(values, name, formula.is_number() ? formula.get<double>() : value_of(formula, values));
     }
     json scene = json(file.value("scene", ordered_json::object()));
     scene.merge_patch(json(text.value("scene", ordered_json::object())));

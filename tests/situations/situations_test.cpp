@@ -138,13 +138,15 @@ TEST(Situation, that_no_run_could_miss_is_refused) {
   for (const char* expected :
        {R"({"step": 0, "of": "y", "iz": 2})", R"({"step": 0, "of": "y"})", R"({"of": "y", "is": 2})",
         R"({"step": 0, "steps": [0, 0], "of": "y", "is": 2})", R"({"step": 0, "times": 1, "of": "y", "is": 2})",
-        R"({"step": 0, "of": "crsh/#", "is": 0})", R"({"step": 0, "of": "rides", "is": null})"}) {
+        R"({"step": 0, "of": "crsh/#", "is": 0})", R"({"step": 0, "of": "rides", "is": null})",
+        R"({"step": 0.5, "of": "y", "is": 2})"}) {
     SituationCase situation;
     situation.expected = json::array({json::parse(expected)});
     EXPECT_THROW((void)missed(situation, records), std::invalid_argument) << expected;
   }
-  for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})"}) {
-    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text), .shared = {}};
+  for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})",
+                           R"({"for": {"y": [7]}, "expect": []})", R"({"let": {"dt": 1}, "expect": []})"}) {
+    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text), .shared = json::object()};
     EXPECT_THROW((void)cases_of(situation), std::invalid_argument) << text;
   }
 }
