@@ -188,9 +188,8 @@ void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judge
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
   const StepJudgement::Company& company = judgement.company;
   count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
-  const bool clips = !judgement.clipped.empty() || !company.clipped.empty();
-  count(sums_.clipped, clips);
-  if (clips) raise(sums_.clipped_depth_max_m, judgement.clipped_depth);
+  count(sums_.clipped, judgement.clips());
+  if (judgement.clips()) raise(sums_.clipped_depth_max_m, judgement.clipped_depth);
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
     return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider) &&
            !contains(judgement.drawn, collider);
@@ -253,7 +252,7 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   const auto exempt = [this](Exempt which, bool happened) {
     if (happened) ++sums_.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)];
   };
-  exempt(Exempt::clipped, !judgement.clipped.empty() || !judgement.company.clipped.empty());
+  exempt(Exempt::clipped, judgement.clips());
   exempt(Exempt::hover, judgement.hovers);
   exempt(Exempt::drawn, !judgement.drawn.empty());
   exempt(Exempt::late_ground, judgement.ground_late);

@@ -130,10 +130,11 @@ void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, Ste
 void CompanyJudge::judge_ways(Way one, Way other, CharacterIndex whom, StepJudgement& judgement) const {
   if (!pair_.meet(one, other)) return;
   StepJudgement::Company& company = judgement.company;
-  const double depth = rim_ > 0 ? pair_.deepest(one, other) : 0;
-  const bool clips = rim_ > 0 && depth <= rim_;
-  (clips ? company.clipped : company.passed).push_back(whom);
-  if (clips) judgement.clipped_depth = std::max(judgement.clipped_depth, depth);
+  if (rim_ > 0) {
+    const double deepest = pair_.deepest(one, other);
+    if (deepest <= rim_) return judgement.note_clipped(company.clipped, whom, deepest);
+  }
+  company.passed.push_back(whom);
 }
 
 }  // namespace paperproof::compare

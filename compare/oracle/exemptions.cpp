@@ -11,17 +11,14 @@ namespace {
 
 /// See `own_reach` [m].
 constexpr double least_reach = 1e-6;
-/// Box2D's skin, for all: what one is excused the others are [m].
-constexpr double clip_depth = box2d_skin;
 
 //                                                                 octagon_sweep  Box2D          by units  others
 constexpr std::array<Exemption, 14> all_exemptions{{
     {Exempt::clipped,
      "clipped",
-     "passes a solid with a rim of the octagon no deeper than this, than its unit or than its pixel (and an eighth of "
-     "the octagon's width)",
+     "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
      "m",
-     {0, clip_depth, clip_depth, clip_depth}},
+     {0, its_rim, its_rim, its_rim}},
     {Exempt::late_match, "late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
     {Exempt::reach,
      "reach",
@@ -89,6 +86,7 @@ constexpr std::array<Exemption, 14> all_exemptions{{
 std::string size_in_words(const Exemption& exemption, Party party) {
   const double size = exemption.sizes[static_cast<std::size_t>(party)];
   if (size == its_pixel) return "its pixel";
+  if (size == its_rim) return party == Party::by_units ? "0.02 m, its unit or pixel" : "0.02 m";
   if (size == its_turn) return "angle × size";
   if (size == its_own) return party == Party::by_units ? "its unit" : "its touch gap";
   if (exemption.unit.empty()) return size > 0 ? "yes" : "no";
@@ -111,8 +109,7 @@ std::span<const Exemption> exemptions() { return all_exemptions; }
 double allowed(Exempt which, const TraceHeader& header) {
   const double size = all_exemptions[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
   if (size == its_pixel) return tolerance_named(header, "pixel");
-  if (which == Exempt::clipped && size > 0)
-    return std::max({size, tolerance_named(header, "unit"), tolerance_named(header, "pixel")});
+  if (size == its_rim) return std::max({box2d_skin, tolerance_named(header, "unit"), tolerance_named(header, "pixel")});
   return size == its_own ? own_reach(header) : size;
 }
 

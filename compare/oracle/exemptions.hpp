@@ -52,6 +52,8 @@ inline constexpr double its_own = -1;
 inline constexpr double its_pixel = -2;
 /// How much farther than its nearest point what turns may come in a step: see `NearPart::unsure`.
 inline constexpr double its_turn = -3;
+/// 20 mm, as Box2D's skin; a unit of its search or a pixel of its picture, if that is more.
+inline constexpr double its_rim = -4;
 
 /// In the order of `Exempt`.
 [[nodiscard]] std::span<const Exemption> exemptions();

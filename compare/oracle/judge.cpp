@@ -416,7 +416,7 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place&
                           StepJudgement& judgement) const {
   if (rim_ > 0) {
     const double deepest = std::max(depth, depth_of(path, collider));
-    if (deepest <= rim_) return judgement.note_clipped(collider, deepest);
+    if (deepest <= rim_) return judgement.note_clipped(judgement.clipped, collider, deepest);
   }
   judgement.tunnelled.push_back(collider);
   Passing passing = detail::describe_passing(scenery_, from, to, collider);

@@ -122,11 +122,13 @@ struct StepJudgement {
   std::optional<double> turning_toi_error{};
   bool beside_another = false;  ///< Another that goes at the same time is near: see `Judge`.
 
-  /// @param depth [m].
-  void note_clipped(ColliderIndex solid, double depth) {
-    clipped.push_back(solid);
+  /// @param all `clipped`, or that of `company`. @param depth [m].
+  template <class Index>
+  void note_clipped(std::vector<Index>& all, Index whom, double depth) {
+    all.push_back(whom);
     clipped_depth = std::max(clipped_depth, depth);
   }
+  [[nodiscard]] bool clips() const { return !clipped.empty() || !company.clipped.empty(); }
   /// The step entered a solid or another character, passed one, or passed a one-way chain against its normal.
   [[nodiscard]] bool broke() const {
     return !entered.empty() || !tunnelled.empty() || !one_way_broken.empty() || company.broke();

@@ -12,7 +12,7 @@ namespace paperproof::compare::detail {
 /// The smallest distance of two parallel lines that hold the convex ring between them [m].
 [[nodiscard]] double narrowest_width(const std::vector<Vec2d>& ring);
 
-/// Whoever passes something no deeper than this clips it [m]; 0: nothing is clipped.
+/// The largest depth of a passing that counts as clipped [m]; 0 where each passing is a tunnel.
 [[nodiscard]] double rim_of(const TraceHeader& header);
 
 }  // namespace paperproof::compare::detail

@@ -523,7 +523,8 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const Ex
 
 void TurningJudge::judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
   if (const double rim = rim_of(header_); rim > 0) {
-    if (const double depth = depth_on(solid, step); depth <= rim) return judgement.note_clipped(solid.collider, depth);
+    if (const double depth = depth_on(solid, step); depth <= rim)
+      return judgement.note_clipped(judgement.clipped, solid.collider, depth);
   }
   std::vector<Vec2d> ring;
   for (const std::size_t i : solid.parts.front()) ring.push_back(way_of(step, solid.collider).vertices.front()[i]);

@@ -78,7 +78,7 @@ TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
 
 TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
   std::vector<Moment> run = moments(5);
-  run[0].judged.note_clipped(1, 0.01);
+  run[0].judged.note_clipped(run[0].judged.clipped, ColliderIndex{1}, 0.01);
   run[1].judged.hovers = run[2].judged.hovers = true;
   run[3].judged.excused_crush = run[3].judged.ground_late = true;
   run[3].judged.end_overlap = run[3].judged.drawn = {1};
