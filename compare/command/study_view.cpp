@@ -13,8 +13,8 @@ namespace {
 /// Rows that a page lists one by one.
 constexpr std::size_t most_listed = 2000;
 
-/// Whether it went beyond a limit that its contender documents, Box2D's travel cap for example. Then only what is unsafe
-/// is held against it: what comes late misses its answer.
+/// Whether its contender went beyond a limit that it documents, Box2D's travel cap for example, and stayed safe. A run
+/// that comes late for that misses its answer: that is no fault of its own.
 bool is_beyond_limits(const Row& row) {
   return row.verdict == Verdict::flagged && falls_short(row, Axis::validity) && !falls_short(row, Axis::safety);
 }

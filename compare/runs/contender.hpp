@@ -34,8 +34,8 @@ struct Pose {
   bool jump_held = false;
   bool jump_pending = false;
   Ride ride{};                            ///< Its `place` is not used: a character that is put down begins a new ride.
-  Vec2d ground_normal{Vec2d::UnitY()};    ///< Of what it rides on.
-  std::optional<TraceRide> on_another{};  ///< What carries it where that is another character: then `ride` has none.
+  Vec2d ground_normal{Vec2d::UnitY()};    ///< Of the surface that carries it.
+  std::optional<TraceRide> on_another{};  ///< The ride on another character; `ride` is empty then.
 };
 
 /// What happens to every contender alike in one step.

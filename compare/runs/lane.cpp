@@ -82,24 +82,23 @@ void Lane::expect(const std::vector<Answer>& answers) {
 void Lane::place(const Pose& pose, std::size_t character) {
   contender_->place(pose, character);
   // A character of ours forgets its ride when it is placed.
-  begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride{});
+  begin_anew(pose, character, recorded_ride(is_reference(row_.contender) ? pose.ride : Ride{}));
 }
 
 void Lane::launch(const Vec2d& velocity, std::size_t character) {
   contender_->launch(velocity, character);
   const Pose launched = contender_->pose(character);
-  begin_anew(launched, character, launched.ride);
-  if (launched.on_another) placed_in_[character].ride = launched.on_another;
+  begin_anew(launched, character, launched.on_another ? launched.on_another : recorded_ride(launched.ride));
 }
 
-void Lane::begin_anew(const Pose& pose, std::size_t character, const Ride& ride) {
+void Lane::begin_anew(const Pose& pose, std::size_t character, const std::optional<TraceRide>& ride) {
   placed_[character] = true;
   placed_in_[character] = {.velocity = pose.velocity,
                            .grounded = pose.grounded,
                            .jumping = pose.jumping,
                            .jump_held = pose.jump_held,
                            .jump_pending = pose.jump_pending,
-                           .ride = recorded_ride(ride)};
+                           .ride = ride};
 }
 
 void Lane::respawn(const Start& start, const Respawn& when) {

@@ -66,7 +66,7 @@ class Lane {
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
-  void begin_anew(const Pose& pose, std::size_t character, const Ride& ride);
+  void begin_anew(const Pose& pose, std::size_t character, const std::optional<TraceRide>& ride);
   void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();

@@ -22,11 +22,10 @@ struct WorkPrecision {
 /// Costs are measured in a phase of their own, the contenders of one length of a step or value of a knob taking turns,
 /// minimum of nine runs after a warm-up.
 /// - `error_max_m`, `error_rms_m`: distance from the continuous motion. Box2D's includes its skin of 15 mm.
-/// - `slope`, `slope_within`: of log error over log knob, where points that count (`counts`), and whose error is above
-///   1e-9 m, lie on one line: see `slope_within_a_regime`.
+/// - `slope`, `slope_within`: of log error over log knob, and half its 95 % interval; over points that count (`counts`)
+///   and have an error above 1e-9 m: see `slope_within_a_regime`.
 /// - `on_front`: no other point of the motion that counts has less error for less time per second of motion. Of a
-/// curve:
-///   of any of its points.
+///   curve: of any of its points.
 /// @param wanted names of motions (studies/motions.hpp). @param contenders those asked for. Empty: all.
 /// @throws std::invalid_argument for a motion that there is not.
 [[nodiscard]] WorkPrecision study_work_precision(const std::vector<std::string>& wanted,

@@ -40,7 +40,7 @@ const WRITERS = {count, flag: (value) => (value === true ? 'yes' : value === fal
 const EXEMPTED =
     ['exempted', 'Exempted', '', count, 'What was not held against it, and how often; the sizes stand in the summary'];
 
-/// Of the metrics of a group: key, title, unit, how it is written, what it means.
+/// A column for each metric of a group: its key, title, unit, writer and meaning.
 function columnsOf(group) {
   const columns = INDEX.metrics.filter((metric) => metric.group === group).map(({key, title, unit, kind, meaning}) => {
     const [name, write] = unit === 'share' ? ['%', share] : [unit, WRITERS[kind] || measure];
