@@ -32,10 +32,17 @@ Values constants() {
   };
 }
 
+/// Short names of what is asked for most; everything else is a JSON pointer into the step's record.
+const std::map<std::string, std::string>& short_names() {
+  static const std::map<std::string, std::string> names{
+      {"x", "/path/-1/0"}, {"y", "/path/-1/1"}, {"speed_x", "/velocity/0"}, {"speed_y", "/velocity/1"}};
+  return names;
+}
+
 /// Of `for` or `let`. @throws std::invalid_argument where formulas have that name for something else.
 void name_number(Values& values, const std::string& name, double number) {
-  static const std::string of_step = " step x y speed_x speed_y last_x last_y last_speed_x last_speed_y ";
-  if (constants().contains(name) || of_step.find(" " + name + " ") != std::string::npos)
+  const std::string of_step = name.starts_with("last_") ? name.substr(5) : name;
+  if (constants().contains(name) || name == "step" || short_names().contains(of_step))
     throw std::invalid_argument(name + ": formulas have this name for something else");
   values[name] = number;
 }
@@ -79,13 +86,6 @@ std::string title_of(const ordered_json& given, const Values& values) {
   std::string title;
   for (const auto& [name, ignored] : names.items()) title += fmt::format(" {}={}", name, values.at(name));
   return title;
-}
-
-/// Short names of what is asked for most; everything else is a JSON pointer into the step's record.
-const std::map<std::string, std::string>& short_names() {
-  static const std::map<std::string, std::string> names{
-      {"x", "/path/-1/0"}, {"y", "/path/-1/1"}, {"speed_x", "/velocity/0"}, {"speed_y", "/velocity/1"}};
-  return names;
 }
 
 /// The part of a record that a pointer names: -1 is the last of a list, # how many it has; null where there is none.

@@ -32,8 +32,8 @@ struct SituationCase {
 struct Situation {
   std::string file;  ///< Without folder and ending.
   std::string name;
-  nlohmann::ordered_json text;    ///< As it stands in the file.
-  nlohmann::ordered_json shared;  ///< Of all in the file: `scene` and `let`.
+  nlohmann::ordered_json text;                                       ///< As it stands in the file.
+  nlohmann::ordered_json shared = nlohmann::ordered_json::object();  ///< Of all in the file: `scene` and `let`.
 };
 
 /// For GoogleTest, which prints bytes otherwise.

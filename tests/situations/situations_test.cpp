@@ -146,7 +146,7 @@ TEST(Situation, that_no_run_could_miss_is_refused) {
   }
   for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})",
                            R"({"for": {"y": [7]}, "expect": []})", R"({"let": {"dt": 1}, "expect": []})"}) {
-    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text), .shared = json::object()};
+    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text)};
     EXPECT_THROW((void)cases_of(situation), std::invalid_argument) << text;
   }
 }

@@ -1,4 +1,4 @@
-// A box falls onto a floor in the reference world. Exit status 0 when it rests there.
+// A character falls onto a floor in the reference world. Exit status 0 when it rests there.
 #include <paperproof/box2d/reference_world.hpp>
 
 #include <cmath>
