@@ -10,6 +10,7 @@
 #include "command/options.hpp"
 #include "command/study_command.hpp"
 #include "records/output_file.hpp"
+#include "runs/peers.hpp"
 #include "scenes/load.hpp"
 #include "studies/scale.hpp"
 
@@ -40,6 +41,13 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
   for (const std::string& name : names)
     if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
   return once;
+}
+
+/// Those that are named, and all peers; none where none is named.
+std::vector<std::string> chosen(std::vector<std::string> contenders) {
+  for (const Peer& peer : peers())
+    if (!contenders.empty()) contenders.push_back(peer.name);
+  return without_repeats(contenders);
 }
 
 /// Runs a command when its options are parsed, and keeps its exit status.
@@ -96,7 +104,7 @@ int compare(const CompareWords& words) {
   if (!words.scalars.empty()) arguments.run.scalars.clear();
   for (const std::string& scalar : without_repeats(words.scalars))
     arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
-  arguments.run.contenders = without_repeats(arguments.run.contenders);
+  arguments.run.contenders = chosen(arguments.run.contenders);
   arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
   return compare_scenes(std::move(arguments));
 }
@@ -136,7 +144,7 @@ void add_run_options(CLI::App& command, RunArguments& run) {
 }
 
 void forget_repeats(CaseArguments& cases) {
-  cases.contenders = without_repeats(cases.contenders);
+  cases.contenders = chosen(cases.contenders);
   cases.scalars = without_repeats(cases.scalars);
 }
 
@@ -205,7 +213,10 @@ void add_precision(CLI::App& app, int& status) {
   command.add_option("MOTION", arguments->motions, "Only these (without any: all)");
   add_contenders(command, arguments->contenders);
   add_run_outputs(command, arguments->run);
-  on_parsed(command, status, arguments, work_precision_command);
+  on_parsed(command, status, arguments, [](PrecisionArguments& typed) {
+    typed.contenders = chosen(typed.contenders);
+    return work_precision_command(typed);
+  });
 }
 
 void add_studies(CLI::App& app, int& status) {

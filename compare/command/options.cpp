@@ -2,6 +2,10 @@
 
 #include "command/compare_command.hpp"
 #include "command/option_checks.hpp"
+#include "runs/peers.hpp"
+#include "scenes/input_error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -39,6 +43,18 @@ void add_flag_off(CLI::App& command, const std::string& name, bool& variable, co
 void add_contenders(CLI::App& command, std::vector<std::string>& names, const std::string& help) {
   add_option(command, "--contender", names, "NAME", help + ", each by its own option or with commas")
       .delimiter(',')
+      ->allow_extra_args(false);
+  const auto take = [](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) try {
+        add_peer(parse_peer(text));
+      } catch (const std::invalid_argument& reason) {
+        throw InputError(fmt::format("--peer {}: {}", text, reason.what()));
+      }
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--peer", take, "Also a program of yours (see compare/peers/README.md), each by its own option")
+      ->type_name("[NAME=]COMMAND")
       ->allow_extra_args(false);
 }
 

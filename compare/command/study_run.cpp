@@ -9,6 +9,7 @@
 #include "records/rows_reader.hpp"
 #include "report/report.hpp"
 #include "runs/environment.hpp"
+#include "runs/peers.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "studies/processes.hpp"
@@ -61,8 +62,7 @@ int measure_here(const RunArguments& arguments, const std::string& name,
   rows.finish();
   write_page(page, found.page, 0);
   if (!arguments.quiet) print_out(found.text);
-  return std::any_of(found.rows.begin(), found.rows.end(),
-                     [](const Row& row) { return row.verdict == Verdict::failed; });
+  return std::any_of(found.rows.begin(), found.rows.end(), is_our_failure);
 }
 
 StudyRun::Shard StudyRun::parse_shard(const std::optional<std::string>& typed) {
@@ -122,7 +122,7 @@ bool StudyRun::goes_on() {
 }
 
 void StudyRun::note(const Row& row) {
-  trouble_ = trouble_ || row.verdict == Verdict::failed || breaks_guarantee(row);
+  trouble_ = trouble_ || is_our_failure(row) || breaks_guarantee(row);
   visit_(shard_.case_of(done_), row);
   ++done_;
 }

@@ -1,7 +1,7 @@
 /// What is true of all runs of a comparison together.
 #pragma once
 
-#include "records/row.hpp"
+#include "runs/peers.hpp"
 #include "words.hpp"
 
 #include <paperproof/techniques.hpp>
@@ -18,7 +18,7 @@ namespace paperproof::compare {
 class Totals {
  public:
   void add(const Row& row) {
-    failed_ += row.verdict == Verdict::failed;
+    failed_ += is_our_failure(row);
     if (row.contender != "octagon_sweep") return;
     Count& count = row.scalar == "double" ? in_double_ : in_float_;
     const bool violates = row.verdict == Verdict::violates;

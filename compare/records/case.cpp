@@ -62,10 +62,11 @@ bool read_option(const std::string& name, const std::string& value, Case& one) {
   if (name == "--steps") return read_number(value, one.steps);
   if (name == "--input") return value.starts_with(random) && read_number(value.substr(random.size()), one.seed);
   if (name == "--contender") one.contender = value;
+  if (name == "--peer") one.peer = value.substr(value.find('=') + 1);
   if (name == "--scalar") one.scalar = value;
   if (name == "--mode") one.mode = value;
   if (name == "--plan") one.full_plan = value == "full";
-  return name == "--contender" || name == "--scalar" || name == "--mode" || (name == "--plan" && one.full_plan);
+  return name == "--contender" || name == "--peer" || name == "--scalar" || name == "--mode" || (name == "--plan" && one.full_plan);
 }
 
 std::string setting_in_words(const char* option, const Case::Setting& each) {
@@ -78,6 +79,7 @@ std::string command_of(const Case& one) {
   std::string text = fmt::format("paperproof compare {}", shell_word(one.scene));
   for (const Case::Setting& each : one.parameters) text += setting_in_words("--set", each);
   text += " --contender " + shell_word(one.contender);
+  if (!one.peer.empty()) text += setting_in_words("--peer", {one.contender, one.peer});
   if (one.scalar != "double") text += " --scalar " + shell_word(one.scalar);
   for (const Case::Setting& each : one.knobs) text += setting_in_words("--knob", each);
   if (one.seed) text += fmt::format(" --input random:{}", *one.seed);

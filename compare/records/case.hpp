@@ -20,6 +20,7 @@ struct Case {
   std::string scene;  ///< A built-in scene, a family, or a file.
   std::vector<Setting> parameters;
   std::string contender;
+  std::string peer{};  ///< The command of a contender that is a peer; empty for others.
   std::string scalar = "double";
   std::vector<Setting> knobs;
   std::optional<std::uint64_t> seed;  ///< Of random input, instead of the scene's.

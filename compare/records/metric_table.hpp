@@ -153,6 +153,8 @@ METRIC(flag, on_front, study, one, "On the front", "", "Whether no other run has
 METRIC(measure, ns_per_step, cost, most, "Cost", "ns per step", "Minimum of the repeats")
 METRIC(measure, ns_per_step_median, cost, most, "Cost, median", "ns per step", "Median of the repeats")
 METRIC(measure, ns_per_step_max, cost, most, "Cost, slowest", "ns per step", "Maximum of the repeats")
+METRIC(measure, ns_per_step_own_clock, cost, most, "Cost, own clock", "ns per step",
+       "Mean time of a step by the clock of a peer, which is a process of its own: not to be held against the others")
 METRIC(measure, ns_per_step_bare, cost, most, "Cost, bare", "ns per step",
        "Box2D alone, given its velocities, with nothing recorded; minimum of the repeats")
 METRIC(measure, impact_step_ns, cost, most, "Impact step", "ns",

@@ -91,8 +91,9 @@ struct Row {
   std::string contender;
   std::string scalar = "double";
   std::string mode = "free";
-  std::string knob;  ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
-  int steps = 0;     ///< that ran
+  std::string knob;    ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
+  std::string engine;  ///< Name and version, as a peer says.
+  int steps = 0;       ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;

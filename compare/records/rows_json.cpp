@@ -149,6 +149,7 @@ std::vector<Field> all_fields() {
       required("mode", &Row::mode, "free, lockstep or work_precision. Empty where the scene could not be used.",
                R"({"type":"string","enum":["free","lockstep","work_precision",""]})"),
       field("knob", &Row::knob, "Settings that are not the usual ones, as name=value."),
+      field("engine", &Row::engine, "Name and version of a peer's engine, as it says."),
       field("border", &Row::border, "Key of the parameter that was bisected."),
       field("curve", &Row::curve, "Key of the parameter that a curve of several runs is over."),
       required("steps", &Row::steps, "Steps that ran.", R"({"type":"integer","minimum":0})"),

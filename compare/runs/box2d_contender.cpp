@@ -1,10 +1,9 @@
 #include "runs/box2d_contender.hpp"
 
+#include "runs/engine_intent.hpp"
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
 #include "scenes/step_times.hpp"
-
-#include <paperproof/controller.hpp>
 
 #include <algorithm>
 
@@ -20,19 +19,6 @@ struct SubstepOf {
   }
 };
 
-void begin(TraceStep& record) {
-  record.path.clear();
-  record.contacts.clear();
-  record.met.clear();
-  record.movers.clear();
-  record.vertex_ways.clear();
-  record.sensors.clear();
-  record.dropped_through.clear();
-  record.requested = Vec2d::Zero();
-  record.steered = 0;
-  record.stuck = record.dropped = record.capped = false;
-}
-
 /// Adds those that are not there yet, with their fractions of the whole step.
 template <class Event, class Same>
 void add_events(const std::vector<Event>& events, const SubstepOf& of, const Same& same, std::vector<Event>& all) {
@@ -40,19 +26,6 @@ void add_events(const std::vector<Event>& events, const SubstepOf& of, const Sam
     event.fraction = of.fraction(event.fraction);
     if (std::none_of(all.begin(), all.end(), [&](const Event& known) { return same(known, event); }))
       all.push_back(event);
-  }
-}
-
-/// The ways of what turns, in one part of a step.
-void add_ways(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHeader& header,
-              std::vector<VertexWay>& ways) {
-  std::size_t next = 0;
-  for (ColliderIndex i = 0; i < header.scenery.colliders.size() && !header.turning.empty(); ++i) {
-    const ColliderDef& def = header.scenery.colliders[i];
-    if (def.mover == no_mover || !header.turning[def.mover]) continue;
-    if (of.number == 0) ways.push_back({.collider = i, .instants = {}, .vertices = {}});
-    const box2d::MoverTurn& turn = twin.turns[def.mover];
-    add_turn(def, {twin.movers[def.mover], {turn.from, turn.to}, of.fraction(0), of.fraction(1)}, ways[next++]);
   }
 }
 
@@ -72,7 +45,9 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHe
   std::sort(record.dropped_through.begin(), record.dropped_through.end());
   if (of.number == 0) record.movers = twin.movers;
   for (std::size_t k = 0; k < twin.movers.size(); ++k) record.movers[k].to = twin.movers[k].to;
-  add_ways(twin, of, header, record.vertex_ways);
+  std::vector<TurnMotion> turns;
+  for (const box2d::MoverTurn& turn : twin.turns) turns.push_back({turn.from, turn.to});
+  add_ways(header, {twin.movers, turns, of.fraction(0), of.fraction(1)}, record.vertex_ways);
   record.velocity = twin.velocity;
   record.grounded = twin.grounded;
   record.capped = record.capped || twin.capped;
@@ -81,8 +56,7 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHe
 class Box2dContender final : public Contender {
  public:
   Box2dContender(const TwinDef& def, const Scene& scene, const Scenery& scenery, std::span<const KnobSetting> knobs)
-      : character_(rules_for_twin(scene)),
-        substeps_(def.substeps),
+      : substeps_(def.substeps),
         world_(scenery, scene.character, starts_of(scene), def.world),
         twins_(character_count(scene)),
         wishes_(character_count(scene)) {
@@ -95,7 +69,7 @@ class Box2dContender final : public Contender {
     header_.dt = scene.dt;
     header_.characters = character_count(scene);
     header_.points = world_.points_as_run();
-    add_terms(scene, character_, header_);
+    add_terms(scene, rules_for_twin(scene), header_);
     header_.substeps = substeps_;
     header_.scenery = world_.as_run();
     header_.ids = scene.ids;
@@ -111,7 +85,7 @@ class Box2dContender final : public Contender {
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
-    for (TraceStep& record : records) begin(record);
+    for (TraceStep& record : records) clear(record);
     for (int substep = 0; substep < substeps_; ++substep) {
       const std::span<const box2d::TwinStep> steps = advance(part_of(input, substep));
       for (std::size_t k = 0; k < twins_.size(); ++k) {
@@ -160,12 +134,6 @@ class Box2dContender final : public Contender {
   }
 
  private:
-  struct Twin {
-    CharacterState state;
-    Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what the ride is on.
-    double steered = 0;                   ///< See `DesiredVelocity`, of the present step [m/s].
-  };
-
   static std::vector<Vec2d> starts_of(const Scene& scene) {
     std::vector<Vec2d> starts;
     for (std::size_t k = 0; k < character_count(scene); ++k) starts.push_back(start_of(scene, k).position);
@@ -211,26 +179,25 @@ class Box2dContender final : public Contender {
     if (input.up != Vec2d::UnitY()) throw StepRefused("Box2D's twin stands upright, and the run ends there");
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
-      wishes_[k] = {wanted_by(twins_[k], input.players[k], input), input.players[k].drop};
+      wishes_[k] = {intent_.wanted(twins_[k], input.players[k], input), input.players[k].drop};
     if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
     take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
-    for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], twins_[k]);
+    for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], input, twins_[k]);
     return steps;
+  }
+
+  /// What carries it goes as Box2D had it, in float.
+  void take_over(const box2d::TwinStep& step, StepInput input, EngineCharacter& twin) const {
+    input.movers = step.movers;
+    EngineStep ended{.velocity = step.velocity, .grounded = step.grounded};
+    if (step.ground) ended.ground = EngineGround{step.ground->collider, step.ground->normal};
+    intent_.take_over(ended, input, twin);
   }
 
   void take_turns(const StepInput& input) {
     turns_.clear();
     for (const TurnMotion& turn : input.turns) turns_.push_back({turn.from, turn.to});
-  }
-
-  /// On ground that carries the intent is relative to it, as it is for the controller.
-  Vec2d wanted_by(Twin& twin, const Input& player, const StepInput& input) const {
-    twin.state.velocity -= twin.state.ride.velocity;
-    const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, input.movers);
-    const DesiredVelocity own = desired_velocity(character_, input.gravity, player, dt_, twin.state);
-    twin.steered = own.steered;
-    return carried + own.velocity;
   }
 
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion> movers) {
@@ -241,46 +208,12 @@ class Box2dContender final : public Contender {
     }
   }
 
-  void take_over(const box2d::TwinStep& step, Twin& twin) const {
-    CharacterState& state = twin.state;
-    state.velocity = step.velocity;
-    state.grounded = step.grounded;
-    ride_on(step, twin);
-    // Of what rides, float keeps no more than this [m/s].
-    const double at_rest = state.ride.ground == Ride::none ? 0 : 1e-4;
-    if (step.grounded && step.velocity.y() <= state.ride.velocity.y() + at_rest) state.jumping = false;
-  }
-
-  /// A character that comes to rest on what carries is carried at once; one with a speed of its own keeps it, as for
-  /// the controller.
-  void ride_on(const box2d::TwinStep& step, Twin& twin) const {
-    const bool comes_to_rest = twin.state.ride.ground == Ride::none && twin.state.velocity.x() == 0;
-    twin.state.ride = {};
-    if (!step.ground) return;
-    const ColliderDef& ground = header_.scenery.colliders[step.ground->collider];
-    if (ground.mover == no_mover && ground.surface_speed == 0) return;
-    twin.ground_normal = step.ground->normal;
-    twin.state.ride.ground = step.ground->collider;
-    twin.state.ride.velocity = velocity_of_ground(step.ground->collider, twin.ground_normal, step.movers);
-    if (comes_to_rest) twin.state.velocity.x() = twin.state.ride.velocity.x();
-  }
-
-  /// In one step [m/s]; a conveyor's surface runs along the ground, to the right where its speed is positive.
-  [[nodiscard]] Vec2d velocity_of_ground(ColliderIndex ground, const Vec2d& normal,
-                                         std::span<const MoverMotion> movers) const {
-    Vec2d velocity = Vec2d::Zero();
-    if (ground == Ride::none) return velocity;
-    const ColliderDef& collider = header_.scenery.colliders[ground];
-    if (collider.mover != no_mover) velocity = (movers[collider.mover].to - movers[collider.mover].from) / dt_;
-    return velocity + collider.surface_speed * Vec2d(normal.y(), -normal.x());
-  }
-
-  CharacterDef character_;
   int substeps_;
   double dt_ = 0;  ///< Of the present step of the world.
   box2d::ReferenceWorld world_;
   TraceHeader header_;
-  std::vector<Twin> twins_;
+  EngineIntent intent_{header_};
+  std::vector<EngineCharacter> twins_;
   std::vector<box2d::MoverTurn> turns_;   ///< Of the present step.
   std::vector<MoverMotion> part_movers_;  ///< See `part_of`.
   std::vector<TurnMotion> part_turns_;

@@ -2,6 +2,7 @@
 
 #include "runs/box2d_contender.hpp"
 #include "runs/own_contender.hpp"
+#include "runs/peer_contender.hpp"
 
 #include <stdexcept>
 
@@ -13,13 +14,11 @@ constexpr std::string_view box2d_pieces_name = "box2d_pieces";
 
 }  // namespace
 
-std::span<const std::string_view> contender_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all = technique_names();
-    all.insert(all.end(), {box2d_name, box2d_pieces_name});
-    return all;
-  }();
-  return names;
+std::vector<std::string_view> contender_names() {
+  std::vector<std::string_view> all = technique_names();
+  all.insert(all.end(), {box2d_name, box2d_pieces_name});
+  for (const Peer& peer : peers()) all.push_back(peer.name);
+  return all;
 }
 
 bool is_reference(std::string_view contender) { return contender == box2d_name || contender == box2d_pieces_name; }
@@ -49,6 +48,7 @@ std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scal
   }
   if (const TechniqueEntry* technique = find_technique(name))
     return make_own_contender(*technique, scalar, scene, scenery, planning);
+  if (const Peer* peer = find_peer(name)) return make_peer_contender(*peer, scene, scenery);
   throw std::invalid_argument("no contender is named " + std::string(name));
 }
 

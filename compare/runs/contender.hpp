@@ -13,11 +13,12 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace paperproof::compare {
 
-/// The names the command takes, in the order of the tables: the techniques, then Box2D.
-[[nodiscard]] std::span<const std::string_view> contender_names();
+/// The names the command takes, in the order of the tables: the techniques, then Box2D, then peers.
+[[nodiscard]] std::vector<std::string_view> contender_names();
 [[nodiscard]] bool is_reference(std::string_view contender);
 
 enum class ScalarKind : std::uint8_t { binary64, binary32 };
@@ -48,6 +49,12 @@ struct StepInput {
   Vec2d up{Vec2d::UnitY()};             ///< Unit vector.
 };
 
+/// What a program of somebody else's says of itself.
+struct PeerNotes {
+  std::string engine;                   ///< Name and version.
+  std::optional<double> ns_per_step{};  ///< By its own clock, the mean of the steps that it timed [ns].
+};
+
 class Contender {
  public:
   virtual ~Contender() = default;
@@ -66,6 +73,8 @@ class Contender {
   virtual void place(const Pose& pose, std::size_t character = 0) = 0;
   /// Gives a character another velocity [m/s], and leaves it the rest of its state where it can.
   virtual void launch(const Vec2d& velocity, std::size_t character);
+  /// Of a peer alone.
+  [[nodiscard]] virtual std::optional<PeerNotes> peer_notes() const { return std::nullopt; }
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };

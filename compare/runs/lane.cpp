@@ -30,6 +30,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
           fmt::format("lockstep is between one character and its twin, and here are {}", character_count(scene)));
     contender_ = make_contender(row_.contender, scalar, scene, scenery, planning);
     row_.knob = header().knob;
+    row_.scalar = header().scalar;
     records_.resize(header().characters);
     placed_.resize(records_.size(), true);
     placed_in_.resize(records_.size());
@@ -218,6 +219,10 @@ void Lane::note_events(std::size_t character) {
 void Lane::write_metrics() {
   judge_->write(row_);
   if (answers_) answers_->write(row_);
+  if (const std::optional<PeerNotes> peer = contender_->peer_notes()) {
+    row_.engine = peer->engine;
+    row_.ns_per_step_own_clock = peer->ns_per_step;
+  }
 }
 
 void Lane::finish() {

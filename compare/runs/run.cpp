@@ -8,6 +8,7 @@
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
 #include "runs/lockstep.hpp"
+#include "runs/peers.hpp"
 #include "runs/sentence.hpp"
 #include "words.hpp"
 
@@ -256,12 +257,12 @@ class SceneRun {
                count(Right::both), count(Right::neither));
   }
 
-  /// Twins in lockstep are placed before every step, and not timed.
+  /// Twins in lockstep are placed before every step, and not timed; a peer times itself.
   void measure() {
     std::vector<Lane*> timed;
     std::vector<TimedRun> runs;
     for (const auto& lane : lanes_) {
-      if (!lane->running()) continue;
+      if (!lane->running() || find_peer(lane->contender_name()) != nullptr) continue;
       timed.push_back(lane.get());
       runs.push_back({&lane->contender(), lane->respawns(), lane->row().exact_first_impact_step});
     }
@@ -325,7 +326,10 @@ class SceneRun {
 std::vector<std::string> contenders_of(const RunOptions& options) {
   std::vector<std::string> chosen = options.contenders;
   const bool lockstep = options.mode == Mode::lockstep;
-  if (chosen.empty() && lockstep) chosen.emplace_back(default_lockstep);
+  if (chosen.empty() && lockstep) {
+    chosen.emplace_back(default_lockstep);
+    for (const Peer& peer : peers()) chosen.push_back(peer.name);
+  }
   if (chosen.empty())
     for (const std::string_view name : contender_names())
       if (!is_reference(name) || options.reference) chosen.emplace_back(name);

@@ -1,6 +1,7 @@
 #include "runs/run_case.hpp"
 
 #include "runs/contender.hpp"
+#include "runs/peers.hpp"
 #include "scenes/load.hpp"
 
 #include <paperproof/number_in.hpp>
@@ -40,6 +41,7 @@ ReportScene run_alone(const Case& one, bool record) {
   ReportScene result;
   try {
     if (one.mode != "free" || one.reference) throw std::invalid_argument("a Case runs free and by itself");
+    if (!one.peer.empty() && find_peer(one.contender) == nullptr) add_peer({one.contender, one.peer});
     const Scene scene = load_scene(one.scene, settings_of(one));
     RunOptions options = options_of(one);
     if (record) options.max_replay_steps = one.steps.value_or(scene.steps);
@@ -74,6 +76,7 @@ std::optional<Case> case_of(const RunOptions& options, const std::string& scene,
   one.scene = scene;
   for (const ParameterSetting& each : settings) one.parameters.push_back({each.key, fmt::format("{}", each.value)});
   one.contender = row.contender;
+  one.peer = peer_command(row.contender);
   if (!is_reference(row.contender)) one.scalar = row.scalar;
   for (const KnobSetting& each : options.knobs)
     if (has_knob(row.contender, each.name)) one.knobs.push_back({each.name, each.value});

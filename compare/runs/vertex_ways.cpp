@@ -26,4 +26,14 @@ void add_turn(const ColliderDef& def, const TurningMotion& motion, VertexWay& wa
   }
 }
 
+void add_ways(const TraceHeader& header, const MoversMotion& motion, std::vector<VertexWay>& ways) {
+  std::size_t next = 0;
+  for (ColliderIndex i = 0; i < header.scenery.colliders.size() && !header.turning.empty(); ++i) {
+    const ColliderDef& def = header.scenery.colliders[i];
+    if (def.mover == no_mover || !header.turning[def.mover]) continue;
+    if (next == ways.size()) ways.push_back({.collider = i, .instants = {}, .vertices = {}});
+    add_turn(def, {motion.offsets[def.mover], motion.angles[def.mover], motion.begin, motion.end}, ways[next++]);
+  }
+}
+
 }  // namespace paperproof::compare

@@ -1,9 +1,10 @@
 /// The straight ways of vertices that stand for a turn.
 #pragma once
 
-#include "records/vertex_way.hpp"
+#include "records/trace.hpp"
 #include "scenes/mover.hpp"
 
+#include <span>
 #include <vector>
 
 namespace paperproof::compare {
@@ -23,5 +24,17 @@ struct TurningMotion {
 /// Adds a part of a step to the way of a collider: as many chords, of equal length, as `most_sag` needs.
 /// @param way that of the parts before, or an empty one.
 void add_turn(const ColliderDef& def, const TurningMotion& motion, VertexWay& way);
+
+/// How all movers go during a part of a step.
+struct MoversMotion {
+  std::span<const MoverMotion> offsets;
+  std::span<const TurnMotion> angles;
+  double begin = 0;  ///< Fractions of the step.
+  double end = 1;
+};
+
+/// The same for every collider whose mover turns.
+/// @param ways those of the parts before, or none.
+void add_ways(const TraceHeader& header, const MoversMotion& motion, std::vector<VertexWay>& ways);
 
 }  // namespace paperproof::compare

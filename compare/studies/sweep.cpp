@@ -2,6 +2,7 @@
 
 #include "near_names.hpp"
 #include "runs/knobs.hpp"
+#include "runs/peers.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
@@ -184,6 +185,7 @@ Case Sweep::at(std::size_t index) const {
   };
   const NamedContender who = take(contenders);
   one.contender = who.name;
+  one.peer = peer_command(who.name);
   one.knobs = who.knobs;
   one.scalar = take(scalars);
   std::vector<Case::Setting> varied;

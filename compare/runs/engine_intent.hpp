@@ -1,0 +1,51 @@
+/// What a character wants that another engine moves: the same as ours would in its place.
+#pragma once
+
+#include "runs/contender.hpp"
+
+#include <optional>
+
+namespace paperproof::compare {
+
+/// A character as the harness follows it, while the engine has the body.
+struct EngineCharacter {
+  CharacterState state;
+  Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what the ride is on.
+  double steered = 0;                   ///< See `DesiredVelocity`, of the present step [m/s].
+};
+
+/// What an engine says that a character stands on.
+struct EngineGround {
+  ColliderIndex collider = 0;
+  Vec2d normal{Vec2d::UnitY()};
+};
+
+/// How a step of the engine ended.
+struct EngineStep {
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
+  bool grounded = false;
+  std::optional<EngineGround> ground{};
+};
+
+/// Empties what a step of an engine writes anew.
+void clear(TraceStep& record);
+
+/// The common law of intent, for engines that know velocities and no riders. Not thread-safe.
+class EngineIntent {
+ public:
+  /// @param header with the character and the scenery as run; must outlive this.
+  explicit EngineIntent(const TraceHeader& header) : header_(header) {}
+
+  /// The velocity that is wanted in this step [m/s]. On ground that carries it is relative to that, as it is for the
+  /// controller. Notes what was steered.
+  [[nodiscard]] Vec2d wanted(EngineCharacter& who, const Input& player, const StepInput& input) const;
+  /// @param input of the step that ended.
+  void take_over(const EngineStep& step, const StepInput& input, EngineCharacter& who) const;
+
+ private:
+  [[nodiscard]] Vec2d velocity_of_ground(ColliderIndex ground, const Vec2d& normal, const StepInput& input) const;
+
+  const TraceHeader& header_;
+};
+
+}  // namespace paperproof::compare

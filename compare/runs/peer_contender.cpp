@@ -1,0 +1,245 @@
+#include "runs/peer_contender.hpp"
+
+#include "oracle/exemptions.hpp"
+#include "records/collider_json.hpp"
+#include "records/schema.hpp"
+#include "records/strict_json.hpp"
+#include "records/trace_writer.hpp"
+#include "runs/engine_intent.hpp"
+#include "runs/peer_process.hpp"
+#include "runs/peer_schema.hpp"
+#include "runs/technique_parts.hpp"
+#include "runs/vertex_ways.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace paperproof::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An engine may have to be loaded, and compiled.
+constexpr std::chrono::minutes patience_at_first{1};
+constexpr std::chrono::seconds patience{10};
+
+/// What a scene may have, and not every engine.
+struct Feature {
+  std::string_view name;
+  bool (*needed)(const Scene& scene);
+};
+
+template <class Needs>
+bool any_collider(const Scene& scene, const Needs& needs) {
+  return std::any_of(scene.scenery.colliders.begin(), scene.scenery.colliders.end(), needs);
+}
+
+constexpr std::array<Feature, 7> features{{
+    {"movers", [](const Scene& scene) { return !scene.movers.empty(); }},
+    {"turning",
+     [](const Scene& scene) {
+       return std::any_of(scene.movers.begin(), scene.movers.end(),
+                          [](const MoverDef& mover) { return !mover.turns.empty() || mover.body; });
+     }},
+    {"one_way",
+     [](const Scene& scene) {
+       return any_collider(scene, [](const ColliderDef& collider) { return collider.one_way.has_value(); });
+     }},
+    {"several", [](const Scene& scene) { return !scene.others.empty(); }},
+    {"circles",
+     [](const Scene& scene) {
+       return any_collider(scene,
+                           [](const ColliderDef& collider) { return collider.shape == ColliderDef::Shape::circle; });
+     }},
+    {"conveyors",
+     [](const Scene& scene) {
+       return any_collider(scene, [](const ColliderDef& collider) { return collider.surface_speed != 0; });
+     }},
+    {"sensors",
+     [](const Scene& scene) {
+       return any_collider(scene, [](const ColliderDef& collider) { return collider.sensor; });
+     }},
+}};
+
+Vec2d point_of(const Json& list) { return {list[0].get<double>(), list[1].get<double>()}; }
+
+const Schema& protocol() {
+  static const Schema schema(peer_schema::paperproof_peer_schema_json);
+  return schema;
+}
+
+class PeerContender final : public Contender {
+ public:
+  PeerContender(const Peer& peer, const Scene& scene, const Scenery& scenery)
+      : process_(peer.command), characters_(character_count(scene)), places_(characters_.size()) {
+    header_.scene = scene.name;
+    header_.contender = peer.name;
+    header_.scalar = name_of(ScalarKind::binary64);
+    header_.dt = scene.dt;
+    header_.characters = characters_.size();
+    header_.points.assign(scene.character.shape.hull().begin(), scene.character.shape.hull().end());
+    add_terms(scene, rules_for_twin(scene), header_);
+    header_.scenery = scenery.as_run();
+    header_.ids = scene.ids;
+    if (std::any_of(scene.movers.begin(), scene.movers.end(),
+                    [](const MoverDef& mover) { return !mover.turns.empty(); }))
+      for (const MoverDef& mover : scene.movers) header_.turning.push_back(!mover.turns.empty());
+    greet(scene);
+    place_at_start(*this, scene);
+  }
+
+  [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
+
+  void step(const StepInput& input, std::span<TraceStep> records) override {
+    if (input.up != Vec2d::UnitY()) throw StepRefused("a peer stands upright, and the run ends there");
+    std::vector<Vec2d> wanted;
+    for (std::size_t k = 0; k < characters_.size(); ++k)
+      wanted.push_back(intent_.wanted(characters_[k], input.players[k], input));
+    const Json answer = answer_to(question_of(input, wanted));
+    if (answer["characters"].size() != characters_.size())
+      throw std::runtime_error(
+          fmt::format("the peer answers for {} of {} characters", answer["characters"].size(), characters_.size()));
+    for (std::size_t k = 0; k < characters_.size(); ++k) {
+      TraceStep& record = records[k];
+      clear(record);
+      record.requested = wanted[k] * input.dt;
+      record.steered = characters_[k].steered * input.dt;
+      record.movers.assign(input.movers.begin(), input.movers.end());
+      add_ways(header_, {input.movers, input.turns}, record.vertex_ways);
+      take(answer["characters"][k], input, k, record);
+    }
+    ns_ += answer.value("ns", 0.0);
+    if (answer.contains("ns")) ++timed_;
+  }
+
+  void step_unrecorded(const StepInput& input) override {
+    std::vector<TraceStep> unread(characters_.size());
+    step(input, unread);
+  }
+
+  [[nodiscard]] Pose pose(std::size_t character) const override {
+    Pose pose = pose_of(characters_[character].state);
+    pose.position = places_[character].position;
+    pose.ground_normal = characters_[character].ground_normal;
+    return pose;
+  }
+
+  void place(const Pose& pose, std::size_t character) override {
+    characters_[character] = {state_at(pose), pose.ground_normal, 0};
+    characters_[character].state.ride = pose.ride;
+    places_[character] = {pose.position, true};
+  }
+
+  [[nodiscard]] std::optional<PeerNotes> peer_notes() const override {
+    PeerNotes notes{engine_, {}};
+    if (timed_ > 0) notes.ns_per_step = ns_ / timed_;
+    return notes;
+  }
+
+ private:
+  struct Place {
+    Vec2d position{Vec2d::Zero()};
+    bool is_new = true;  ///< The peer was not told yet.
+  };
+
+  /// The peer hears the scene, and says who it is.
+  void greet(const Scene& scene) {
+    const Json greeting = ask({{"paperproof_peer", 1}, {"run", trace_header_json(header_)}}, "name", patience_at_first);
+    engine_ = greeting["name"].get<std::string>() + ' ' + greeting["version"].get<std::string>();
+    const Json can = greeting.value("can", Json::array());
+    for (const Feature& feature : features)
+      if (feature.needed(scene) && std::find(can.begin(), can.end(), feature.name) == can.end())
+        throw NotApplicable(fmt::format("{} does not say that it can: {}", engine_, feature.name));
+    header_.scalar = greeting.value("scalar", header_.scalar);
+    header_.path_exact = greeting.value("path_exact", false);
+    header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin)}};
+  }
+
+  /// @throws NotApplicable for a refusal.
+  Json ask(const Json& question, const char* expected, std::chrono::milliseconds within) {
+    const Json answer = strict_json(process_.ask(question.dump(), within), "the peer's answer");
+    if (const auto fault = protocol().fault(answer)) throw std::runtime_error("the peer's answer: " + *fault);
+    if (answer.contains("refuses")) throw NotApplicable(answer["refuses"].get<std::string>());
+    if (!answer.contains(expected)) throw std::runtime_error(fmt::format("the peer's answer has no {}", expected));
+    return answer;
+  }
+  Json answer_to(const Json& question) { return ask(question, "characters", patience); }
+
+  Json question_of(const StepInput& input, std::span<const Vec2d> wanted) {
+    Json question{{"dt", input.dt}};
+    for (ColliderIndex i = 0; i < header_.ids.size(); ++i) {
+      const MoverIndex mover = header_.scenery.colliders[i].mover;
+      if (mover == no_mover) continue;
+      Json& way = question["movers"][header_.ids[i]];
+      way = {{"from", point_json(input.movers[mover].from)}, {"to", point_json(input.movers[mover].to)}};
+      if (!header_.turning.empty()) way["angle"] = {input.turns[mover].from, input.turns[mover].to};
+    }
+    for (std::size_t k = 0; k < characters_.size(); ++k) {
+      Json one{{"wanted", point_json(wanted[k])}};
+      if (input.players[k].drop) one["drop"] = true;
+      if (std::exchange(places_[k].is_new, false))
+        one["put"] = {{"position", point_json(places_[k].position)},
+                      {"velocity", point_json(characters_[k].state.velocity)}};
+      question["characters"].push_back(std::move(one));
+    }
+    return question;
+  }
+
+  void take(const Json& said, const StepInput& input, std::size_t k, TraceStep& record) {
+    record.path = {{places_[k].position, 0}};
+    for (const Json& corner : said["path"])
+      if (const double t = corner[2].get<double>(); t > record.path.back().fraction)
+        record.path.push_back({point_of(corner), t});
+      else if (t != 0)
+        throw std::runtime_error("the times of the peer's way do not ascend");
+    if (record.path.back().fraction != 1) throw std::runtime_error("the peer's way does not end at 1");
+    places_[k].position = record.path.back().position;
+    EngineStep ended{.velocity = (record.path.back().position - record.path.front().position) / input.dt,
+                     .grounded = said.value("grounded", false)};
+    if (said.contains("velocity")) ended.velocity = point_of(said["velocity"]);
+    if (said.contains("ground"))
+      ended.ground = EngineGround{collider_in(said["ground"]), point_of(said["ground"].value("normal", Json{0, 1}))};
+    intent_.take_over(ended, input, characters_[k]);
+    const CharacterState& state = characters_[k].state;
+    record.velocity = state.velocity;
+    record.grounded = state.grounded;
+    record.jumping = state.jumping;
+    record.ride = recorded_ride(state.ride);
+    record.stuck = said.value("stuck", false);
+    for (const Json& contact : said.value("contacts", Json::array())) {
+      const Vec2d normal = point_of(contact["normal"]);
+      record.contacts.push_back({.collider = collider_in(contact),
+                                 .point = contact.contains("point") ? point_of(contact["point"]) : places_[k].position,
+                                 .normal = normal,
+                                 .fraction = contact.value("fraction", 0.0),
+                                 .separation = contact.value("separation", 0.0),
+                                 .side = side_of_normal(normal.x(), normal.y())});
+    }
+  }
+
+  [[nodiscard]] ColliderIndex collider_in(const Json& said) const {
+    const auto id = said["collider"].get<std::string>();
+    const auto found = std::find(header_.ids.begin(), header_.ids.end(), id);
+    if (found == header_.ids.end()) throw std::runtime_error("the peer names a collider that there is not: " + id);
+    return static_cast<ColliderIndex>(found - header_.ids.begin());
+  }
+
+  PeerProcess process_;
+  std::string engine_;
+  TraceHeader header_;
+  EngineIntent intent_{header_};
+  std::vector<EngineCharacter> characters_;
+  std::vector<Place> places_;
+  double ns_ = 0;  ///< Of all steps that it timed.
+  int timed_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Contender> make_peer_contender(const Peer& peer, const Scene& scene, const Scenery& scenery) {
+  return std::make_unique<PeerContender>(peer, scene, scenery);
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,42 @@
+/// A program of somebody else's that answers line by line.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace paperproof::compare {
+
+/// Runs a command in a shell, and ends it with everything that it started. Not thread-safe.
+class PeerProcess {
+ public:
+  /// @throws std::runtime_error where no process can be started.
+  explicit PeerProcess(const std::string& command);
+  ~PeerProcess();
+  PeerProcess(const PeerProcess&) = delete;
+  PeerProcess& operator=(const PeerProcess&) = delete;
+
+  /// Writes a line to its standard input. @return the next line of its standard output, without the line's end.
+  /// @throws std::runtime_error in words where it has ended, says nothing for so long, or says too much; with the end
+  /// of what it wrote to its standard error.
+  [[nodiscard]] std::string ask(const std::string& line, std::chrono::milliseconds patience);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void send(const std::string& text, Clock::time_point until);
+  void wait(short events, Clock::time_point until);
+  void read_errors();
+  [[nodiscard]] std::optional<int> wait_for_end();
+  [[noreturn]] void give_up(std::string reason);
+
+  pid_t child_ = -1;
+  int talk_ = -1;  ///< Its standard input and output.
+  int said_ = -1;  ///< Its standard error.
+  std::string unread_;
+  std::string errors_;  ///< The end of them.
+};
+
+}  // namespace paperproof::compare
