@@ -1,0 +1,81 @@
+/// Contenders that are processes of their own.
+#include "compare/command_workplace.hpp"
+
+namespace paperproof::compare {
+namespace {
+
+using Peer = CommandTest;
+using nlohmann::json;
+
+constexpr const char* alone = " --contender octagon_sweep --no-reference --no-timing ";
+
+std::string command_of(const std::string& script) {
+  return " --peer 'python3 " PAPERPROOF_SOURCE_DIR "/" + script + "' ";
+}
+
+/// The row of the last contender.
+json last_row(const Finished& finished) { return json::parse(finished.out).at("rows").back(); }
+
+TEST_F(Peer, that_says_what_box2d_did_is_judged_like_it) {
+  for (const char* scene : {"thin_platform", "lift_up", "lift_sideways", "skier_no_snap", "conveyor"}) {
+    const std::string run = std::string("compare ") + scene + " --json ";
+    const json box2d = last_row(runs(run + "--contender box2d --no-reference --no-timing --trace t"));
+    const json peer = last_row(
+        runs(run + alone + command_of(std::string("tests/compare/parrot.py t.") + scene + ".box2d.float.jsonl")));
+    EXPECT_EQ(peer["engine"], "parrot 1");
+    EXPECT_EQ(peer["ns_per_step_own_clock"], 1000);
+    for (const char* key : {"verdict", "reason", "scalar", "steps", "tunnels", "steps_ending_inside", "contact_steps",
+                            "first_contact_step", "colliders_touched", "hanging_steps", "event_sequence", "answer_ok"})
+      EXPECT_EQ(peer.value(key, json{}), box2d.value(key, json{})) << scene << ' ' << key;
+  }
+}
+
+TEST_F(Peer, that_stops_at_nothing_passes_paper_wherever_it_runs_and_its_command_says_so_again) {
+  const Finished swept = runs("sweep paper --vary speed=10,100 --contender octagon_sweep --quiet --rows r.jsonl" +
+                              command_of("compare/peers/straight.py"));
+  int passed = 0;
+  for (const json& row : json_lines(written("r.jsonl"))) {
+    if (row.value("contender", "") != "straight") continue;
+    ++passed;
+    EXPECT_EQ(row["verdict"], "tunnels");
+    const std::string again = row["command"].get<std::string>().substr(std::string("paperproof ").size());
+    const json same = last_row(place.run(again + " --json --no-timing"));
+    EXPECT_EQ(same["case"], row["case"]);
+    EXPECT_EQ(same["first_tunnel"], row["first_tunnel"]);
+  }
+  EXPECT_EQ(passed, 2);
+}
+
+TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a_status) {
+  const std::string greets = R"(echo "{\"name\":\"p\",\"version\":\"1\"}"; read scene; read step; )";
+  const auto answers = [&](const std::string& path) {
+    return greets + R"(echo "{\"characters\":[{\"path\":)" + path + R"(}]}")";
+  };
+  struct Line {
+    std::string command, scene, verdict, words;
+  };
+  for (const Line& line : {
+           Line{"no_such_program", "thin_platform", "failed",
+                "ended with status 127: peer.sh: 1: no_such_program: not found"},
+           {"echo hello", "thin_platform", "failed", "the peer's answer:1:1: expected JSON"},
+           {"cat", "thin_platform", "failed", "/: expected exactly one of name, refuses, characters"},
+           {"kill -SEGV $$", "thin_platform", "failed", "ended with status 139: Segmentation fault"},
+           {R"(echo "{\"refuses\":\"no papers\"}")", "thin_platform", "not_applicable", "no papers"},
+           {greets, "lift_up", "not_applicable", "p 1 does not say that it can: movers"},
+           {greets, "thin_platform", "failed", "step 0: the peer ended with status 0"},
+           {answers("[[0,1e999,1]]"), "thin_platform", "failed", "/characters/0/path/0/1: expected a finite number"},
+           {answers("[[0,0,0.5],[0,0,0.2]]"), "thin_platform", "failed", "do not ascend"},
+           {answers("[[0,0,0.5]]"), "thin_platform", "failed", "does not end at 1"},
+           {answers("[]"), "thin_platform", "failed", "/characters/0/path: expected 1 or more"},
+       }) {
+    place.write("peer.sh", line.command + "\n");
+    const json row = last_row(runs("compare " + line.scene + alone + "--json --peer 'sh peer.sh'"));
+    EXPECT_EQ(row["verdict"], line.verdict) << line.command;
+    EXPECT_TRUE(holds(row["reason"].get<std::string>(), line.words)) << row["reason"];
+  }
+  for (const char* refused : {"octagon_sweep=cat", "=cat", "Cat", ""})
+    EXPECT_EQ(place.run("compare thin_platform --peer '" + std::string(refused) + "'").status, 2) << refused;
+}
+
+}  // namespace
+}  // namespace paperproof::compare
