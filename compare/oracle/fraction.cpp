@@ -32,6 +32,12 @@ Ratio ExactFraction::ratio() const {
   return {detail::Convert<Integer>{unit}(rounded_), Integer(1) << -unit};
 }
 
+std::string ExactFraction::text() const {
+  const Ratio cancelled = ratio();
+  const Integer common = gcd(cancelled.numerator, cancelled.denominator);
+  return Integer(cancelled.numerator / common).str() + '/' + Integer(cancelled.denominator / common).str();
+}
+
 /// Rounding keeps the order of two fractions, but may make them equal.
 std::strong_ordering operator<=>(const ExactFraction& a, const ExactFraction& b) {
   if (a.rounded_ != b.rounded_)

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <memory>
+#include <string>
 
 namespace paperproof::compare {
 
@@ -18,6 +19,9 @@ class ExactFraction {
 
   /// The nearest double, the even one of two.
   [[nodiscard]] explicit operator double() const noexcept { return rounded_; }
+
+  /// Numerator and denominator, without a common divisor: `17/32`.
+  [[nodiscard]] std::string text() const;
 
   friend bool operator==(const ExactFraction& a, const ExactFraction& b) { return (a <=> b) == 0; }
   friend std::strong_ordering operator<=>(const ExactFraction& a, const ExactFraction& b);
