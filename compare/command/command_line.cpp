@@ -289,6 +289,20 @@ void add_random_runs(CLI::App& app, int& status) {
   on_parsed(replay, status, again, replay_command);
 }
 
+void add_export(CLI::App& app, int& status) {
+  CLI::App& command = *app.add_subcommand("export", "Write what others can use without this project");
+  command.require_subcommand(1);
+  CLI::App& queries = *command.add_subcommand("queries", "Questions of first contact, with exact rational answers");
+  struct Asked {
+    int count = 100'000;
+    std::string path;
+  };
+  const auto asked = std::make_shared<Asked>();
+  add_option(queries, "--count", asked->count, "N", "How many").check(CLI::Range(1, 10'000'000));
+  add_option(queries, "OUT", asked->path, "FILE.jsonl|.csv", "Where they go").required();
+  on_parsed(queries, status, asked, [](const Asked& typed) { return export_queries_command(typed.count, typed.path); });
+}
+
 void add_report(CLI::App& app, int& status) {
   CLI::App& command = *app.add_subcommand("report", "Put rows, and pages of --report, into one page");
   const auto words = std::make_shared<Words>();
@@ -375,6 +389,7 @@ int run(int argc, char** argv) {
   add_judge(app, status);
   add_random_runs(app, status);
   add_report(app, status);
+  add_export(app, status);
   add_scene_commands(app, status);
   add_demo_and_list(app, status);
   try {

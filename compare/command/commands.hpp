@@ -13,6 +13,10 @@ namespace paperproof::compare {
 /// @return 0.
 int convert_command(const std::string& from, const std::string& to);
 
+/// Questions of first contact with exact answers, as JSON Lines or CSV: see compare/queries/README.md.
+/// @return 0.
+int export_queries_command(int count, const std::string& path);
+
 /// The article's bullet, one technique at a time.
 /// @param technique empty: all, in the order of the article.
 /// @return 0.

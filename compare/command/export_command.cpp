@@ -1,0 +1,65 @@
+#include "campaign/queries.hpp"
+#include "command/claimed_files.hpp"
+#include "command/commands.hpp"
+#include "records/collider_json.hpp"
+#include "records/output_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace paperproof::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json query_json(int id, const Query& query) {
+  Json line{{"id", id},
+            {"source", query.source},
+            {"points", points_json(query.points)},
+            {"position", point_json(query.position)},
+            {"displacement", point_json(query.displacement)},
+            {"solids", Json::array()}};
+  for (std::size_t i = 0; i < query.solids.size(); ++i) {
+    ColliderDef shape{.shape = query.solids[i].shape, .points = query.solids[i].points, .holes = query.solids[i].holes};
+    line["solids"].push_back(collider_json(std::to_string(i), shape));
+  }
+  line["contact"] = query.contact ? Json(query.contact->text()) : Json();
+  line["with"] = query.contact ? Json(std::to_string(query.with)) : Json();
+  line["degenerate"] = query.degenerate;
+  return line;
+}
+
+/// Numbers and words stand as they are, lists as JSON within quotes, null is an empty cell.
+std::string csv_line(const Json& line) {
+  std::string text;
+  for (const Json& value : line) {
+    if (!text.empty()) text += ',';
+    const std::string cell = value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
+    if (!value.is_array()) {
+      text += cell;
+      continue;
+    }
+    text += '"';
+    for (const char letter : cell) text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+    text += '"';
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+int export_queries_command(int count, const std::string& path) {
+  ClaimedFiles files;
+  files.claim_for_option("export queries", path);
+  OutputFile file(path);
+  const bool as_csv = path.ends_with(".csv");
+  if (as_csv) file.write("id,source,points,position,displacement,solids,contact,with,degenerate\n");
+  int id = 0;
+  make_queries(count, [&](const Query& query) {
+    const Json line = query_json(id++, query);
+    file.write(as_csv ? csv_line(line) : line.dump() + '\n');
+  });
+  file.commit();
+  return 0;
+}
+
+}  // namespace paperproof::compare
