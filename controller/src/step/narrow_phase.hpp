@@ -66,18 +66,6 @@ PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& spac
   return motion;
 }
 
-/// What the axes of a piece say together about a motion.
-struct Clearance {
-  Real start;             ///< Largest separation before the motion [m]; below zero: inside.
-  Real kept;              ///< Largest separation that one axis keeps over the whole motion [m].
-  PerAxis shared_starts;  ///< Separation before the motion along each shared axis [m].
-
-  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
-  [[nodiscard]] Real tau() const { return std::min(tolerances.hit, start); }
-  /// One axis keeps the motion clear.
-  [[nodiscard]] bool clear() const { return kept >= tau(); }
-};
-
 /// Separations of a piece at the start and at the end of the extended motion [m], shared axes first.
 struct AxisRanges {
   std::size_t count;
@@ -85,19 +73,17 @@ struct AxisRanges {
   std::array<Real, ConfigurationSpace::max_axes> end;
 };
 
-PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion& motion, PieceIndex piece,
-                                   const Clearance& clear, AxisRanges& f) {
-  space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
-    Four::Map(f.start.data() + 4 * k) = clear.shared_starts.group(k);
-    Four::Map(f.end.data() + 4 * k) = clear.shared_starts.group(k) + motion.along.group(k);
-  });
-  f.count = space.lanes();
-  for (const OwnAxis& own : space.own_axes(piece)) {
-    const Real at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
-    f.start[f.count] = at;
-    f.end[f.count++] = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
-  }
-}
+/// What the axes of a piece say together about a motion.
+struct Clearance {
+  Real start;         ///< Largest separation before the motion [m]; below zero: inside.
+  Real kept;          ///< Largest separation that one axis keeps over the whole motion [m].
+  AxisRanges ranges;  ///< Of what is no circle.
+
+  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
+  [[nodiscard]] Real tau() const { return std::min(tolerances.hit, start); }
+  /// One axis keeps the motion clear.
+  [[nodiscard]] bool clear() const { return kept >= tau(); }
+};
 
 /// How far away one of the box directions alone, which are the first shared axes, keeps a piece during the whole motion
 /// [m]. With most pieces that is further than `hit`: looking at these axes first saves half of a sweep.
@@ -119,17 +105,21 @@ PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion
 [[nodiscard]] PAPERPROOF_INLINE Clearance clearance(const ConfigurationSpace& space, const Motion& motion,
                                                     PieceIndex piece) {
   Clearance result;
+  AxisRanges& f = result.ranges;
   Four start;
   Four kept;
   space.for_each_group([&](std::size_t k) PAPERPROOF_INLINE_LAMBDA {
     const Four here = motion.at.group(k) - space.offsets(piece, k);
-    const Four least = here.min(here + motion.along.group(k));
+    const Four there = here + motion.along.group(k);
+    const Four least = here.min(there);
     start = k == 0 ? here : Four(start.max(here));
     kept = k == 0 ? least : Four(kept.max(least));
-    result.shared_starts.group(k) = here;
+    Four::Map(f.start.data() + 4 * k) = here;
+    Four::Map(f.end.data() + 4 * k) = there;
   });
   result.start = start.maxCoeff();
   result.kept = kept.maxCoeff();
+  f.count = space.lanes();
   if (space.own_axes(piece).empty()) return result;
   if (space.is_circle(piece)) [[unlikely]] {
     const auto [start_of_circle, kept_by_circle] = clearance_of_circle(space, motion, piece);
@@ -142,6 +132,8 @@ PAPERPROOF_INLINE void find_ranges(const ConfigurationSpace& space, const Motion
     const Real end = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
     result.start = std::max(result.start, at);
     result.kept = std::max(result.kept, std::min(at, end));
+    f.start[f.count] = at;
+    f.end[f.count++] = end;
   }
   return result;
 }
@@ -265,9 +257,8 @@ enum class Covered : std::uint8_t { as_any, yields };
 template <Covered covered = Covered::yields>
 [[nodiscard]] PAPERPROOF_INLINE PieceHit sweep_piece(const ConfigurationSpace& space, const Motion& motion,
                                                      PieceIndex piece, const Clearance& clear, const UpFrame& up = {}) {
-  AxisRanges f;
-  find_ranges(space, motion, piece, clear, f);
-  if (f.count > space.lanes() && space.is_circle(piece)) [[unlikely]]
+  const AxisRanges& f = clear.ranges;
+  if (space.is_circle(piece)) [[unlikely]]
     return sweep_circle(space, motion, piece, clear.start);
   const Real tau = clear.tau();
   const Real inside = std::min(tau, Real(0));
