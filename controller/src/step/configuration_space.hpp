@@ -142,7 +142,8 @@ struct Obstacle {
 /// A step names a piece by its index among the obstacles.
 class ConfigurationSpace {
  public:
-  static constexpr std::size_t max_axes = 64;  ///< Of one piece: shared ones, and those of at most 32 edges.
+  static constexpr std::size_t max_axes = 64;           ///< Of one piece: shared ones, and those of at most 32 edges.
+  static constexpr std::size_t no_axis = max_axes - 1;  ///< No piece has so many.
 
   /// @param solids must outlive it.
   ConfigurationSpace(const CharacterShape& shape, const PieceFinder& solids);

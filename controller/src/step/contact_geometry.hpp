@@ -66,7 +66,7 @@ struct PieceFace {
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
 [[nodiscard]] PAPERPROOF_INLINE Real time_of_impact(const ConfigurationSpace& space, const Vec2& from,
                                                     const Vec2& displacement, PieceIndex piece, const EntryAxes& axes) {
-  if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
+  if (axes.impact == ConfigurationSpace::no_axis) return 0;  // inside from the start
   const Real level = axes.missed ? tolerances.hit : Real(0);
   const Vec2 n = space.normal(piece, axes.impact);
   const Real approach = -(n.x() * displacement.x() + n.y() * displacement.y());

@@ -141,7 +141,7 @@ struct Clearance {
 /// The axes along which a piece is entered last.
 struct EntryAxes {
   std::size_t normal;  ///< Its normal is the contact's: below the hit distance.
-  std::size_t impact;  ///< Its time is the time of impact: below zero. The number of axes where none is.
+  std::size_t impact;  ///< Its time is the time of impact: below zero. `no_axis` where none is.
   /// The piece itself is missed, by less than the hit distance: `impact` is then the axis along which it comes that
   /// near, covered or not.
   bool missed;
@@ -159,7 +159,7 @@ struct PieceHit {
 class LastEntry {
  public:
   LastEntry(const ConfigurationSpace& space, PieceIndex piece, const UpFrame& frame)
-      : space_(space), frame_(frame), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
+      : space_(space), frame_(frame), piece_(piece) {}
 
   void add(std::size_t axis, Real time) {
     Entry& last = space_.covered(piece_, axis) ? covered_ : open_;
@@ -178,8 +178,8 @@ class LastEntry {
 
  private:
   struct Entry {
-    std::size_t axis;
-    Real time = -1;  ///< Below zero: there is none, and the axis is their number.
+    std::size_t axis = ConfigurationSpace::no_axis;
+    Real time = -1;  ///< Below zero: there is none.
   };
   /// Times closer than this are one corner, met with both facets at once.
   static constexpr Real same = std::numeric_limits<Real>::epsilon() * 64;
@@ -233,13 +233,12 @@ inline constexpr Real covered_share = Real(0.5);
   stop.time *= motion.reach;
   const auto impact = start >= 0 ? approach(Real(0)) : std::nullopt;
   const bool missed = start >= 0 && !impact;
-  const std::size_t no_axis = space.axis_count(piece);
   return {stop.time <= 1,
           stop.time,
           {axis_along(stop.there.normal),
            impact   ? axis_along(impact->there.normal)
            : missed ? axis_along(near->there.normal)
-                    : no_axis,
+                    : ConfigurationSpace::no_axis,
            missed, false}};
 }
 
@@ -269,8 +268,8 @@ template <Covered covered = Covered::yields>
   Real stop = 0;
   Real impact_time = -1;
   Real leaves = 1;  // when some separation is above zero again
-  std::size_t impact = f.count;
-  std::size_t near = f.count;
+  std::size_t impact = ConfigurationSpace::no_axis;
+  std::size_t near = ConfigurationSpace::no_axis;
   const auto look_at = [&](std::size_t axis) {
     const Real start = f.start[axis];
     const Real end = f.end[axis];
