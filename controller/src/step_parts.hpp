@@ -58,10 +58,10 @@ class FiniteCheck {
   FiniteCheck check;
   check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity).add({state.coyote_left, state.pending_left});
+  check.add({dt, input.move.value_or(0)});
   if (state.has_last_free) check.add(state.last_free);
   for (const Crusher& crusher : state.crushers) check.add(crusher.last_free).add(crusher.displacement);
-  return check.passed() && dt <= std::numeric_limits<double>::max() && std::isfinite(input.move.value_or(0)) &&
-         (movers.empty() || finite(movers, dt));
+  return check.passed() && (movers.empty() || finite(movers, dt));
 }
 
 /// Whether `maker` made the memory that is marked so.
