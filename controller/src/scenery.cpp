@@ -18,21 +18,20 @@ std::optional<std::uint32_t> FreeRanges::take(std::uint32_t size) {
 
 void EditLog::add(const Edit& edit) {
   constexpr std::size_t most = 256;  // whoever is further behind begins anew
-  if (edits_.size() == most) {
-    first_ += most / 2;
-    edits_.erase(edits_.begin(), edits_.begin() + most / 2);
-  }
+  if (edits_.size() == most) edits_.erase(edits_.begin(), edits_.begin() + most / 2);
   edits_.push_back(edit);
+  ++count_;
 }
 
 std::optional<std::span<const Edit>> EditLog::since(std::uint64_t known) const noexcept {
-  if (known < first_ || known > count()) return std::nullopt;
-  return std::span(edits_).subspan(static_cast<std::size_t>(known - first_));
+  const std::uint64_t first = count_ - edits_.size();
+  if (known < first || known > count_) return std::nullopt;
+  return std::span(edits_).subspan(static_cast<std::size_t>(known - first));
 }
 
 /// From now on whoever knows this log, or the other one, is behind.
 void EditLog::forget(std::uint64_t other) noexcept {
-  first_ = std::max(count(), other) + 1;
+  count_ = std::max(count_, other) + 1;
   edits_.clear();
 }
 

@@ -233,22 +233,22 @@ class EditLog {
  public:
   EditLog() = default;
   EditLog(const EditLog&) = default;
-  EditLog(EditLog&& from) noexcept : first_(from.first_), edits_(std::move(from.edits_)) { from.forget(count()); }
+  EditLog(EditLog&& from) noexcept : count_(from.count_), edits_(std::move(from.edits_)) { from.forget(count_); }
   EditLog& operator=(const EditLog& from) noexcept { return forget(from.count()), *this; }
   EditLog& operator=(EditLog&& from) noexcept { return forget(from.count()), from.forget(count()), *this; }
   ~EditLog() = default;
 
   void add(const Edit& edit);
   /// How many there were.
-  [[nodiscard]] std::uint64_t count() const noexcept { return first_ + edits_.size(); }
+  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
   /// Those after the first `known` ones; nothing where some of them are forgotten.
   [[nodiscard]] std::optional<std::span<const Edit>> since(std::uint64_t known) const noexcept;
 
  private:
   void forget(std::uint64_t other) noexcept;
 
-  std::uint64_t first_ = 0;
-  std::vector<Edit> edits_;
+  std::uint64_t count_ = 0;
+  std::vector<Edit> edits_;  ///< The last of them.
 };
 
 /// Not thread-safe while it is edited. Otherwise any number of threads may read it. A `Controller` follows edits from
