@@ -21,8 +21,7 @@ std::int32_t cell_at(double coordinate, double cells_per_metre) {
 
 /// The same, but a place between two cells belongs to the lower one.
 std::int32_t cell_below(double coordinate, double cells_per_metre) {
-  const std::int32_t cell = cell_at(coordinate, cells_per_metre);
-  return cell - (coordinate * cells_per_metre == cell ? 1 : 0);
+  return -cell_at(-coordinate, cells_per_metre) - 1;
 }
 
 /// Calls `visit` for the cells in which a piece is. Tiles that fill cells are in no others.
