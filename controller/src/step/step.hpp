@@ -43,11 +43,11 @@ struct Settings {
 
 /// What a sweep over all pieces found.
 struct SweepResult {
-  bool hit = false;
-  Real stop = 1;              ///< Fraction of the motion that is free.
-  Real least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit`
-                              ///< where all of them are further away than that.
-  Real least_kept = 0;        ///< By a box direction over the whole motion, of all pieces [m].
+  bool hit;
+  Real stop;              ///< Fraction of the motion that is free.
+  Real least_separation;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit` where all
+                          ///< of them are further away than that.
+  Real least_kept;        ///< By a box direction over the whole motion, of all pieces [m].
   /// The pieces that stop it there. If there are more than fit, the others are reported too, and the next sweep meets
   /// them again.
   FixedVector<Stop, MoveResult::max_contacts> stops;
