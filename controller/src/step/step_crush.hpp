@@ -54,14 +54,13 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// - It gets no faster than twice the fastest of them: so fast a wall pushes up a slope of 60 degrees. What it had it
 ///   keeps; of a walk that is its speed along the ground.
 ///
-/// @param wanted before the response. @param allowed by the response.
+/// @param wants its velocity before the response. @param allowed by the response.
 /// @return false if they would push it too far: then it goes to a free position, or is crushed.
-[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_push(const Step& step, const DesiredMotion& wanted,
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_push(const Step& step, const Vec2& wants,
                                                            DesiredMotion& allowed) {
   const std::vector<TouchedSurface>& surfaces = step.memory.surfaces;
   const auto pushes = [&](const TouchedSurface& surface) { return moves_in(step, surface); };
   if (!are_a_wedge(step) || std::none_of(surfaces.begin(), surfaces.end(), pushes)) return true;
-  const Vec2 wants = wanted.velocity.wanted;
   Real own = length_of(wants);
   Real speed = 0;
   for (const TouchedSurface& surface : surfaces) {

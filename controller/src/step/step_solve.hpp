@@ -129,9 +129,9 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());
       step.steered = 0;
     }
-    const DesiredMotion wanted = desired;
+    const Vec2 wants = desired.velocity.wanted;
     const bool is_answered = !is_passed_through(step) && respond_to_surfaces(step, desired);
-    if (!is_answered || (step.movers.active && !limit_push(step, wanted, desired))) {
+    if (!is_answered || (step.movers.active && !limit_push(step, wants, desired))) {
       if (goes_to_free_position(step)) return;
       if (!note_crushers(step)) return wait(step, true);
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());
