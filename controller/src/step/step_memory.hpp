@@ -80,8 +80,7 @@ struct StepMemory final : OwnMemory, PieceUser {
 
   /// Makes room for as many surfaces as a report has contacts without growing, and for all that may crush.
   void reserve() {
-    for (std::vector<TouchedSurface>* touched : {&surfaces, &surfaces_before})
-      touched->reserve(MoveResult::max_contacts);
+    surfaces.reserve(MoveResult::max_contacts);
     planes.reserve(MoveResult::max_contacts);
     marked.reserve(roles.size());
     crushers.reserve(space.scenery().counts().moving_pieces);
@@ -114,9 +113,8 @@ struct StepMemory final : OwnMemory, PieceUser {
   std::vector<Reported> reported_at;     ///< At each corner of the path.
   std::vector<std::uint8_t> roles;       ///< Of each collider, where anything moves: bits of `Role`.
   std::vector<ColliderIndex> marked;     ///< Colliders with a role, in the order in which they got one.
-  std::vector<TouchedSurface> surfaces;  ///< Those that are touched now, one per piece,
-  std::vector<TouchedSurface> surfaces_before;  ///< and before the last sweep.
-  std::vector<HalfPlane> planes;                ///< What the touched surfaces allow.
+  std::vector<TouchedSurface> surfaces;  ///< Those that are touched now, one per piece.
+  std::vector<HalfPlane> planes;         ///< What the touched surfaces allow.
   /// Movers that crushed, now or before, with their displacement at the end of the step.
   std::vector<Crusher> crushers;
 };

@@ -36,6 +36,16 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return false;
 }
 
+/// Whether a surface is touched that did not stop the last sweep: that would count anew.
+[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool is_still_touched(const Step& step, const TouchedSurface& surface) {
+  const bool again = std::any_of(step.found.stops.begin(), step.found.stops.end(),
+                                 [&surface](const Stop& stop) { return stop.piece == surface.piece; });
+  if (again || ignored(step, surface.piece)) return false;
+  const Vec2 at = local(step, surface.piece, step.position);
+  return step.moving.waits || (best_axis(step.space, surface.piece, at).separation <= tolerances.touch &&
+                               std::abs(step.space.separation(surface.piece, surface.axis, at)) <= tolerances.touch);
+}
+
 /// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
 /// one that points up most.
 inline void update_surfaces(Step& step) {
@@ -43,18 +53,10 @@ inline void update_surfaces(Step& step) {
     return step.up.up_of(a.normal) < step.up.up_of(b.normal);
   };
   auto& surfaces = step.memory.surfaces;
-  surfaces.swap(step.memory.surfaces_before);
-  surfaces.clear();
+  std::erase_if(surfaces, [&](const TouchedSurface& surface) { return !is_still_touched(step, surface); });
+  const std::ptrdiff_t kept = std::ssize(surfaces);
   for (const Stop& stop : step.found.stops) surfaces.push_back(surface_at(step, stop.piece, stop.axes.normal));
-  for (const TouchedSurface& surface : step.memory.surfaces_before) {
-    const bool again = std::any_of(step.found.stops.begin(), step.found.stops.end(),
-                                   [&surface](const Stop& stop) { return stop.piece == surface.piece; });
-    if (again || ignored(step, surface.piece)) continue;
-    const Vec2 at = local(step, surface.piece, step.position);
-    const bool touched = best_axis(step.space, surface.piece, at).separation <= tolerances.touch &&
-                         std::abs(step.space.separation(surface.piece, surface.axis, at)) <= tolerances.touch;
-    if (touched || step.moving.waits) surfaces.push_back(surface);
-  }
+  std::rotate(surfaces.begin(), surfaces.begin() + kept, surfaces.end());
   if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
 }
 
