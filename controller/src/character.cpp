@@ -42,7 +42,7 @@ Points checked_points(std::span<const Vec2d> points) {
 /// Sorted by angle around the lowest point: if the points are the corners of a convex polygon, this is its outline.
 Points outline_of(const Points& points) {
   Points hull = points;
-  std::sort(hull.begin(), hull.end(), lower_then_left);
+  std::ranges::sort(hull, lower_then_left);
   const Vec2d lowest = hull[0];
   std::sort(hull.begin() + 1, hull.end(),
             [&](const Vec2d& a, const Vec2d& b) { return geometry::orientation_sign(lowest, a, b) > 0; });

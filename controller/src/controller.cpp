@@ -172,9 +172,9 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
 bool Controller::needs_turning_step(const CharacterState& state, const StepContext& context,
                                     const Scratch& scratch) const {
   if (turning::memory_of(scratch).is_in_part) return false;
-  const bool all_there =
-      state.crushers.empty() || std::all_of(state.crushers.begin(), state.crushers.end(),
-                                            [&](const Crusher& crusher) { return scenery_->has(crusher.collider); });
+  const bool all_there = state.crushers.empty() || std::ranges::all_of(state.crushers, [&](const Crusher& crusher) {
+                           return scenery_->has(crusher.collider);
+                         });
   return !all_there || (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) ||
          any_angle(context.movers);
 }

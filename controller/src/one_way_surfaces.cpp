@@ -80,8 +80,7 @@ class Joints {
   }
 
   void join_ends() {
-    std::stable_sort(ends_.begin(), ends_.end(),
-                     [](const OpenEnd& a, const OpenEnd& b) { return a.place() < b.place(); });
+    std::ranges::stable_sort(ends_, [](const OpenEnd& a, const OpenEnd& b) { return a.place() < b.place(); });
     for (auto first = ends_.begin(); first != ends_.end();) {
       const auto end =
           std::find_if(first, ends_.end(), [&](const OpenEnd& other) { return other.place() != first->place(); });
@@ -114,7 +113,7 @@ OneWaySurfaces::OneWaySurfaces(const Scenery& scenery, const CharacterShape& sha
   std::vector<PieceIndex> pieces;
   solids.find(solids.whole(), scenery.boxes(), pieces);
   std::erase_if(pieces, [&](PieceIndex piece) { return !scenery.pieces()[piece].one_way; });
-  std::sort(pieces.begin(), pieces.end());
+  std::ranges::sort(pieces);
   build(scenery, pieces, angle);
 }
 
@@ -224,7 +223,7 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   const bool goes_on_after = index + 1 == surface.edge_count;
   // The octagon is on this side of the line from -> to, seen from `at`, or on it: 1 for left.
   const auto is_beside = [&](int side, const Vec2d& from, const Vec2d& to, const Vec2d& at) {
-    return std::all_of(hull().begin(), hull().end(), [&](const Vec2d& o) {
+    return std::ranges::all_of(hull(), [&](const Vec2d& o) {
       return side * orientation_sign_of_sum(from, to, std::array{position, rest, o, Vec2d(-at)}) >= 0;
     });
   };
@@ -232,7 +231,7 @@ bool OneWaySurfaces::is_below_exactly(const Surface& surface, std::uint32_t inde
   if (is_beside(1, a, b, zero) || (!goes_on_after && is_beside(-1, zero, frame.one_way, b)) ||
       (!goes_on_before && is_beside(1, zero, frame.one_way, a)))
     return true;
-  return std::any_of(frame.lower.begin(), frame.lower.end(), [&](std::uint8_t k) {
+  return std::ranges::any_of(frame.lower, [&](std::uint8_t k) {
     const Vec2d o0 = hull()[k];
     const Vec2d o1 = hull()[(k + 1) % hull().size()];
     if (goes_on_before && turn_sign(o0, o1, b, a) > 0) return false;

@@ -57,7 +57,7 @@ void Nearby::find(MoverIndex mover, const Box2& box, double angle, std::vector<P
   const std::size_t first = found.size();
   finder_.find(mover, angle == 0 ? box : geometry::Turn(-angle)(box), found);
   const auto goes_by_itself = [&](PieceIndex piece) {
-    return std::find(moving_->apart.begin(), moving_->apart.end(), piece) != moving_->apart.end();
+    return std::ranges::find(moving_->apart, piece) != moving_->apart.end();
   };
   if (mover != no_mover && moving_ != nullptr && !moving_->apart.empty()) [[unlikely]]
     found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), goes_by_itself),
@@ -108,7 +108,7 @@ void Nearby::find_moving(const Box2& positions) {
     const MoverMotion& motion = moving_->motions[each.mover];
     return std::tuple(motion.from.x(), motion.from.y(), motion.to.x(), motion.to.y(), motion.to_angle);
   };
-  std::sort(known_.moving.begin(), known_.moving.end(), [&](const auto& a, const auto& b) {
+  std::ranges::sort(known_.moving, [&](const auto& a, const auto& b) {
     if (key(a) != key(b)) return key(a) < key(b);
     return finder_.scenery().comes_before(known_.of_movers[a.first], known_.of_movers[b.first]);
   });

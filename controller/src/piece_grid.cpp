@@ -73,7 +73,7 @@ PieceGrid::Layer& PieceGrid::layer_for(const Box2& box) {
   std::frexp(box.size().maxCoeff(), &exponent);  // the size is less than 2^exponent
   const double cells_per_metre = std::ldexp(1.0, -std::max(exponent, finest));
   const auto same = [&](const Layer& layer) { return layer.cells_per_metre == cells_per_metre; };
-  const auto known = std::find_if(layers_.begin(), layers_.end(), same);
+  const auto known = std::ranges::find_if(layers_, same);
   if (known != layers_.end()) return *known;
   layers_.push_back({cells_per_metre, 0, std::vector<Cell>(8)});
   return layers_.back();

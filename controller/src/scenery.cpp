@@ -49,7 +49,7 @@ Scenery::Scenery(const SceneryDef& def) {
   std::vector<ColliderIndex> others;
   for (ColliderIndex i = 0; i < colliders_.size(); ++i)
     role(i) == std::pair(false, no_mover) ? add(i) : others.push_back(i);
-  std::stable_sort(others.begin(), others.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
+  std::ranges::stable_sort(others, [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
   for (const ColliderIndex i : others) add(i);
   pieces_.shrink_to_fit();
   boxes_.shrink_to_fit();

@@ -170,7 +170,7 @@ void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, 
   stays_.clear();
   for (const PieceIndex piece : pieces)
     if (const OverlapTime stay = stay_in(piece, segment); stay.any()) stays_.push_back(stay);
-  std::sort(stays_.begin(), stays_.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::ranges::sort(stays_, [](const auto& a, const auto& b) { return a.begin < b.begin; });
   for (auto stay = stays_.begin(); stay != stays_.end();) {
     const double begin = stay->begin;
     double end = stay->end;

@@ -39,7 +39,7 @@ class FiniteCheck {
                                       mover.from.cwiseAbs().maxCoeff(), mover.to.cwiseAbs().maxCoeff()});
     return furthest <= 1e6 && !std::isnan(mover.from_angle) && !std::isnan(mover.to_angle);
   };
-  return std::all_of(movers.begin(), movers.end(), [&](const MoverMotion& mover) {
+  return std::ranges::all_of(movers, [&](const MoverMotion& mover) {
     return in_range(mover.from) && in_range(mover.to) && FiniteCheck().add((mover.to - mover.from) / dt).passed() &&
            (!mover.has_angle() || may_have_angle(mover));
   });
@@ -47,8 +47,7 @@ class FiniteCheck {
 
 [[nodiscard]] inline bool any_angle(std::span<const MoverMotion> movers) {
   // Most levels have no movers: then nothing counts them.
-  return !movers.empty() &&
-         std::any_of(movers.begin(), movers.end(), [](const MoverMotion& mover) { return mover.has_angle(); });
+  return !movers.empty() && std::ranges::any_of(movers, [](const MoverMotion& mover) { return mover.has_angle(); });
 }
 
 /// Whether a step can begin with these numbers.
@@ -88,8 +87,7 @@ inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& vel
 }
 
 [[nodiscard]] inline bool touches(const MoveResult& move, Side side) {
-  return std::any_of(move.contacts.begin(), move.contacts.end(),
-                     [side](const Contact& contact) { return contact.side == side; });
+  return std::ranges::any_of(move.contacts, [side](const Contact& contact) { return contact.side == side; });
 }
 
 /// Notes whether a solid still overlaps the character after a move. If none does, the position is its last free one.

@@ -16,9 +16,7 @@ using geometry::dot;
 
 constexpr std::size_t nobody = ~std::size_t{0};
 
-bool contains(const std::vector<std::size_t>& all, std::size_t one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
-}
+bool contains(const std::vector<std::size_t>& all, std::size_t one) { return std::ranges::find(all, one) != all.end(); }
 
 /// Two outlines, of which one goes straight relative to the other.
 struct Passing {
@@ -216,7 +214,7 @@ struct TogetherScratch::Turns {
 /// @return nobody where it is no body of one that is near.
 std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) const {
   const std::vector<std::size_t>& near = members[i].near;
-  const auto owner = std::find_if(near.begin(), near.end(), [&](std::size_t j) { return all[i]->is_body_of(body, j); });
+  const auto owner = std::ranges::find_if(near, [&](std::size_t j) { return all[i]->is_body_of(body, j); });
   return owner == near.end() ? nobody : *owner;
 }
 
@@ -226,7 +224,7 @@ const Axes& TogetherScratch::Turns::axes_between(std::size_t i, std::size_t othe
   const auto are_they = [&](const Axes& known) {
     return std::ranges::equal(known.first, hull(i)) && std::ranges::equal(known.second, hull(other));
   };
-  const auto known = std::find_if(axes.begin(), axes.end(), are_they);
+  const auto known = std::ranges::find_if(axes, are_they);
   if (known != axes.end()) return *known;
   if (axes.size() == most_pairs) axes.clear();
   return axes.emplace_back(hull(i), hull(other));
@@ -291,7 +289,7 @@ bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, doubl
 
 /// Whether the way that one went in its last attempt leads past those as they stand that moved in it.
 bool TogetherScratch::Turns::is_clear(std::size_t i) {
-  return std::all_of(others.begin(), others.end(), [&](const TurnTaker::Other& other) {
+  return std::ranges::all_of(others, [&](const TurnTaker::Other& other) {
     return other.motion.from == other.motion.to || is_clear_of(i, other.who, Tolerances{}.certain);
   });
 }
@@ -322,8 +320,7 @@ void TogetherScratch::Turns::find_riders_in_way(std::size_t i) {
 /// Whether movers may take one along, or others that they push.
 bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
   const std::vector<Contact>& contacts = report_of(i).move.contacts;
-  return members[i].before.ride.ground != Ride::none ||
-         std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+  return members[i].before.ride.ground != Ride::none || std::ranges::any_of(contacts, [&](const Contact& contact) {
            const std::size_t other = owner_of(contact.collider, i);
            if (other != nobody) return members[other].pushes.has_value();
            return all[i]->controller().scenery().collider(contact.collider).mover != no_mover;
@@ -351,7 +348,7 @@ void TogetherScratch::Turns::let_go_first(std::size_t i) {
     if (!me.yielding.empty()) me.pushes = way;
   }
   const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
-  if (std::any_of(in_way.begin(), in_way.end(), rides)) {
+  if (std::ranges::any_of(in_way, rides)) {
     std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
     if (!me.known) attempt(i, Try::without_those);
     me.carries = me.foreseen = me.known ? *me.known : highest_way(i);
@@ -370,8 +367,7 @@ void TogetherScratch::Turns::try_step(std::size_t i) {
   if (!me.carried.empty()) {
     me.yielding = me.carried;
     attempt(i, Try::without_those);
-    if (std::all_of(me.carried.begin(), me.carried.end(),
-                    [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
+    if (std::ranges::all_of(me.carried, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
       return;
   }
   attempt(i, Try::its_step);
@@ -397,16 +393,16 @@ void TogetherScratch::Turns::take_turn(std::size_t i) {
 /// @param by_others whether one of the others crushes it, else whether anything does.
 bool TogetherScratch::Turns::is_crushed(std::size_t i, bool by_others) const {
   const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
-  return std::any_of(crushed.begin(), crushed.end(),
-                     [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
+  return std::ranges::any_of(crushed,
+                             [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
 }
 
 /// Whether one is crushed beside another whose turn began sooner: that one might have given way.
 bool TogetherScratch::Turns::comes_late(std::size_t i) const {
   const MoveResult& move = report_of(i).move;
-  return std::any_of(move.contacts.begin(), move.contacts.end(), [&](const Contact& contact) {
+  return std::ranges::any_of(move.contacts, [&](const Contact& contact) {
     const std::size_t other = owner_of(contact.collider, i);
-    const bool crushes = std::find(move.crushed.begin(), move.crushed.end(), contact.collider) != move.crushed.end();
+    const bool crushes = std::ranges::find(move.crushed, contact.collider) != move.crushed.end();
     return other != nobody && !crushes && members[other].began < members[i].began;
   });
 }
@@ -442,8 +438,8 @@ void TogetherScratch::Turns::end_turn(std::size_t i) {
 
 /// Two may meet where the boxes overlap that their steps may touch.
 void TogetherScratch::Turns::find_near() {
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return members[a].reach.lower.x() < members[b].reach.lower.x(); });
+  std::ranges::sort(
+      order, [&](std::size_t a, std::size_t b) { return members[a].reach.lower.x() < members[b].reach.lower.x(); });
   for (std::size_t k = 0; k < order.size(); ++k) {
     Member& one = members[order[k]];
     for (std::size_t l = k + 1; l < order.size(); ++l) {
@@ -485,7 +481,7 @@ void TogetherScratch::Turns::let_take_turns() {
   first.clear();
   for (int round = 0; round < most_rounds; ++round) {
     turns = begin;
-    std::sort(group.begin(), group.end());
+    std::ranges::sort(group);
     for (const std::size_t i : group) {
       members[i].to = members[i].from();
       members[i].has_gone = members[i].waits = members[i].is_late = members[i].went_elsewhere = false;
@@ -554,8 +550,7 @@ void step_together(std::span<Companion> companions, const StepContext& context, 
   turns.takers.clear();
   turns.pointers.clear();
   for (Companion& companion : companions) turns.companions.push_back(&companion);
-  std::sort(turns.companions.begin(), turns.companions.end(),
-            [](const Companion* a, const Companion* b) { return a->body < b->body; });
+  std::ranges::sort(turns.companions, [](const Companion* a, const Companion* b) { return a->body < b->body; });
   for (Companion* companion : turns.companions) turns.takers.emplace_back(*companion, turns.companions, context);
   for (OfController& taker : turns.takers) turns.pointers.push_back(&taker);
   turns.make_step(turns.pointers, context.up);

@@ -147,7 +147,7 @@ template <class AnyContact, class Same, class Visit>
 void for_each_change(std::span<const AnyContact> before, std::span<const AnyContact> now, const Same& same,
                      const Visit& visit) {
   const auto is_in = [&](std::span<const AnyContact> contacts, const AnyContact& contact) {
-    return std::any_of(contacts.begin(), contacts.end(), [&](const AnyContact& other) { return same(other, contact); });
+    return std::ranges::any_of(contacts, [&](const AnyContact& other) { return same(other, contact); });
   };
   const auto visit_first_of = [&](std::span<const AnyContact> contacts, const auto& change_of) {
     for (std::size_t i = 0; i < contacts.size(); ++i)

@@ -79,7 +79,7 @@ class Tiling {
       const auto [low, high] = std::minmax(sides_[i].vertex, sides_[sides_[i].next].vertex);
       named.push_back({low, high, i});
     }
-    std::sort(named.begin(), named.end());
+    std::ranges::sort(named);
     std::vector<std::pair<SideIndex, SideIndex>> pairs;
     for (std::size_t i = 1; i < named.size(); ++i)
       if (named[i - 1][0] == named[i][0] && named[i - 1][1] == named[i][1])

@@ -27,8 +27,7 @@ std::vector<Side> sides_by_left_end(std::span<const Ring> rings) {
       sides.push_back({from, to, Box2::between(from, to), r, i});
     }
   }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& a, const Side& b) { return a.box.lower.x() < b.box.lower.x(); });
+  std::ranges::stable_sort(sides, [](const Side& a, const Side& b) { return a.box.lower.x() < b.box.lower.x(); });
   return sides;
 }
 
@@ -129,7 +128,7 @@ bool is_convex(Ring ring) {
 }
 
 std::size_t leftmost(Ring ring) {
-  return static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), left_of) - ring.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(ring, left_of) - ring.begin());
 }
 
 int winding(Ring ring) {

@@ -128,8 +128,7 @@ void bridge_holes(Outline& outline, const DirectedRings& rings) {
     const std::uint32_t first = rings.first_vertex[hole];
     nodes.push_back(first + static_cast<NodeIndex>(leftmost(Ring(rings.vertices).subspan(first, rings.size_of(hole)))));
   }
-  std::sort(nodes.begin(), nodes.end(),
-            [&](NodeIndex a, NodeIndex b) { return left_of(outline.at(a), outline.at(b)); });
+  std::ranges::sort(nodes, [&](NodeIndex a, NodeIndex b) { return left_of(outline.at(a), outline.at(b)); });
   for (const NodeIndex node : nodes) outline.bridge(bridge_end(outline, 0, outline.at(node)), node);
 }
 
@@ -176,7 +175,7 @@ class EarClipper {
     const Box2 box = Box2::between(a, b).with(c);
     // Clipping makes no node reflex: a node that is left out here stays out.
     std::erase_if(reflex_, [&](NodeIndex i) { return !is_reflex_[i]; });
-    return std::none_of(reflex_.begin(), reflex_.end(), [&](NodeIndex i) {
+    return std::ranges::none_of(reflex_, [&](NodeIndex i) {
       const Vec2d& p = outline_.at(i);
       return box.overlaps({p, p}) && p != a && p != b && p != c && orientation_sign(a, b, p) >= 0 &&
              orientation_sign(b, c, p) >= 0 && orientation_sign(c, a, p) >= 0;

@@ -87,7 +87,7 @@ class BesideCircle {
   }
   [[nodiscard]] bool is_tangent_apart(const Vec2d& normal, const Terms& p) const {
     const double length = geometry::length_rounded_up(normal);
-    return std::all_of(octagon_.begin(), octagon_.end(), [&](const Vec2d& o) {
+    return std::ranges::all_of(octagon_, [&](const Vec2d& o) {
       return geometry::height_sign_of_sum(normal, arm_to(o, p), circle_.radius, length) >= 0;
     });
   }
@@ -103,7 +103,7 @@ bool some_edge_separates(std::span<const Vec2d> ring, std::span<const Vec2d> poi
                          double sign) {
   for (std::size_t j = 0; j < ring.size(); ++j) {
     const auto all_right = [&](const Terms& p) {
-      return std::all_of(points.begin(), points.end(), [&](const Vec2d& point) {
+      return std::ranges::all_of(points, [&](const Vec2d& point) {
         const Terms terms = sum_of({&point, 1}, p, sign);
         return geometry::orientation_sign_of_sum(ring[j], ring[(j + 1) % ring.size()], terms) <= 0;
       });

@@ -113,7 +113,7 @@ void ConfigurationSpace::drop(PieceIndex source) {
 void ConfigurationSpace::drop_all() {
   surfaces_ = OneWaySurfaces(scenery(), shape_);
   turned_surfaces_.clear();
-  std::fill(index_of_.begin(), index_of_.end(), 0);
+  std::ranges::fill(index_of_, 0);
   obstacles_.clear();
   free_obstacles_.clear();
 }
@@ -285,7 +285,7 @@ bool ConfigurationSpace::may_cover(PieceIndex covering, PieceIndex piece, double
 /// reaches further along the normal: then that is nearer to whoever comes from there.
 bool ConfigurationSpace::is_covered_corner(PieceIndex piece, const Facet& corner) const {
   const Vec2d n = normal(piece, corner.axis).cast<double>();
-  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](PieceIndex other) {
+  return std::ranges::any_of(neighbours_, [&](PieceIndex other) {
     for (std::size_t k = 0; k < axis_count(other); ++k) {
       if (is_unused(k)) continue;
       const double out = normal(other, k).cast<double>().dot(corner.from) - static_cast<double>(offset(other, k));
@@ -302,7 +302,7 @@ double ConfigurationSpace::open_part(const Facet& facet) {
     const Interval part = inside(facet, other);
     if (part.from < part.to) inside_.push_back(part);
   }
-  std::sort(inside_.begin(), inside_.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  std::ranges::sort(inside_, [](const Interval& a, const Interval& b) { return a.from < b.from; });
   double open = 0;
   double reached = 0;
   for (const Interval& part : inside_) {

@@ -112,13 +112,13 @@ class Search {
     return query_.last_free ? std::optional(seen(piece, *query_.last_free, query_.begin)) : std::nullopt;
   }
   [[nodiscard]] bool is_inside_something(const Vec2& p) const {
-    return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
+    return std::ranges::any_of(pieces_, [&](PieceIndex piece) {
       return solid(piece) && overlaps_exactly(space_, piece, query_.movers, p, query_.begin);
     });
   }
   [[nodiscard]] bool starts_inside() const {
     const std::span<const PieceIndex> others = pieces_.subspan(query_.passable);
-    return std::any_of(others.begin(), others.end(), [&](PieceIndex piece) {
+    return std::ranges::any_of(others, [&](PieceIndex piece) {
       return solid(piece) && best(piece, seen(piece, query_.from, query_.begin)).separation < 0;
     });
   }

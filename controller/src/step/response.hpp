@@ -160,8 +160,7 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
   if (is_free) return desired;
   for (const HalfPlane& at : touched)
     if (!at.walkable) end_pressing(at, touched, u, steered);
-  const bool lands =
-      std::any_of(touched.begin(), touched.end(), [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
+  const bool lands = std::ranges::any_of(touched, [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
   if (!lands && is_momentum(steered, u, touched)) u.x() += std::exchange(steered, Real(0));
   std::optional<Vec2> base;
   if (lands) base = walk(u.x(), -infinite, -infinite, infinite, touched);

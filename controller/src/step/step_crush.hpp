@@ -35,7 +35,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Whether the touched surfaces are not all of one direction.
 [[nodiscard]] inline bool are_a_wedge(const Step& step) {
   const Vec2 first = step.memory.surfaces[0].normal;
-  return std::any_of(step.memory.surfaces.begin(), step.memory.surfaces.end(), [&](const TouchedSurface& surface) {
+  return std::ranges::any_of(step.memory.surfaces, [&](const TouchedSurface& surface) {
     return length_of(Vec2(surface.normal - first)) > same_plane;
   });
 }
@@ -60,7 +60,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
                                                            DesiredMotion& allowed) {
   const std::vector<TouchedSurface>& surfaces = step.memory.surfaces;
   const auto pushes = [&](const TouchedSurface& surface) { return moves_in(step, surface); };
-  if (!are_a_wedge(step) || std::none_of(surfaces.begin(), surfaces.end(), pushes)) return true;
+  if (!are_a_wedge(step) || std::ranges::none_of(surfaces, pushes)) return true;
   Real own = length_of(wants);
   Real speed = 0;
   for (const TouchedSurface& surface : surfaces) {

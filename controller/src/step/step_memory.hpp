@@ -129,7 +129,7 @@ struct MoversInStep {
   /// The index of a collider's motion.
   [[nodiscard]] MoverIndex of(const Scenery& scenery, ColliderIndex collider) const {
     const auto is_it = [&](PieceIndex piece) { return scenery.pieces()[piece].collider == collider; };
-    const auto piece = std::find_if(moving.apart.begin(), moving.apart.end(), is_it);
+    const auto piece = std::ranges::find_if(moving.apart, is_it);
     if (piece == moving.apart.end()) return scenery.collider(collider).mover;
     return static_cast<MoverIndex>(moving.mover_count() + static_cast<std::size_t>(piece - moving.apart.begin()));
   }

@@ -175,8 +175,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
   const auto is_same_ground = [&](const TouchedSurface& surface) {
     return surface.mover == no_mover && surface.normal == first.normal;
   };
-  if (on_ground && !step.up.is_turned() &&
-      std::all_of(step.memory.surfaces.begin(), step.memory.surfaces.end(), is_same_ground)) {
+  if (on_ground && !step.up.is_turned() && std::ranges::all_of(step.memory.surfaces, is_same_ground)) {
     const HalfPlane ground{first.normal, 0, true};
     follow(ground, step.steered * step.movers.dt * (1 - step.time), desired.displacement);
     follow(ground, step.steered, desired.velocity);

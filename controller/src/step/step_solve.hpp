@@ -151,8 +151,8 @@ PAPERPROOF_COLD inline void look_for_ground(Step& step) {
       note_ground(step, GroundState::walkable, piece, ground->normal);
   });
   const auto is_steep = [&](const Vec2& normal) { return step.up.up_of(normal) > 0 && !walkable(step, normal); };
-  if (step.result.grounded || std::none_of(step.result.contacts.begin(), step.result.contacts.end(),
-                                           [&](const Contact& contact) { return is_steep(contact.normal); }))
+  if (step.result.grounded ||
+      std::ranges::none_of(step.result.contacts, [&](const Contact& contact) { return is_steep(contact.normal); }))
     return;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const std::optional<TouchedSurface> surface = touched_here(step, piece);

@@ -104,11 +104,10 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
   for (int stair = 0; stair < most_stairs; ++stair) {
     const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(step.request.state.position))));
     const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > tolerances.touch;
-    const bool is_stopped =
-        std::any_of(step.result.contacts.begin(), step.result.contacts.end(), [&](const auto& contact) {
-          return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&
-                 !walkable(step, contact.normal);
-        });
+    const bool is_stopped = std::ranges::any_of(step.result.contacts, [&](const auto& contact) {
+      return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&
+             !walkable(step, contact.normal);
+    });
     if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
     push_corner(step, step.time);
     const std::size_t corner = step.result.path.size() - 1;

@@ -49,8 +49,8 @@ inline bool ignore_overlapping_movers(Step& step) {
     if (!step.memory.is(collider, overlaps_since_start)) continue;
     ++step.moving.overlapping;
     Crusher now{collider, before.last_free, displacement_of(step, collider), !full};
-    const auto known = std::find_if(before.crushers.begin(), before.crushers.end(),
-                                    [&](const Crusher& each) { return each.collider == collider; });
+    const auto known =
+        std::ranges::find_if(before.crushers, [&](const Crusher& each) { return each.collider == collider; });
     if (known != before.crushers.end())
       now = {collider, known->last_free, known->displacement + now.displacement, known->has_side};
     else if (!before.has_last_free && !full)

@@ -38,8 +38,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// Whether a surface is touched that did not stop the last sweep: that would count anew.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool is_still_touched(const Step& step, const TouchedSurface& surface) {
-  const bool again = std::any_of(step.found.stops.begin(), step.found.stops.end(),
-                                 [&surface](const Stop& stop) { return stop.piece == surface.piece; });
+  const bool again =
+      std::ranges::any_of(step.found.stops, [&surface](const Stop& stop) { return stop.piece == surface.piece; });
   if (again || ignored(step, surface.piece)) return false;
   const Vec2 at = local(step, surface.piece, step.position);
   return step.moving.waits || (best_axis(step.space, surface.piece, at).separation <= tolerances.touch &&
@@ -57,7 +57,7 @@ inline void update_surfaces(Step& step) {
   const std::ptrdiff_t kept = std::ssize(surfaces);
   for (const Stop& stop : step.found.stops) surfaces.push_back(surface_at(step, stop.piece, stop.axes.normal));
   std::rotate(surfaces.begin(), surfaces.begin() + kept, surfaces.end());
-  if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
+  if (surfaces.size() > 1) std::swap(surfaces[0], *std::ranges::max_element(surfaces, less_up));
 }
 
 PAPERPROOF_COLD inline void note_motion_on_ground(Step& step) {
@@ -161,8 +161,7 @@ PAPERPROOF_COLD inline void sweep_again(Step& step) { sweep<Covered::yields>(ste
 [[nodiscard]] inline bool stops_at_covered(const Step& step) {
   if (!step.found.hit) return false;
   if (step.found.stops.size() == 1) return step.found.stops[0].axes.covered;  // the usual case
-  return std::any_of(step.found.stops.begin(), step.found.stops.end(),
-                     [](const Stop& stop) { return stop.axes.covered; });
+  return std::ranges::any_of(step.found.stops, [](const Stop& stop) { return stop.axes.covered; });
 }
 
 /// Puts the stop with the most upward normal first. Of equal ones it is the one with the lowest index.
@@ -172,7 +171,7 @@ inline void order_stops(Step& step) {
     return step.up.up_of(step.space.normal(a.piece, a.axes.normal)) <
            step.up.up_of(step.space.normal(b.piece, b.axes.normal));
   };
-  std::swap(step.found.stops[0], *std::max_element(step.found.stops.begin(), step.found.stops.end(), less_up));
+  std::swap(step.found.stops[0], *std::ranges::max_element(step.found.stops, less_up));
 }
 
 /// Sweeps from the present position. Motion and result are in `motion` and `found`.
@@ -223,7 +222,7 @@ inline void report_contact(Step& step, PieceIndex piece, std::size_t axis, Real 
   fraction = std::max(fraction, step.latest_impact);
   const ColliderIndex collider = collider_of(step, piece);
   const Vec2 normal = step.space.normal(piece, axis);
-  const auto known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& other) {
+  const auto known = std::ranges::find_if(contacts, [&](const Contact& other) {
     return other.collider == collider && dot(other.normal, normal) > 1 - same_plane;
   });
   if (known != contacts.end() &&

@@ -54,7 +54,7 @@ bool has_separating_edge(const Outline& one, const Outline& other, double margin
     const Linear edge = one[(i + 1) % one.size()] - one[i];
     const auto is_right = [&](const Linear& point) { return stays_right(edge, one[i], point, margin); };
     const auto is_left = [&](const Linear& point) { return stays_right(-edge, one[i], point, -beyond_edge); };
-    if (std::all_of(other.begin(), other.end(), is_right) && std::all_of(one.begin(), one.end(), is_left)) return true;
+    if (std::ranges::all_of(other, is_right) && std::ranges::all_of(one, is_left)) return true;
   }
   return false;
 }

@@ -18,7 +18,7 @@ void TurningStep::note_pushes(const Part& part) {
     const MovingCollider* collider = find_moving(touched.collider);
     const auto is_known = [&](const Contact& contact) { return contact.collider == touched.collider; };
     if (collider == nullptr || collider->by_itself || !memory_.turns[collider->mover]) continue;
-    if (std::any_of(move.contacts.begin(), move.contacts.end(), is_known)) continue;
+    if (std::ranges::any_of(move.contacts, is_known)) continue;
     // They come first: nothing else is met before any time has passed.
     move.contacts.insert(move.contacts.begin() + pushes++, touched);
   }
@@ -78,7 +78,7 @@ void TurningStep::append(const StepReport& added, const Part& part) {
     const auto is_it = [&](const Contact& other) {
       return other.collider == contact.collider && other.normal == contact.normal;
     };
-    if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact);
+    if (std::ranges::none_of(to.contacts, is_it)) to.contacts.push_back(contact);
   }
   for (const ColliderIndex collider : from.crushed)
     if (!contains(to.crushed, collider)) to.crushed.push_back(collider);

@@ -58,7 +58,7 @@ void TurningStep::read(const Box2& needed) {
     for (const PieceGrid* grid : {&group.solids, &group.sensors})
       if (geometry::swept_box(grid->whole(), motion).overlaps(needed))
         grid->find(grid->whole(), scenery_.boxes(), memory_.pieces);
-    std::sort(memory_.pieces.begin(), memory_.pieces.end());  // the pieces of a collider follow each other
+    std::ranges::sort(memory_.pieces);  // the pieces of a collider follow each other
     ColliderIndex last = no_collider;
     for (const PieceIndex piece : memory_.pieces) {
       if (!geometry::swept_box(scenery_.box(piece), motion).overlaps(needed)) continue;
@@ -75,7 +75,7 @@ void TurningStep::read(const Box2& needed) {
       if (collider.motion.turn() != 0 && !info.sensor && is_there(info.collider)) memory_.turns[mover] = true;
     }
   }
-  std::sort(memory_.moving.begin(), memory_.moving.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::ranges::sort(memory_.moving, [](const auto& a, const auto& b) { return a.id < b.id; });
 }
 
 std::span<const MoverMotion> TurningStep::hold_angles(const Box2& around) {
@@ -114,7 +114,7 @@ StepStatus TurningStep::step(CharacterState& state, const Wish& wish) {
     memory_.turned.clear();
     read(needed);
     forget_gone(state);
-    const bool any_turns = std::find(memory_.turns.begin(), memory_.turns.end(), true) != memory_.turns.end();
+    const bool any_turns = std::ranges::find(memory_.turns, true) != memory_.turns.end();
     const StepStatus status = any_turns ? step_among_turning(state, wish) : step_straight(state, wish);
     if (is_refused(status)) {
       state = before;

@@ -159,7 +159,7 @@ class TurningStep {
 };
 
 [[nodiscard]] inline bool contains(std::span<const ColliderIndex> all, ColliderIndex one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
+  return std::ranges::find(all, one) != all.end();
 }
 
 [[nodiscard]] inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fraction) {

@@ -17,8 +17,8 @@ namespace {
 /// at one height then.
 Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, const Vec2d& normal_after) {
   const auto nearest_along = [&](const Vec2d& normal) {
-    return *std::min_element(hull.begin(), hull.end(),
-                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); });
+    return *std::ranges::min_element(hull,
+                                     [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); });
   };
   const Vec2d before = nearest_along(normal_before);
   const Vec2d after = nearest_along(normal_after);
@@ -132,8 +132,7 @@ bool TurningStep::stays_clear(ColliderIndex collider, const Pose& from, const Po
 /// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
 /// @param move in the part; its corners at fraction 0 are that way.
 bool TurningStep::find_way(Part& part, const MoveResult& move) {
-  const auto later =
-      std::find_if(move.path.begin(), move.path.end(), [](const PathPoint& corner) { return corner.fraction > 0; });
+  const auto later = std::ranges::find_if(move.path, [](const PathPoint& corner) { return corner.fraction > 0; });
   const std::span corners(move.path.begin(), later);
   // Mostly it goes first, and has gone before what pushes it arrives. Evenly it would be late by the square of a turn.
   for (const double arrival : {0.5, 1.0}) {
@@ -181,7 +180,7 @@ bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_al
   }
   if (!of_all) return true;
   const std::set<ColliderIndex> around = standing(box_at(box_around(part.way, {})), false);
-  return std::all_of(around.begin(), around.end(), [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
+  return std::ranges::all_of(around, [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
 }
 
 /// The colliders that stand in a box, by id.

@@ -56,8 +56,7 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
     if (is_there(sensor)) note_stays(sensor, {}, way);
   for (const MovingCollider& collider : memory_.moving)
     if (scenery_.collider(collider.id).sensor && is_there(collider.id)) note_stays(collider.id, collider.motion, way);
-  std::stable_sort(report_.sensors.begin(), report_.sensors.end(),
-                   [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  std::ranges::stable_sort(report_.sensors, [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
   for (std::size_t i = 1; i < way.size(); ++i) note_vertices(way[i].fraction);
   for (const MovingCollider& collider : memory_.moving) {
     if (!blocks(collider.id)) continue;
@@ -70,8 +69,8 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
                                 pose_at(collider.motion, way[i].fraction), leg);
     }
     if (!is_reached) continue;
-    const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
-                                    [&](const Crusher& crusher) { return crusher.collider == collider.id; });
+    const auto known =
+        std::ranges::find_if(state.crushers, [&](const Crusher& crusher) { return crusher.collider == collider.id; });
     Crusher crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
     carry(crusher, from, at_end);
@@ -123,7 +122,7 @@ StepStatus TurningStep::stay(CharacterState& state) {
   report_.clear();
   go_straight(0, 0, state.position, state);
   const std::set<ColliderIndex> around = standing(box_at({state.position, state.position}), false);
-  const bool is_held = !move.crushers.empty() || std::any_of(around.begin(), around.end(), [&](ColliderIndex collider) {
+  const bool is_held = !move.crushers.empty() || std::ranges::any_of(around, [&](ColliderIndex collider) {
     return blocks(collider) && overlaps(collider, {}, state.position);
   });
   move.status = is_held ? StepStatus::stuck : StepStatus::moved;
