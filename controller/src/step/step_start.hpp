@@ -109,10 +109,8 @@ template <class MayPass>
   const Box2 touched = step.space.touched_from(box);
   const auto is_out_of_way = [&](PieceIndex piece) {
     if (mover_of(step, piece) == no_mover) return false;
-    const Vec2 begin = offset(step, piece, query.begin);
-    const Vec2 end = offset(step, piece, query.end);
-    const Box2 seen{touched.lower - begin.cwiseMax(end), touched.upper - begin.cwiseMin(end)};
-    return ignored(step, piece) || !seen.overlaps(step.space.info(piece).box);
+    const MoverMotion way{offset(step, piece, query.begin), offset(step, piece, query.end)};
+    return ignored(step, piece) || !PieceFinder::seen_by(touched, way).overlaps(step.space.info(piece).box);
   };
   const std::span<PieceIndex> pieces{around.begin(), std::remove_if(around.begin(), around.end(), is_out_of_way)};
   query.passable = 0;
