@@ -28,9 +28,6 @@ struct Motion {
   PerAxis at;         ///< n·from
   PerAxis along;      ///< n·extended
   Vec2 lost;          ///< What `from` lost when the offset of the piece's mover was taken from it [m].
-  /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
-  mutable OneWaySurfaces::Index known_surface;
-  mutable bool above_known_surface = false;
 
   [[nodiscard]] Box2 box() const {
     const Vec2 to = from + extended;
@@ -56,7 +53,6 @@ PAPERPROOF_INLINE void set_motion(Motion& motion, const ConfigurationSpace& spac
     motion.along.group(k) = space.shared_x(k) * motion.extended.x() + space.shared_y(k) * motion.extended.y();
   });
   motion.lost = lost;
-  motion.known_surface = OneWaySurfaces::none;
 }
 
 [[nodiscard]] PAPERPROOF_INLINE Motion make_motion(const ConfigurationSpace& space, const Vec2& from,

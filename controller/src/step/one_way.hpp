@@ -25,17 +25,9 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool one_way_blocks(const ConfigurationSpace& space, const Motion& motion,
                                                                PieceIndex piece) {
   const Obstacle& info = space.info(piece);
-  if (!info.bent_surface) {
-    const Vec2 n = space.normal(piece, info.one_way_axis);
-    if (space.separation(piece, info.one_way_axis, motion.from) >= tolerances.hit)
-      return n.x() * motion.displacement.x() + n.y() * motion.displacement.y() < 0;
-    return is_above(space, piece, motion.from, motion.lost);
-  }
-  if (motion.known_surface != info.surface) {
-    motion.known_surface = info.surface;
-    motion.above_known_surface = is_above(space, piece, motion.from, motion.lost);
-  }
-  return motion.above_known_surface;
+  if (!info.bent_surface && space.separation(piece, info.one_way_axis, motion.from) >= tolerances.hit)
+    return dot(space.normal(piece, info.one_way_axis), motion.displacement) < 0;
+  return is_above(space, piece, motion.from, motion.lost);
 }
 
 /// Whether a piece can stop a motion at all. A solid always can.
