@@ -99,12 +99,6 @@ struct FreePosition {
   std::size_t corner;
 };
 
-/// Corners of the path.
-struct Corners {
-  std::size_t first;
-  std::size_t end;  ///< One past the last.
-};
-
 /// All that a step knows.
 struct Step {
   // As an aggregate, all of it would be zero first: an eighth of a step.

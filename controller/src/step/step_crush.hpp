@@ -27,7 +27,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// yet. After a crush `undo_crushes` does that at the end of the step.
 [[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
   if (!step.result.crushed.empty()) return false;
-  if (!move_to_free_position(step, push_left(step, longest_way(step)), {0, step.result.path.size()})) return false;
+  if (!move_to_free_position(step, push_left(step, longest_way(step)), step.result.path.size())) return false;
   step.memory.surfaces.clear();
   return true;
 }
@@ -85,7 +85,7 @@ PAPERPROOF_COLD inline void undo_crushes(Step& step) {
   for (const ColliderIndex collider : step.result.crushed)
     way = std::max(way, length_of(displacement_of(step, collider)));
   step.memory.surfaces.clear();
-  if (move_to_free_position(step, push_left(step, way), {0, step.moving.corners_before_crush})) {
+  if (move_to_free_position(step, push_left(step, way), step.moving.corners_before_crush)) {
     for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
     step.result.crushed.clear();
     step.result.status =

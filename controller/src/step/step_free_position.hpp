@@ -52,16 +52,16 @@ inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& 
 
 /// @param gap that is left around the character [m].
 [[nodiscard]] inline std::optional<FreePosition> nearest_free_position(Step& step, Real gap, Real reach,
-                                                                       Corners corners) {
+                                                                       std::size_t corners) {
   // The gap to a mover comes on top of its displacement.
   constexpr Real beyond = 16 * tolerances.stop;
   const Real whole = reach + beyond;
   // Mostly there is one nearby, among few pieces.
   const Real near = std::min<Real>(whole, step.space.hull_box().size().maxCoeff());
   for (const Real radius : {near, whole}) {
-    FreePosition found{radius, Vec2::Zero(), corners.end};
-    for (std::size_t corner = corners.end; corner-- > corners.first;) search_from(step, corner, gap, found);
-    if (found.corner < corners.end) return found;
+    FreePosition found{radius, Vec2::Zero(), corners};
+    for (std::size_t corner = corners; corner-- > 0;) search_from(step, corner, gap, found);
+    if (found.corner < corners) return found;
     if (near == whole) break;
   }
   return std::nullopt;
@@ -190,8 +190,8 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
 
 /// Moves to the nearest free position. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
-/// @param corners of the path at which the motion may begin.
-[[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, Corners corners) {
+/// @param corners of the path at which the motion may begin: so many, the first ones.
+[[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, std::size_t corners) {
   if (step.moving.side_lost) return false;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = step.moving.ignored;
