@@ -31,7 +31,8 @@ struct Around {
 
 /// What a step wants, and what it knows of the steps before.
 struct StepRequest {
-  /// As the step begins; its velocity is not read. If it rides, `displacement` and `velocity` are relative to the
+  /// As the step begins; its velocity is not read. It is `grounded` if the last step ended on the ground, and this one
+  /// does not begin with a jump. If it rides, `displacement` and `velocity` are relative to the
   /// ground that carries it, and the step adds the motion of that ground.
   const CharacterState& state;
   Vec2d displacement;  ///< The wanted displacement [m].
@@ -43,8 +44,6 @@ struct StepRequest {
   /// Duration of one more step [s]: a motion leaves ground if it goes away from it by more than `Tolerances::touch` in
   /// that time. Zero in a step that begins with a jump: it leaves ground at any speed.
   double next_dt = dt;
-  /// The last step ended on the ground, and this one does not begin with a jump.
-  bool grounded = state.grounded;
 };
 
 /// Const and shareable between threads; each thread brings its scratch. No call throws, and each allocates as

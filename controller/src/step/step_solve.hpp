@@ -52,7 +52,7 @@ inline void begin_motion(Step& step) {
   step.leaves_ground_above = request.next_dt > 0 ? tolerances.touch / static_cast<Real>(request.next_dt) : Real(0);
   // A rise that is steeper than any walkable ground is no climb.
   step.after_walk = step.climbs =
-      request.grounded &&
+      request.state.grounded &&
       step.up.up_of(request.velocity) <= std::abs(step.up.across_of(request.velocity)) * step.settings.walkable_tangent;
 }
 
@@ -147,7 +147,7 @@ PAPERPROOF_COLD inline void look_for_ground(Step& step) {
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     if (step.result.grounded) return;
     const auto ground = stood_on(step, piece);
-    if (ground && (step.request.grounded || !is_beside(step, piece, ground->axis)))
+    if (ground && (step.request.state.grounded || !is_beside(step, piece, ground->axis)))
       note_ground(step, GroundState::walkable, piece, ground->normal);
   });
   const auto is_steep = [&](const Vec2& normal) { return step.up.up_of(normal) > 0 && !walkable(step, normal); };
@@ -229,7 +229,7 @@ inline void solve(Step& step) {
       }
     }
     if (near) sweep_along(step, wanted);
-    if (request.grounded && !step.found.hit) stop_at_touched_ground(step);
+    if (request.state.grounded && !step.found.hit) stop_at_touched_ground(step);
     travel(step);
     if (!step.result.crushed.empty()) undo_crushes(step);
     find_ground(step);
