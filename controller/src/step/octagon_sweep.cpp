@@ -59,7 +59,7 @@ class OctagonSweep final : public SweepInParts {
     result.clear();
     const Moving& moving = request.around.moving;
     const CharacterState& state = request.state;
-    if (!in_range(request) || (!moving.motions.empty() && !(request.dt > 0)))
+    if (!in_range(request))
       return step_parts::refuse(StepStatus::out_of_range, state, request.velocity + state.ride.velocity, result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers = !moving.motions.empty() && comes_near_a_mover(request, memory.space);
