@@ -13,10 +13,9 @@ namespace paperproof {
 namespace {
 
 using geometry::dot;
+using turning::contains;
 
 constexpr std::size_t nobody = ~std::size_t{0};
-
-bool contains(const std::vector<std::size_t>& all, std::size_t one) { return std::ranges::find(all, one) != all.end(); }
 
 /// Two outlines, of which one goes straight relative to the other.
 struct Passing {

@@ -158,9 +158,7 @@ class TurningStep {
   Box2 needed_;
 };
 
-[[nodiscard]] inline bool contains(std::span<const ColliderIndex> all, ColliderIndex one) {
-  return std::ranges::find(all, one) != all.end();
-}
+[[nodiscard]] bool contains(const auto& all, std::size_t one) { return std::ranges::find(all, one) != all.end(); }
 
 [[nodiscard]] inline SensorEvent sensor_event(ColliderIndex sensor, bool enters, double fraction) {
   using Change = SensorEvent::Change;
