@@ -10,6 +10,13 @@ namespace {
 
 std::string name_of(std::size_t ring) { return ring == 0 ? "the outline" : "hole " + std::to_string(ring - 1); }
 
+/// "(1.5, 2)"
+std::string text_of(const Vec2d& point) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "(%.9g, %.9g)", point.x(), point.y());
+  return text.data();
+}
+
 struct Side {
   Vec2d from;
   Vec2d to;
@@ -100,12 +107,6 @@ void check_nesting(std::span<const Ring> rings) {
 }
 
 }  // namespace
-
-std::string text_of(const Vec2d& point) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "(%.9g, %.9g)", point.x(), point.y());
-  return text.data();
-}
 
 /// A convex outline turns to one side only and goes around once: it runs to the right once and to the left once.
 bool is_convex(Ring ring) {

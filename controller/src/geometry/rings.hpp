@@ -25,9 +25,6 @@ class InvalidRings : public std::invalid_argument {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
 
-/// "(1.5, 2)"
-[[nodiscard]] std::string text_of(const Vec2d& point);
-
 /// Whether the ring is the outline of a convex polygon with an area. Vertices on a straight side are allowed. A convex
 /// ring needs no other check. Exact; linear in the number of vertices.
 [[nodiscard]] bool is_convex(Ring ring);
