@@ -1,5 +1,6 @@
 #include <paperproof/together.hpp>
 
+#include "geometry/overlap_time.hpp"
 #include "geometry/vectors.hpp"
 #include "turning/turning_step.hpp"
 
@@ -16,16 +17,6 @@ using geometry::dot;
 using turning::contains;
 
 constexpr std::size_t nobody = ~std::size_t{0};
-
-/// Two outlines, of which one goes straight relative to the other.
-struct Passing {
-  /// How far they are apart along the best axis at the beginning [m].
-  double gap = -std::numeric_limits<double>::infinity();
-  /// They are nearer than some distance along each axis between these fractions of the way; never, if the first is the
-  /// larger one.
-  double enters = 0;
-  double leaves = 1;
-};
 
 /// Along a normal of one of two outlines, from the second towards the first: how far they are apart where both are at
 /// the same place [m].
@@ -51,19 +42,19 @@ struct Axes {
   }
 };
 
-/// @param from,to of the first relative to the second [m]. @param within the distance [m].
-Passing pass(const Axes& axes, const Vec2d& from, const Vec2d& to, double within) {
-  Passing passing;
-  for (const Axis& axis : axes.all) {
-    const double begin = axis.apart + dot(from, axis.normal);
-    const double end = axis.apart + dot(to, axis.normal);
-    passing.gap = std::max(passing.gap, begin);
-    if (begin >= within)
-      passing.enters = end < within ? std::max(passing.enters, (begin - within) / (begin - end)) : 2;
-    else if (end >= within)
-      passing.leaves = std::min(passing.leaves, (begin - within) / (begin - end));
-  }
-  return passing;
+/// How far they are apart along the best axis [m]. @param at of the first relative to the second [m].
+double gap(const Axes& axes, const Vec2d& at) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Axis& axis : axes.all) most = std::max(most, axis.apart + dot(at, axis.normal));
+  return most;
+}
+
+/// When they are nearer than `within` along each axis [m]. @param from,to of the first relative to the second [m].
+geometry::OverlapTime time_near(const Axes& axes, const Vec2d& from, const Vec2d& to, double within) {
+  geometry::OverlapTime time;
+  for (const Axis& axis : axes.all)
+    time.narrow(axis.apart + dot(from, axis.normal), axis.apart + dot(to, axis.normal), within);
+  return time;
 }
 
 /// One of them in this step.
@@ -235,8 +226,8 @@ bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) {
   const Vec2d before = members[i].from() - members[other].from();
   const Vec2d now = members[i].from() - members[other].to;
   const Axes& between = axes_between(i, other);
-  const Passing passing = pass(between, before, now, Tolerances{}.certain);
-  return passing.enters > passing.leaves && pass(between, now, now, 0).gap >= passing.gap - noise;
+  return !time_near(between, before, now, Tolerances{}.certain).any() &&
+         gap(between, now) >= gap(between, before) - noise;
 }
 
 /// How another goes while one takes its turn.
@@ -280,8 +271,8 @@ bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, doubl
   const Vec2d& place = members[other].to;
   const Axes& between = axes_between(i, other);
   for (std::size_t k = 1; k < path.size(); ++k) {
-    const Passing passing = pass(between, path[k - 1].position - place, path[k].position - place, within);
-    if (passing.enters <= passing.leaves) return false;
+    const Vec2d from = path[k - 1].position - place;
+    if (time_near(between, from, path[k].position - place, within).any()) return false;
   }
   return true;
 }
