@@ -18,6 +18,20 @@ using namespace step_parts;
 
 namespace {
 
+PAPERPROOF_INLINE bool accepts(const Scenery& scenery, const CharacterState& state, const Input& input,
+                               const StepContext& context) {
+  return context.dt > 0 && context.movers.size() >= scenery.mover_count() && is_unit(context.up) &&
+         finite(state, input, context.gravity, context.dt, context.movers);
+}
+
+/// Whether a mover has an angle, or the state names a collider that is gone.
+PAPERPROOF_INLINE bool needs_turning_step(const Scenery& scenery, const CharacterState& state,
+                                          const StepContext& context) {
+  const auto is_gone = [&](const Crusher& crusher) { return !scenery.has(crusher.collider); };
+  return (state.ride.ground != Ride::none && !scenery.has(state.ride.ground)) || any_angle(context.movers) ||
+         std::ranges::any_of(state.crushers, is_gone);
+}
+
 /// Refuses a step for which there is no memory. What the scratch holds is no longer known, so that no controller takes
 /// it any more.
 /// @param before how the state was.
@@ -55,12 +69,6 @@ void Controller::reserve(const Box2& positions, Scratch& scratch) const {
   if (!is_made_by(sweep_, scratch.maker)) return;
   sweep_->reserve(positions, scratch);
   static_cast<Sensors&>(*scratch.sensors).reserve(positions);
-}
-
-PAPERPROOF_INLINE bool Controller::accepts(const CharacterState& state, const Input& input,
-                                           const StepContext& context) const {
-  return context.dt > 0 && context.movers.size() >= scenery_->mover_count() && is_unit(context.up) &&
-         finite(state, input, context.gravity, context.dt, context.movers);
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
@@ -122,9 +130,9 @@ PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Inpu
   try {
     report.sensors.clear();
     report.dropped_through.clear();
-    if (!is_made_by(sweep_, scratch.maker) || !accepts(state, input, context))
+    if (!is_made_by(sweep_, scratch.maker) || !accepts(*scenery_, state, input, context))
       return report.status = StepStatus::invalid_input;
-    if (needs_turning_step(state, context, scratch)) [[unlikely]]
+    if (!turning::memory_of(scratch).is_in_part && needs_turning_step(*scenery_, state, context)) [[unlikely]]
       return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
     const bool wall_ahead =
         asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
@@ -149,10 +157,10 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
     report.sensors.clear();
     report.dropped_through.clear();
     const Vec2d velocity = displacement / context.dt;
-    if (!is_made_by(sweep_, scratch.maker) || !accepts(state, {}, context) ||
+    if (!is_made_by(sweep_, scratch.maker) || !accepts(*scenery_, state, {}, context) ||
         !FiniteCheck().add(displacement).add(velocity).passed())
       return report.status = StepStatus::invalid_input;
-    if (needs_turning_step(state, context, scratch))
+    if (!turning::memory_of(scratch).is_in_part && needs_turning_step(*scenery_, state, context))
       return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
     report.requested = displacement;
     report.steered = 0;
@@ -167,16 +175,6 @@ StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, co
   } catch (const std::bad_alloc&) {
     return refuse_without_memory(before, state, scratch, report);
   }
-}
-
-bool Controller::needs_turning_step(const CharacterState& state, const StepContext& context,
-                                    const Scratch& scratch) const {
-  if (turning::memory_of(scratch).is_in_part) return false;
-  const bool all_there = state.crushers.empty() || std::ranges::all_of(state.crushers, [&](const Crusher& crusher) {
-                           return scenery_->has(crusher.collider);
-                         });
-  return !all_there || (state.ride.ground != Ride::none && !scenery_->has(state.ride.ground)) ||
-         any_angle(context.movers);
 }
 
 PAPERPROOF_COLD StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,

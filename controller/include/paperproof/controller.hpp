@@ -156,9 +156,6 @@ class Controller {
   using StepRequest = octagon_sweep::StepRequest;
 
   friend class turning::TurningStep;
-  /// Whether a mover has an angle, or the state names a collider that is gone.
-  [[nodiscard]] bool needs_turning_step(const CharacterState& state, const StepContext& context,
-                                        const Scratch& scratch) const;
   StepStatus step_in_parts(CharacterState& state, const turning::Wish& wish, const StepContext& context,
                            Scratch& scratch, StepReport& report) const;
   friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
@@ -166,7 +163,6 @@ class Controller {
   /// @param sweep made for the same character, and for the scenery or one that begins with the same colliders.
   Controller(const Scenery& scenery, const CharacterDef& character,
              std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search);
-  [[nodiscard]] bool accepts(const CharacterState& state, const Input& input, const StepContext& context) const;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState& state, double move, const StepContext& context,
