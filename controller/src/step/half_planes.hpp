@@ -5,7 +5,6 @@
 
 #include <paperproof/types.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
