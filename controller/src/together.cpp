@@ -145,7 +145,38 @@ class OfController final : public TurnTaker {
 
 /// The turns of one step.
 struct TogetherScratch::Turns {
-  void make_step(std::span<TurnTaker* const> all, const Vec2d& with_up);
+  void make_step(std::span<TurnTaker* const> takers_now, const Vec2d& with_up) {
+    all = takers_now;
+    up = with_up;
+    members.resize(all.size());
+    turn_of.resize(all.size());
+    order.resize(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Member& member = members[i];
+      member.before = all[i]->state();
+      member.reach = all[i]->reach();
+      // It is refused.
+      if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();
+      member.to = member.from();
+      member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
+      member.known.reset();
+      member.carrier = nobody;
+      member.near.clear();
+    }
+    find_near();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      std::sort(members[i].near.begin(), members[i].near.end());
+      if (members[i].before.ride.ground != Ride::none) members[i].carrier = owner_of(members[i].before.ride.ground, i);
+    }
+    turns = begun = 0;
+    axes.clear();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      group.clear();
+      add_to_group(i);
+      let_take_turns();
+    }
+  }
 
   std::vector<std::size_t> turn_of;    ///< Of each, its place in the order.
   std::vector<Companion*> companions;  ///< By the ids of their bodies.
@@ -166,28 +197,297 @@ struct TogetherScratch::Turns {
   }
   [[nodiscard]] StepReport& report_of(std::size_t i) const { return all[i]->report(); }
   [[nodiscard]] bool is_still(std::size_t i) const { return !members[i].has_gone && !members[i].waits; }
-  [[nodiscard]] std::size_t owner_of(ColliderIndex body, std::size_t i) const;
-  [[nodiscard]] const Axes& axes_between(std::size_t i, std::size_t other);
-  [[nodiscard]] bool recedes(std::size_t other, std::size_t i);
-  [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what);
-  [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within);
-  [[nodiscard]] bool is_clear(std::size_t i);
-  [[nodiscard]] bool may_be_moved(std::size_t i) const;
-  [[nodiscard]] bool is_crushed(std::size_t i, bool by_others) const;
-  [[nodiscard]] bool comes_late(std::size_t i) const;
-  void find_near();
-  void add_near(std::size_t i);
-  void add_to_group(std::size_t i);
-  Vec2d attempt(std::size_t i, Try what);
-  void find_in_way(std::size_t i);
-  void find_riders_in_way(std::size_t i);
-  [[nodiscard]] Vec2d highest_way(std::size_t i) const;
-  void let_go_first(std::size_t i);
-  void try_step(std::size_t i);
-  void take_turn(std::size_t i);
-  void take_velocity_of_carrier(std::size_t i);
-  void end_turn(std::size_t i);
-  void let_take_turns();
+
+  /// @return nobody where it is no body of one that is near.
+  [[nodiscard]] std::size_t owner_of(ColliderIndex body, std::size_t i) const {
+    const std::vector<std::size_t>& near = members[i].near;
+    const auto owner = std::ranges::find_if(near, [&](std::size_t j) { return all[i]->is_body_of(body, j); });
+    return owner == near.end() ? nobody : *owner;
+  }
+
+  /// Most characters have one of a few shapes, whichever controllers they have. @return valid until the next call.
+  [[nodiscard]] const Axes& axes_between(std::size_t i, std::size_t other) {
+    constexpr std::size_t most_pairs = 16;
+    const auto are_they = [&](const Axes& known) {
+      return std::ranges::equal(known.first, hull(i)) && std::ranges::equal(known.second, hull(other));
+    };
+    const auto known = std::ranges::find_if(axes, are_they);
+    if (known != axes.end()) return *known;
+    if (axes.size() == most_pairs) axes.clear();
+    return axes.emplace_back(hull(i), hull(other));
+  }
+
+  /// Whether one that has gone came no nearer to where another begins, and did not fly past it.
+  [[nodiscard]] bool recedes(std::size_t other, std::size_t i) {
+    constexpr double noise = 1e-12;
+    const Vec2d before = members[i].from() - members[other].from();
+    const Vec2d now = members[i].from() - members[other].to;
+    const Axes& between = axes_between(i, other);
+    return !time_near(between, before, now, Tolerances{}.certain).any() &&
+           gap(between, now) >= gap(between, before) - noise;
+  }
+
+  /// How another goes while one takes its turn.
+  [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what) {
+    const Member& it = members[other];
+    const bool carries = members[i].carrier == other;
+    MoverMotion motion{it.to, it.to};
+    if (what == Try::past_what_stands) return motion;
+    if (it.has_gone && (carries || recedes(other, i))) motion.from = it.from();
+    if (const std::optional<Vec2d>& way = carries ? it.carries : it.pushes) motion.to = it.from() + *way;
+    return motion;
+  }
+
+  /// Makes the step of one from where it began. Whatever it touches was near. @return how far it went.
+  Vec2d attempt(std::size_t i, Try what) {
+    Member& me = members[i];
+    const bool without = what == Try::without_those || what == Try::taken_without_those;
+    for (;;) {
+      others.clear();
+      for (const std::size_t other : me.near)
+        if (!without || !contains(me.yielding, other)) others.push_back({other, motion_of(other, i, what)});
+      CharacterState& state = all[i]->state();
+      state = me.before;
+      if (what == Try::taken_without_those) {
+        state.velocity = state.ride.velocity;
+        state.jump_pending = false;
+      }
+      all[i]->step(others, what == Try::taken_without_those);
+      if (is_refused(report_of(i).status)) break;
+      const Box2 way = all[i]->controller().reach(report_of(i).move);
+      if (me.reach.contains(way)) break;
+      me.reach = me.reach.merged(way);
+      add_near(i);
+    }
+    return all[i]->state().position - me.from();
+  }
+
+  /// Whether the way that one went leads past another as it stands. @param within of it [m].
+  [[nodiscard]] bool is_clear_of(std::size_t i, std::size_t other, double within) {
+    const std::vector<PathPoint>& path = report_of(i).move.path;
+    const Vec2d& place = members[other].to;
+    const Axes& between = axes_between(i, other);
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      const Vec2d from = path[k - 1].position - place;
+      if (time_near(between, from, path[k].position - place, within).any()) return false;
+    }
+    return true;
+  }
+
+  /// Whether the way that one went in its last attempt leads past those as they stand that moved in it.
+  [[nodiscard]] bool is_clear(std::size_t i) {
+    return std::ranges::all_of(others, [&](const TurnTaker::Other& other) {
+      return other.motion.from == other.motion.to || is_clear_of(i, other.who, Tolerances{}.certain);
+    });
+  }
+
+  /// Whom the step of one met that has not gone.
+  void find_in_way(std::size_t i) {
+    Member& me = members[i];
+    me.in_way.clear();
+    if (is_refused(report_of(i).status)) return;
+    for (const Contact& contact : report_of(i).move.contacts) {
+      const std::size_t other = owner_of(contact.collider, i);
+      if (other != nobody && is_still(other) && !contains(me.in_way, other)) me.in_way.push_back(other);
+    }
+  }
+
+  /// Of those that ride on one, the ones that are in the way that it would go without them.
+  void find_riders_in_way(std::size_t i) {
+    Member& me = members[i];
+    me.in_way.clear();
+    for (const std::size_t other : me.near)
+      if (members[other].carrier == i && is_still(other)) me.in_way.push_back(other);
+    if (me.in_way.empty()) return;
+    me.yielding = me.in_way;
+    attempt(i, Try::without_those);
+    std::erase_if(me.in_way, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
+  }
+
+  /// Whether movers may take one along, or others that they push.
+  [[nodiscard]] bool may_be_moved(std::size_t i) const {
+    const std::vector<Contact>& contacts = report_of(i).move.contacts;
+    return members[i].before.ride.ground != Ride::none || std::ranges::any_of(contacts, [&](const Contact& contact) {
+             const std::size_t other = owner_of(contact.collider, i);
+             if (other != nobody) return members[other].pushes.has_value();
+             return all[i]->controller().scenery().collider(contact.collider).mover != no_mover;
+           });
+  }
+
+  /// How far one went in its last attempt. Over the edge of a stair it goes higher than it ends: as high as that.
+  [[nodiscard]] Vec2d highest_way(std::size_t i) const {
+    const Vec2d way = all[i]->state().position - members[i].from();
+    double peak = 0;
+    for (const PathPoint& corner : report_of(i).move.path)
+      peak = std::max(peak, dot(Vec2d(corner.position - members[i].from() - way), up));
+    return way + up * peak;
+  }
+
+  /// Lets those go first that are in the way of one.
+  void let_go_first(std::size_t i) {
+    Member& me = members[i];
+    const std::vector<std::size_t> in_way = me.in_way;
+    me.yielding.clear();
+    if (may_be_moved(i)) {
+      me.yielding = in_way;
+      const Vec2d way = attempt(i, Try::taken_without_those);
+      std::erase_if(me.yielding, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
+      if (!me.yielding.empty()) me.pushes = way;
+    }
+    const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
+    if (std::ranges::any_of(in_way, rides)) {
+      std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
+      if (!me.known) attempt(i, Try::without_those);
+      me.carries = me.foreseen = me.known ? *me.known : highest_way(i);
+    }
+    for (const std::size_t other : in_way)
+      if (is_still(other)) take_turn(other);
+    if (me.carries) std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.carried), rides);
+    me.carries.reset();
+    me.pushes.reset();
+  }
+
+  /// Makes the step of one. Those that it carries have made room for it: they are in its way only where it would not
+  /// pass.
+  void try_step(std::size_t i) {
+    Member& me = members[i];
+    if (!me.carried.empty()) {
+      me.yielding = me.carried;
+      attempt(i, Try::without_those);
+      if (std::ranges::all_of(me.carried,
+                              [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
+        return;
+    }
+    attempt(i, Try::its_step);
+  }
+
+  void take_turn(std::size_t i) {
+    Member& me = members[i];
+    if (me.carrier != nobody && is_still(me.carrier) && !members[me.carrier].follows) {
+      me.follows = true;
+      take_turn(me.carrier);
+      me.follows = false;
+      if (me.has_gone) return;  // it was in the way of its carrier
+    }
+    me.waits = true;
+    me.began = begun++;
+    me.carried.clear();
+    find_riders_in_way(i);
+    if (!me.in_way.empty()) let_go_first(i);
+    for (try_step(i), find_in_way(i); !me.in_way.empty(); try_step(i), find_in_way(i)) let_go_first(i);
+    end_turn(i);
+  }
+
+  /// @param by_others whether one of the others crushes it, else whether anything does.
+  [[nodiscard]] bool is_crushed(std::size_t i, bool by_others) const {
+    const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
+    return std::ranges::any_of(crushed,
+                               [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
+  }
+
+  /// Whether one is crushed beside another whose turn began sooner: that one might have given way.
+  [[nodiscard]] bool comes_late(std::size_t i) const {
+    const MoveResult& move = report_of(i).move;
+    return std::ranges::any_of(move.contacts, [&](const Contact& contact) {
+      const std::size_t other = owner_of(contact.collider, i);
+      const bool crushes = std::ranges::find(move.crushed, contact.collider) != move.crushed.end();
+      return other != nobody && !crushes && members[other].began < members[i].began;
+    });
+  }
+
+  /// When all have gone: a carrier that climbs a stair, or is stopped, has another velocity than its way has.
+  void take_velocity_of_carrier(std::size_t i) {
+    CharacterState& state = all[i]->state();
+    const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
+    if (carrier == nobody || std::exchange(members[i].has_velocity, true)) return;
+    take_velocity_of_carrier(carrier);
+    MoveResult& move = report_of(i).move;
+    const Vec2d change = all[carrier]->state().velocity - state.ride.velocity;
+    for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
+                            &move.ride.velocity, &move.ground.velocity})
+      *velocity += change;
+  }
+
+  void end_turn(std::size_t i) {
+    Member& me = members[i];
+    if (!is_refused(report_of(i).status)) {
+      me.is_late = is_crushed(i, false) && comes_late(i);
+      if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
+    }
+    me.to = all[i]->state().position;
+    if (!me.carried.empty()) {
+      const Vec2d way = highest_way(i);
+      me.went_elsewhere = !((way - me.foreseen).norm() <= Tolerances{}.touch);
+      if (me.went_elsewhere) me.known = way;
+    }
+    me.has_gone = true;
+    turn_of[i] = turns++;
+  }
+
+  /// Two may meet where the boxes overlap that their steps may touch.
+  void find_near() {
+    std::ranges::sort(
+        order, [&](std::size_t a, std::size_t b) { return members[a].reach.lower.x() < members[b].reach.lower.x(); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      Member& one = members[order[k]];
+      for (std::size_t l = k + 1; l < order.size(); ++l) {
+        Member& other = members[order[l]];
+        if (!(other.reach.lower.x() <= one.reach.upper.x())) break;
+        if (!one.reach.overlaps(other.reach)) continue;
+        one.near.push_back(order[l]);
+        other.near.push_back(order[k]);
+      }
+    }
+  }
+
+  /// For one whose step leads beyond what it was to touch.
+  void add_near(std::size_t i) {
+    for (std::size_t j = 0; j < members.size(); ++j) {
+      std::vector<std::size_t>& near = members[i].near;
+      if (j == i || !members[j].reach.overlaps(members[i].reach) || contains(near, j)) continue;
+      near.push_back(j);
+      members[j].near.push_back(i);
+      add_to_group(j);
+    }
+  }
+
+  /// Adds one, and whoever may meet it, unless they are in a group.
+  void add_to_group(std::size_t i) {
+    if (std::exchange(members[i].is_in_group, true)) return;
+    std::size_t next = group.size();
+    group.push_back(i);
+    for (; next < group.size(); ++next)
+      for (const std::size_t other : members[group[next]].near)
+        if (!std::exchange(members[other].is_in_group, true)) group.push_back(other);
+  }
+
+  /// The steps of the group, again as long as some must go otherwise: those that came late go first, and those that a
+  /// carrier moved otherwise than they foresaw go by the way that it went.
+  void let_take_turns() {
+    constexpr int most_rounds = 4;
+    const std::size_t begin = turns;
+    first.clear();
+    for (int round = 0; round < most_rounds; ++round) {
+      turns = begin;
+      std::ranges::sort(group);
+      for (const std::size_t i : group) {
+        members[i].to = members[i].from();
+        members[i].has_gone = members[i].waits = members[i].is_late = members[i].went_elsewhere = false;
+      }
+      for (const std::size_t i : first)
+        if (is_still(i)) take_turn(i);
+      for (std::size_t k = 0; k < group.size(); ++k)  // it may grow
+        if (is_still(group[k])) take_turn(group[k]);
+      bool again = false;
+      for (const std::size_t i : group) {
+        const bool is_new = members[i].is_late && !contains(first, i);
+        if (is_new) first.push_back(i);
+        again = again || is_new || members[i].went_elsewhere;
+      }
+      if (!again) break;
+    }
+    for (const std::size_t i : group) take_velocity_of_carrier(i);
+  }
 
   std::span<TurnTaker* const> all;
   Vec2d up{0, 1};
@@ -200,329 +500,6 @@ struct TogetherScratch::Turns {
   std::size_t turns = 0;
   std::size_t begun = 0;
 };
-
-/// @return nobody where it is no body of one that is near.
-std::size_t TogetherScratch::Turns::owner_of(ColliderIndex body, std::size_t i) const {
-  const std::vector<std::size_t>& near = members[i].near;
-  const auto owner = std::ranges::find_if(near, [&](std::size_t j) { return all[i]->is_body_of(body, j); });
-  return owner == near.end() ? nobody : *owner;
-}
-
-/// Most characters have one of a few shapes, whichever controllers they have. @return valid until the next call.
-const Axes& TogetherScratch::Turns::axes_between(std::size_t i, std::size_t other) {
-  constexpr std::size_t most_pairs = 16;
-  const auto are_they = [&](const Axes& known) {
-    return std::ranges::equal(known.first, hull(i)) && std::ranges::equal(known.second, hull(other));
-  };
-  const auto known = std::ranges::find_if(axes, are_they);
-  if (known != axes.end()) return *known;
-  if (axes.size() == most_pairs) axes.clear();
-  return axes.emplace_back(hull(i), hull(other));
-}
-
-/// Whether one that has gone came no nearer to where another begins, and did not fly past it.
-bool TogetherScratch::Turns::recedes(std::size_t other, std::size_t i) {
-  constexpr double noise = 1e-12;
-  const Vec2d before = members[i].from() - members[other].from();
-  const Vec2d now = members[i].from() - members[other].to;
-  const Axes& between = axes_between(i, other);
-  return !time_near(between, before, now, Tolerances{}.certain).any() &&
-         gap(between, now) >= gap(between, before) - noise;
-}
-
-/// How another goes while one takes its turn.
-MoverMotion TogetherScratch::Turns::motion_of(std::size_t other, std::size_t i, Try what) {
-  const Member& it = members[other];
-  const bool carries = members[i].carrier == other;
-  MoverMotion motion{it.to, it.to};
-  if (what == Try::past_what_stands) return motion;
-  if (it.has_gone && (carries || recedes(other, i))) motion.from = it.from();
-  if (const std::optional<Vec2d>& way = carries ? it.carries : it.pushes) motion.to = it.from() + *way;
-  return motion;
-}
-
-/// Makes the step of one from where it began. Whatever it touches was near. @return how far it went.
-Vec2d TogetherScratch::Turns::attempt(std::size_t i, Try what) {
-  Member& me = members[i];
-  const bool without = what == Try::without_those || what == Try::taken_without_those;
-  for (;;) {
-    others.clear();
-    for (const std::size_t other : me.near)
-      if (!without || !contains(me.yielding, other)) others.push_back({other, motion_of(other, i, what)});
-    CharacterState& state = all[i]->state();
-    state = me.before;
-    if (what == Try::taken_without_those) {
-      state.velocity = state.ride.velocity;
-      state.jump_pending = false;
-    }
-    all[i]->step(others, what == Try::taken_without_those);
-    if (is_refused(report_of(i).status)) break;
-    const Box2 way = all[i]->controller().reach(report_of(i).move);
-    if (me.reach.contains(way)) break;
-    me.reach = me.reach.merged(way);
-    add_near(i);
-  }
-  return all[i]->state().position - me.from();
-}
-
-/// Whether the way that one went leads past another as it stands. @param within of it [m].
-bool TogetherScratch::Turns::is_clear_of(std::size_t i, std::size_t other, double within) {
-  const std::vector<PathPoint>& path = report_of(i).move.path;
-  const Vec2d& place = members[other].to;
-  const Axes& between = axes_between(i, other);
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Vec2d from = path[k - 1].position - place;
-    if (time_near(between, from, path[k].position - place, within).any()) return false;
-  }
-  return true;
-}
-
-/// Whether the way that one went in its last attempt leads past those as they stand that moved in it.
-bool TogetherScratch::Turns::is_clear(std::size_t i) {
-  return std::ranges::all_of(others, [&](const TurnTaker::Other& other) {
-    return other.motion.from == other.motion.to || is_clear_of(i, other.who, Tolerances{}.certain);
-  });
-}
-
-/// Whom the step of one met that has not gone.
-void TogetherScratch::Turns::find_in_way(std::size_t i) {
-  Member& me = members[i];
-  me.in_way.clear();
-  if (is_refused(report_of(i).status)) return;
-  for (const Contact& contact : report_of(i).move.contacts) {
-    const std::size_t other = owner_of(contact.collider, i);
-    if (other != nobody && is_still(other) && !contains(me.in_way, other)) me.in_way.push_back(other);
-  }
-}
-
-/// Of those that ride on one, the ones that are in the way that it would go without them.
-void TogetherScratch::Turns::find_riders_in_way(std::size_t i) {
-  Member& me = members[i];
-  me.in_way.clear();
-  for (const std::size_t other : me.near)
-    if (members[other].carrier == i && is_still(other)) me.in_way.push_back(other);
-  if (me.in_way.empty()) return;
-  me.yielding = me.in_way;
-  attempt(i, Try::without_those);
-  std::erase_if(me.in_way, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
-}
-
-/// Whether movers may take one along, or others that they push.
-bool TogetherScratch::Turns::may_be_moved(std::size_t i) const {
-  const std::vector<Contact>& contacts = report_of(i).move.contacts;
-  return members[i].before.ride.ground != Ride::none || std::ranges::any_of(contacts, [&](const Contact& contact) {
-           const std::size_t other = owner_of(contact.collider, i);
-           if (other != nobody) return members[other].pushes.has_value();
-           return all[i]->controller().scenery().collider(contact.collider).mover != no_mover;
-         });
-}
-
-/// How far one went in its last attempt. Over the edge of a stair it goes higher than it ends: as high as that.
-Vec2d TogetherScratch::Turns::highest_way(std::size_t i) const {
-  const Vec2d way = all[i]->state().position - members[i].from();
-  double peak = 0;
-  for (const PathPoint& corner : report_of(i).move.path)
-    peak = std::max(peak, dot(Vec2d(corner.position - members[i].from() - way), up));
-  return way + up * peak;
-}
-
-/// Lets those go first that are in the way of one.
-void TogetherScratch::Turns::let_go_first(std::size_t i) {
-  Member& me = members[i];
-  const std::vector<std::size_t> in_way = me.in_way;
-  me.yielding.clear();
-  if (may_be_moved(i)) {
-    me.yielding = in_way;
-    const Vec2d way = attempt(i, Try::taken_without_those);
-    std::erase_if(me.yielding, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
-    if (!me.yielding.empty()) me.pushes = way;
-  }
-  const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
-  if (std::ranges::any_of(in_way, rides)) {
-    std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.yielding), rides);
-    if (!me.known) attempt(i, Try::without_those);
-    me.carries = me.foreseen = me.known ? *me.known : highest_way(i);
-  }
-  for (const std::size_t other : in_way)
-    if (is_still(other)) take_turn(other);
-  if (me.carries) std::copy_if(in_way.begin(), in_way.end(), std::back_inserter(me.carried), rides);
-  me.carries.reset();
-  me.pushes.reset();
-}
-
-/// Makes the step of one. Those that it carries have made room for it: they are in its way only where it would not
-/// pass.
-void TogetherScratch::Turns::try_step(std::size_t i) {
-  Member& me = members[i];
-  if (!me.carried.empty()) {
-    me.yielding = me.carried;
-    attempt(i, Try::without_those);
-    if (std::ranges::all_of(me.carried, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
-      return;
-  }
-  attempt(i, Try::its_step);
-}
-
-void TogetherScratch::Turns::take_turn(std::size_t i) {
-  Member& me = members[i];
-  if (me.carrier != nobody && is_still(me.carrier) && !members[me.carrier].follows) {
-    me.follows = true;
-    take_turn(me.carrier);
-    me.follows = false;
-    if (me.has_gone) return;  // it was in the way of its carrier
-  }
-  me.waits = true;
-  me.began = begun++;
-  me.carried.clear();
-  find_riders_in_way(i);
-  if (!me.in_way.empty()) let_go_first(i);
-  for (try_step(i), find_in_way(i); !me.in_way.empty(); try_step(i), find_in_way(i)) let_go_first(i);
-  end_turn(i);
-}
-
-/// @param by_others whether one of the others crushes it, else whether anything does.
-bool TogetherScratch::Turns::is_crushed(std::size_t i, bool by_others) const {
-  const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
-  return std::ranges::any_of(crushed,
-                             [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
-}
-
-/// Whether one is crushed beside another whose turn began sooner: that one might have given way.
-bool TogetherScratch::Turns::comes_late(std::size_t i) const {
-  const MoveResult& move = report_of(i).move;
-  return std::ranges::any_of(move.contacts, [&](const Contact& contact) {
-    const std::size_t other = owner_of(contact.collider, i);
-    const bool crushes = std::ranges::find(move.crushed, contact.collider) != move.crushed.end();
-    return other != nobody && !crushes && members[other].began < members[i].began;
-  });
-}
-
-/// When all have gone: a carrier that climbs a stair, or is stopped, has another velocity than its way has.
-void TogetherScratch::Turns::take_velocity_of_carrier(std::size_t i) {
-  CharacterState& state = all[i]->state();
-  const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
-  if (carrier == nobody || std::exchange(members[i].has_velocity, true)) return;
-  take_velocity_of_carrier(carrier);
-  MoveResult& move = report_of(i).move;
-  const Vec2d change = all[carrier]->state().velocity - state.ride.velocity;
-  for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
-                          &move.ride.velocity, &move.ground.velocity})
-    *velocity += change;
-}
-
-void TogetherScratch::Turns::end_turn(std::size_t i) {
-  Member& me = members[i];
-  if (!is_refused(report_of(i).status)) {
-    me.is_late = is_crushed(i, false) && comes_late(i);
-    if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
-  }
-  me.to = all[i]->state().position;
-  if (!me.carried.empty()) {
-    const Vec2d way = highest_way(i);
-    me.went_elsewhere = !((way - me.foreseen).norm() <= Tolerances{}.touch);
-    if (me.went_elsewhere) me.known = way;
-  }
-  me.has_gone = true;
-  turn_of[i] = turns++;
-}
-
-/// Two may meet where the boxes overlap that their steps may touch.
-void TogetherScratch::Turns::find_near() {
-  std::ranges::sort(
-      order, [&](std::size_t a, std::size_t b) { return members[a].reach.lower.x() < members[b].reach.lower.x(); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    Member& one = members[order[k]];
-    for (std::size_t l = k + 1; l < order.size(); ++l) {
-      Member& other = members[order[l]];
-      if (!(other.reach.lower.x() <= one.reach.upper.x())) break;
-      if (!one.reach.overlaps(other.reach)) continue;
-      one.near.push_back(order[l]);
-      other.near.push_back(order[k]);
-    }
-  }
-}
-
-/// For one whose step leads beyond what it was to touch.
-void TogetherScratch::Turns::add_near(std::size_t i) {
-  for (std::size_t j = 0; j < members.size(); ++j) {
-    std::vector<std::size_t>& near = members[i].near;
-    if (j == i || !members[j].reach.overlaps(members[i].reach) || contains(near, j)) continue;
-    near.push_back(j);
-    members[j].near.push_back(i);
-    add_to_group(j);
-  }
-}
-
-/// Adds one, and whoever may meet it, unless they are in a group.
-void TogetherScratch::Turns::add_to_group(std::size_t i) {
-  if (std::exchange(members[i].is_in_group, true)) return;
-  std::size_t next = group.size();
-  group.push_back(i);
-  for (; next < group.size(); ++next)
-    for (const std::size_t other : members[group[next]].near)
-      if (!std::exchange(members[other].is_in_group, true)) group.push_back(other);
-}
-
-/// The steps of the group, again as long as some must go otherwise: those that came late go first, and those that a
-/// carrier moved otherwise than they foresaw go by the way that it went.
-void TogetherScratch::Turns::let_take_turns() {
-  constexpr int most_rounds = 4;
-  const std::size_t begin = turns;
-  first.clear();
-  for (int round = 0; round < most_rounds; ++round) {
-    turns = begin;
-    std::ranges::sort(group);
-    for (const std::size_t i : group) {
-      members[i].to = members[i].from();
-      members[i].has_gone = members[i].waits = members[i].is_late = members[i].went_elsewhere = false;
-    }
-    for (const std::size_t i : first)
-      if (is_still(i)) take_turn(i);
-    for (std::size_t k = 0; k < group.size(); ++k)  // it may grow
-      if (is_still(group[k])) take_turn(group[k]);
-    bool again = false;
-    for (const std::size_t i : group) {
-      const bool is_new = members[i].is_late && !contains(first, i);
-      if (is_new) first.push_back(i);
-      again = again || is_new || members[i].went_elsewhere;
-    }
-    if (!again) break;
-  }
-  for (const std::size_t i : group) take_velocity_of_carrier(i);
-}
-
-void TogetherScratch::Turns::make_step(std::span<TurnTaker* const> takers_now, const Vec2d& with_up) {
-  all = takers_now;
-  up = with_up;
-  members.resize(all.size());
-  turn_of.resize(all.size());
-  order.resize(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Member& member = members[i];
-    member.before = all[i]->state();
-    member.reach = all[i]->reach();
-    // It is refused.
-    if (!member.reach.lower.allFinite() || !member.reach.upper.allFinite()) member.reach = Box2::nowhere();
-    member.to = member.from();
-    member.is_in_group = member.has_gone = member.waits = member.has_velocity = false;
-    member.known.reset();
-    member.carrier = nobody;
-    member.near.clear();
-  }
-  find_near();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::sort(members[i].near.begin(), members[i].near.end());
-    if (members[i].before.ride.ground != Ride::none) members[i].carrier = owner_of(members[i].before.ride.ground, i);
-  }
-  turns = begun = 0;
-  axes.clear();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    group.clear();
-    add_to_group(i);
-    let_take_turns();
-  }
-}
 
 TogetherScratch::TogetherScratch() : own(std::make_unique<Turns>()) {}
 TogetherScratch::~TogetherScratch() = default;
