@@ -47,7 +47,19 @@ PAPERPROOF_COLD StepStatus refuse_without_memory(const Intended& before, Charact
 
 DesiredVelocity desired_velocity(const CharacterDef& character, const Vec2d& gravity, const Input& input, double dt,
                                  CharacterState& state, bool wall_ahead) noexcept {
-  return wanted_velocity(character, gravity, input, dt, wall_ahead, state);
+  // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
+  double x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
+  const double change = x - state.velocity.x();
+  double y = state.velocity.y();
+  if (change * state.velocity.x() < 0 && state.grounded && y > 0) [[unlikely]]
+    y = slowed_climb(character, state, x);
+  if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
+    y = use_button(character, input, wall_ahead, dt, state, y);
+  count_down_coyote(character, dt, state);
+  x += gravity.x() * dt;
+  y += gravity.y() * dt;
+  if (character.max_fall_speed) y = std::max(y, -*character.max_fall_speed);
+  return {{x, y}, change};
 }
 
 Controller::Controller(const Scenery& scenery, const CharacterDef& character, const SweepDef& sweep)
@@ -100,7 +112,7 @@ PAPERPROOF_INLINE octagon_sweep::StepRequest Controller::begin_step(const Input&
   const double dt = context.dt;
   state.velocity = up.seen(state.velocity);
   const bool rises = state.jumping;
-  const auto [seen, steered] = wanted_velocity(character_, up.seen(context.gravity), input, dt, wall_ahead, state);
+  const auto [seen, steered] = desired_velocity(character_, up.seen(context.gravity), input, dt, state, wall_ahead);
   const Vec2d velocity = up.in_world(seen);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;

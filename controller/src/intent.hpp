@@ -75,25 +75,6 @@ inline void count_down_coyote(const CharacterDef& character, double dt, Characte
     state.coyote_left = state.grounded ? character.coyote_time : std::max(state.coyote_left - dt, 0.0);
 }
 
-/// @param wall_ahead there is a wall to jump against, whatever the last step touched.
-PAPERPROOF_INLINE DesiredVelocity wanted_velocity(const CharacterDef& character, const Vec2d& gravity,
-                                                  const Input& input, double dt, bool wall_ahead,
-                                                  CharacterState& state) {
-  // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
-  double x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
-  const double change = x - state.velocity.x();
-  double y = state.velocity.y();
-  if (change * state.velocity.x() < 0 && state.grounded && y > 0) [[unlikely]]
-    y = slowed_climb(character, state, x);
-  if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
-    y = use_button(character, input, wall_ahead, dt, state, y);
-  count_down_coyote(character, dt, state);
-  x += gravity.x() * dt;
-  y += gravity.y() * dt;
-  if (character.max_fall_speed) y = std::max(y, -*character.max_fall_speed);
-  return {{x, y}, change};
-}
-
 /// The members of a state that the intent changes. They are restored if the step is refused later. (A copy of the whole
 /// state costs a tenth of a step.)
 PAPERPROOF_INLINE auto intended(CharacterState& state) {

@@ -113,7 +113,7 @@ class OctagonSweep final : public SweepInParts {
 
  private:
   [[nodiscard]] static bool in_range(const StepRequest& request) {
-    // Written so that NaN is out of range, and by component: see `wanted_velocity`.
+    // Written so that NaN is out of range, and by component: see `desired_velocity`.
     const auto within = [](Real value) { return std::abs(value) <= tolerances.range; };
     const Vec2d& position = request.state.position;
     return within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
