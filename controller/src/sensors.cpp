@@ -82,38 +82,26 @@ Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& be
 void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Events& events,
                       const ColliderFilter* filter) {
   Nearby near(finder_, near_, &moving, filter, this);
-  if (!near_.valid) quiet_ = Box2::nowhere();
-  const Box2 positions = box_around(path, {});
-  const bool may_change = positions.lower != positions.upper && !is_quiet(positions);
-  if (may_change || finder_.search() == PieceSearch::none) {
-    const std::span<const PieceIndex> standing = near.standing(positions, path.back().position - path.front().position);
-    quiet_ = observe(standing, path, {}, near_.box, events);
-  }
-  near.for_each_moving(positions, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    observe(pieces, path, moving.motions[mover], {}, events);
+  const Vec2d way = path.back().position - path.front().position;
+  near.for_each_group(box_around(path, {}), way, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    observe(pieces, path, moving.motion_of(mover), events);
   });
 }
 
 /// The pieces of one sensor are consecutive.
-Box2 Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-                      Box2 quiet, Events& events) {
-  const Box2 way = box_around(path, motion);
-  bool all_quiet = true;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    const std::size_t first = i;
-    const ColliderIndex sensor = overlaps_[near[i]].sensor;
-    bool is_quiet = keep_quiet(near[i], way, quiet);
-    while (i + 1 < near.size() && overlaps_[near[i + 1]].sensor == sensor)
-      is_quiet = keep_quiet(near[++i], way, quiet) && is_quiet;
-    if (is_quiet) continue;
-    all_quiet = false;
+void Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
+                      Events& events) {
+  while (!near.empty()) {
+    const ColliderIndex sensor = overlaps_[near[0]].sensor;
+    const auto other = std::ranges::find_if(near, [&](PieceIndex piece) { return overlaps_[piece].sensor != sensor; });
+    const std::span pieces(near.begin(), other);
     for (std::size_t corner = 1; corner < path.size(); ++corner) {
       const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
       // A character that does not move relative to the sensor neither enters nor leaves it.
-      if (segment.from != segment.to) observe(sensor, near.subspan(first, i + 1 - first), segment, events);
+      if (segment.from != segment.to) observe(sensor, pieces, segment, events);
     }
+    near = near.subspan(pieces.size());
   }
-  return all_quiet ? quiet : Box2::nowhere();
 }
 
 OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const {
@@ -128,7 +116,6 @@ std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const C
   std::size_t count = 0;
   ColliderIndex last = no_collider;
   Nearby near(finder_, near_, &moving, filter, this);
-  if (!near_.valid) quiet_ = Box2::nowhere();
   near.for_each_group({position, position}, Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
     const MoverMotion motion = moving.motion_of(mover);
     const Segment here = seen_by(motion, {position, 0}, {position, 0});
@@ -141,24 +128,6 @@ std::size_t Sensors::around(const Vec2d& position, const Moving& moving, const C
     }
   });
   return count;
-}
-
-bool Sensors::keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const {
-  const Box2& any = overlaps_[piece].any;
-  const Box2& well_inside = overlaps_[piece].well_inside;
-  if (way.upper.x() < any.lower.x()) {
-    quiet.upper.x() = std::min(quiet.upper.x(), any.lower.x());
-  } else if (way.lower.x() > any.upper.x()) {
-    quiet.lower.x() = std::max(quiet.lower.x(), any.upper.x());
-  } else if (way.upper.y() < any.lower.y()) {
-    quiet.upper.y() = std::min(quiet.upper.y(), any.lower.y());
-  } else if (way.lower.y() > any.upper.y()) {
-    quiet.lower.y() = std::max(quiet.lower.y(), any.upper.y());
-  } else {
-    quiet = {quiet.lower.cwiseMax(well_inside.lower), quiet.upper.cwiseMin(well_inside.upper)};
-    return well_inside.contains(way);
-  }
-  return true;
 }
 
 void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,

@@ -43,9 +43,6 @@ class Sensors final : public OwnMemory, private PieceUser {
   /// @param found as many of them as it has room for. @return how many they are.
   [[nodiscard]] std::size_t around(const Vec2d& position, const Moving& moving, const ColliderFilter* filter,
                                    std::span<ColliderIndex> found);
-  /// Whether it is known from the steps before that nothing happens between the character and any sensor that stands
-  /// still, while it goes among positions in a box.
-  [[nodiscard]] bool is_quiet(const Box2& positions) const { return quiet_.contains(positions); }
 
  private:
   /// A straight motion as seen from a sensor that stands still.
@@ -61,13 +58,9 @@ class Sensors final : public OwnMemory, private PieceUser {
 
   [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end);
   /// @param near pieces that stand still, or go along with `motion`. Those of one sensor follow each other.
-  /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
-  Box2 observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion, Box2 quiet,
+  void observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
                Events& events);
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment, Events& events);
-  /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.
-  /// Returns false if this may change on the way.
-  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2& way, Box2& quiet) const;
 
   void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) override;
   [[nodiscard]] geometry::OverlapTime stay_in(PieceIndex piece, const Segment& segment) const;
@@ -90,8 +83,6 @@ class Sensors final : public OwnMemory, private PieceUser {
   std::vector<Overlap> overlaps_;
   std::unordered_map<PieceIndex, PieceIndex> known_;  ///< By piece, in `overlaps_`.
   std::vector<geometry::OverlapTime> stays_;          ///< In the pieces of one sensor.
-  /// While the character moves among these positions, nothing happens between it and any piece that stands still.
-  Box2 quiet_ = Box2::nowhere();
 };
 
 }  // namespace paperproof
