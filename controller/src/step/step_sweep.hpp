@@ -159,8 +159,6 @@ PAPERPROOF_COLD inline void sweep_again(Step& step) { sweep<Covered::yields>(ste
 
 /// Whether a covered facet stopped the last sweep.
 [[nodiscard]] inline bool stops_at_covered(const Step& step) {
-  if (!step.found.hit) return false;
-  if (step.found.stops.size() == 1) return step.found.stops[0].axes.covered;  // the usual case
   return std::ranges::any_of(step.found.stops, [](const Stop& stop) { return stop.axes.covered; });
 }
 
