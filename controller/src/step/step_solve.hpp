@@ -206,7 +206,8 @@ inline void solve(Step& step) {
   step.wanted = wanted;
   const Real walk = step.up.across_of(step.velocity);
   step.memory.reported_at[0] = {};
-  step.result.path.push_back({step.position, 0});
+  const PathPoint start{step.position, 0};  // of one without a name g++ 12 makes a call
+  step.result.path.push_back(start);
   sweep_along(step, wanted);
   const bool near = step.found.least_separation < tolerances.hit;
   if (near) look_at_movers(step);  // the way out of a solid may be longer than the step
