@@ -4,6 +4,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/met_surfaces.hpp"
+#include "oracle/stairs.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -18,24 +19,6 @@ namespace {
 constexpr double rounding_of_motion = 1e-9;
 /// A walk that has no more than this left of its way needs not climb [m].
 constexpr double least_left = 1e-5;
-
-/// How much farther a shape reaches to a side than its foot does, at most [m].
-double narrower_at_foot(std::span<const Vec2d> points, const Vec2d& up) {
-  double low = HUGE_VAL;
-  for (const Vec2d& point : points) low = std::min(low, point.dot(up));
-  double most = 0;
-  for (const double side : {-1.0, 1.0}) {
-    double hull = -HUGE_VAL;
-    double foot = -HUGE_VAL;
-    for (const Vec2d& point : points) {
-      const double across = side * point.dot(right_of(up));
-      hull = std::max(hull, across);
-      if (point.dot(up) - low <= guaranteed_touch) foot = std::max(foot, across);
-    }
-    most = std::max(most, hull - foot);
-  }
-  return most;
-}
 
 }  // namespace
 
@@ -71,6 +54,11 @@ bool EndJudge::meets_ground(const Vec2d& displacement) const {
   return false;
 }
 
+bool EndJudge::walks() const {
+  const Vec2d own = wanted_.velocity - wanted_.carried / dt_;
+  return !wanted_.jumped && begins_as_walk(header_, step_, wanted_.from_ground, own);
+}
+
 bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
 
 void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const {
@@ -94,7 +82,10 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
       return walkable(part, face) && (!is_known || apart >= -guaranteed_touch - rounding);
     };
     const bool on_ground = any_face(holds);
-    judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
+    const bool on_stair = walks() && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+                            return is_stair(header_, scenery_, step_, end(), part);
+                          });
+    judgement.ground_refuted = !on_ground && !on_stair && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
     judgement.hovers = judgement.hovers || (on_ground && !stands_on_ground());
     return;
   }
@@ -267,12 +258,13 @@ bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
   if (!is_free(stopped, above) || !is_free(above, above + ahead)) return false;
   if (meets_ground_first(above + ahead, rise)) return true;
   const std::vector<ExactImpact> impacts = first_below(scenery_, above + ahead, rise);
-  const bool is_corner =
-      !impacts.empty() && std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
-        return static_cast<double>(impact.fraction) * rise < rise - 2 * contact_reach;
-      });
-  const Vec2d farther = above + ahead + narrower_at_foot(header_.points, up_) * ahead.normalized();
-  return is_corner && is_free(above + ahead, farther) && meets_ground_first(farther, rise);
+  double down = rise;
+  for (const ExactImpact& impact : impacts) down = std::min(down, static_cast<double>(impact.fraction) * rise);
+  const Place landing(above + ahead - down * up_, step_.movers, 1);
+  const std::vector<NearPart> parts = scenery_.near_parts(landing, contact_reach);
+  return down < rise - 2 * contact_reach && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+           return is_stair(header_, scenery_, step_, landing, part);
+         });
 }
 
 void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
@@ -283,10 +275,8 @@ void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
   const Vec2d& stopped = step_.path.back().position;
   const Vec2d right = right_of(up_);
   const Vec2d ahead = (wanted_.displacement - (stopped - step_.path.front().position)).dot(right) * right;
-  const Vec2d own = wanted_.velocity - wanted_.carried / dt_;
-  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, own);
-  const bool may_leave = character.snap > 0 && !step_.grounded && climbs;
-  const bool may_miss = character.step_height > 0 && header_.characters == 1 && climbs && ahead.norm() > least_left &&
+  const bool may_leave = character.snap > 0 && !step_.grounded && walks();
+  const bool may_miss = character.step_height > 0 && header_.characters == 1 && walks() && ahead.norm() > least_left &&
                         ahead.dot(wanted_.velocity) > 0;
   if (!(may_leave || may_miss) || !is_alone(character.snap + character.step_height)) return;
   judgement.ground_left = may_leave && meets_ground_first(stopped, character.snap);

@@ -14,8 +14,8 @@ namespace paperproof::compare::detail {
 ///
 /// **Grounded** is right where a solid has a walkable face within `guaranteed_touch` that the velocity does not lead
 /// into by more than that in one step (not asked of what turns), or where the unsteered motion points down and all that
-/// is within it leaves no way down (a wedge). It hovers where no walkable face is met by an exact motion straight down
-/// by the gap: the octagon only touches beside the face.
+/// is within it leaves no way down (a wedge), or a walk rests on a stair (`is_stair`). It hovers where no walkable face
+/// is met by an exact motion straight down by the gap: the octagon only touches beside the face.
 ///
 /// **Ground missed.** The octagon is met by a walkable face on a motion by `guaranteed_touch` against the face's
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
@@ -26,8 +26,8 @@ namespace paperproof::compare::detail {
 ///
 /// **Kerb missed.** No face at rest stops a walk that could climb it. The climb goes straight up by `step_height`, by a
 /// half, a quarter or an eighth of it, or as far as there is room. It goes on by what is left of the way, if that is
-/// more than 1e-5 m, and down to such ground, which is higher. Where a corner is met on the way down, the ground may
-/// lie ahead by as much as the shape is narrower at its foot. Asked in runs of one character, of steps without a stair.
+/// more than 1e-5 m, and down to such ground, or to a stair, which is higher. Asked in runs of one character, of steps
+/// without a stair.
 ///
 /// Both are asked of steps in one part, without `drop`, and where nothing that turns is as near as the character would
 /// go.
@@ -55,6 +55,7 @@ class EndJudge {
   [[nodiscard]] std::vector<NearPart> near_at_end(double within) const;
   [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
   [[nodiscard]] bool stands_on_ground() const;
+  [[nodiscard]] bool walks() const;
   [[nodiscard]] bool goes_freely() const;
   [[nodiscard]] double flight_error() const;
   [[nodiscard]] bool may_take_rise(const NearPart& part, const NearFace& face) const;

@@ -2,6 +2,7 @@
 
 #include "oracle/exemptions.hpp"
 #include "oracle/legs.hpp"
+#include "oracle/stairs.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -37,8 +38,8 @@ Reach reach_of(const TraceHeader& header) {
 }
 
 HangingJudge::HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                           const WhatTurns& turns, const Vec2d& up)
-    : header_(header), scenery_(scenery), step_(step), turns_(turns), up_(up) {}
+                           const WhatTurns& turns, const Vec2d& up, bool walks)
+    : header_(header), scenery_(scenery), step_(step), turns_(turns), up_(up), walks_(walks) {}
 
 bool HangingJudge::HalfPlane::holds(const Vec2d& d) const {
   return normal.dot(d) - bound >= -normal_rounding * (d.norm() + std::abs(bound));
@@ -116,7 +117,7 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& fall, 
       const bool falls_past = std::any_of(planes.begin(), planes.end(), lets_fall);
       Nearby& nearby = corners[corner];
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact ||
-                     (is_ground(part) && (step_.grounded || !falls_past));
+                     (is_ground(corner, part) && (step_.grounded || !falls_past));
       nearby.obstacles.push_back(std::move(planes));
     }
   }
@@ -192,9 +193,10 @@ bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double withi
   return before < corner && scenery_.meets(Place(step_.path[before], step_.movers), beyond, part.collider);
 }
 
-bool HangingJudge::is_ground(const NearPart& part) const {
+bool HangingJudge::is_ground(std::size_t corner, const NearPart& part) const {
   return std::any_of(part.faces.begin(), part.faces.end(),
-                     [&](const NearFace& face) { return is_walkable(face.normal, header_, up_); });
+                     [&](const NearFace& face) { return is_walkable(face.normal, header_, up_); }) ||
+         (walks_ && is_stair(header_, scenery_, step_, Place(step_.path[corner], step_.movers), part));
 }
 
 /// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of

@@ -28,8 +28,9 @@ enum class Bounds : std::uint8_t { safe, nominal };
 class HangingJudge {
  public:
   /// @param up of the character in this step, a unit vector: it falls against that.
+  /// @param walks the step begins as a walk, which stairs hold: see `is_stair`.
   HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const WhatTurns& turns,
-               const Vec2d& up = {0, 1});
+               const Vec2d& up = {0, 1}, bool walks = false);
 
   /// @param made what the step went [m].
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach, Bounds bounds = Bounds::safe) const;
@@ -63,7 +64,7 @@ class HangingJudge {
 
   [[nodiscard]] std::vector<NearPart> parts_near(std::size_t corner, double within) const;
   [[nodiscard]] bool blocks(std::size_t corner, const NearPart& part, double within) const;
-  [[nodiscard]] bool is_ground(const NearPart& part) const;
+  [[nodiscard]] bool is_ground(std::size_t corner, const NearPart& part) const;
   [[nodiscard]] static Vec2d nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles, double opening);
 
   const TraceHeader& header_;
@@ -71,6 +72,7 @@ class HangingJudge {
   const TraceStep& step_;
   const WhatTurns& turns_;
   Vec2d up_;
+  bool walks_;
 };
 
 }  // namespace paperproof::compare::detail

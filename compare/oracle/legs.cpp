@@ -2,6 +2,7 @@
 
 #include "oracle/contacts.hpp"
 #include "oracle/met_surfaces.hpp"
+#include "oracle/stairs.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -149,6 +150,8 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
         }
         add(at);
       }
+      if (first_.from_ground && is_stair(header_, scenery_, step_, Place(step_.path[corner], step_.movers), part))
+        add({.normal = {0, 1}, .velocity = seen(part.moved, up_) / dt_, .walkable = true});
     }
   return surfaces;
 }

@@ -1,6 +1,8 @@
 #include "oracle/met_surfaces.hpp"
 
+#include "contains.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/stairs.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/turning_room.hpp"
 #include "oracle/up.hpp"
@@ -43,6 +45,16 @@ bool leaves_past_rim(const SolidsInStep& solids, const PathPoint& from, const Pa
            std::any_of(part.faces.begin(), part.faces.end(),
                        [&](const NearFace& face) { return face.separation >= 0 && way.dot(face.normal) >= -touched; });
   });
+}
+
+/// The colliders that are a stair there.
+std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const PathPoint& at) {
+  const ExactScenery& there = solids.at(at.fraction);
+  const Place place(at, solids.step().movers);
+  std::vector<ColliderIndex> stairs;
+  for (const NearPart& part : there.near_parts(place, touched))
+    if (detail::is_stair(solids.header(), there, solids.step(), place, part)) stairs.push_back(part.collider);
+  return stairs;
 }
 
 bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
@@ -146,6 +158,15 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
   const auto goes_along = [&](ColliderIndex collider) {
     return ridden && colliders[*ridden].mover != no_mover && colliders[collider].mover == colliders[*ridden].mover;
   };
+  const auto level = [&](ColliderIndex collider) -> MetSurface {
+    const Contact touch{.collider = collider, .point = step.path.back().position, .normal = up};
+    return {.normal = up,
+            .velocity = velocity_of(solids, touch),
+            .collider = collider,
+            .walkable = true,
+            .ridden = ridden == collider};
+  };
+  const bool may_stand_on_stairs = walks;
   for (const Contact& touch : contacts) {
     // A contact tells when it would be touched, a corner when the way ends at the gap before it.
     const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
@@ -169,12 +190,24 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
                                detail::extent_of(solids.header().points));
     walks = walks || one.walkable;
     surfaces.push_back(one);
+    if (may_stand_on_stairs && !one.walkable && one.normal.dot(up) > 0 &&
+        contains(stairs_at(solids, *corner), touch.collider)) {
+      MetSurface floor = level(touch.collider);
+      floor.met = one.met;
+      floor.left = one.left;
+      surfaces.push_back(floor);
+    }
     if (!one.returned) continue;
     const auto back = std::find_if(leaves, step.path.end(), is_touched);  // it is reported once
     one.met = back->fraction;
     one.left = std::numeric_limits<double>::infinity();
     surfaces.push_back(one);
   }
+  if (may_stand_on_stairs && step.grounded)
+    for (const ColliderIndex collider : stairs_at(solids, step.path.back())) {
+      surfaces.push_back(level(collider));
+      surfaces.back().met = 1;
+    }
   std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.met < b.met; });
   return surfaces;
 }
