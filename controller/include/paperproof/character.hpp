@@ -65,7 +65,7 @@ struct CharacterDef {
   /// ground.
   double snap = 0;
   /// How high a walker climbs a kerb or a stair that stops it, if there is room above and walkable ground behind the
-  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none.
+  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none. On the way it stands on the corner.
   double step_height = 0;
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
   /// character if a move by `wall_reach` would meet the wall, or if the last step met it.

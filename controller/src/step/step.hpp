@@ -71,12 +71,6 @@ struct DesiredMotion {
   }
 };
 
-/// How far a hull reaches to a side of the character's position [m].
-struct FootReach {
-  Real hull;
-  Real foot;  ///< Its lowest points.
-};
-
 /// What a step knows about its ride and about movers that crush.
 struct MoverState {
   Ride ride{};                            ///< What carries the character in this step, with its velocity in this step.

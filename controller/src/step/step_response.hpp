@@ -20,10 +20,11 @@ PAPERPROOF_COLD inline void keep_on_surface(const Vec2& normal, DesiredMotion& d
 
 /// The response of a motion or velocity, relative to the first surface. Ground that carries, and what goes with it,
 /// counts with its whole motion, also before it is touched; any other surface only with its motion along its normal.
-/// @param steered see `respond`. @param motion_of gives the motion of a surface.
-/// @return false if the surfaces leave no motion.
+/// @param steered see `respond`. @param on_stair the first surface is a stair: level ground as well.
+/// @param motion_of gives the motion of a surface. @return false if the surfaces leave no motion.
 template <class MotionOf>
-[[nodiscard]] inline bool respond_to_touched(Step& step, Desired& desired, Real& steered, const MotionOf& motion_of) {
+[[nodiscard]] inline bool respond_to_touched(Step& step, Desired& desired, Real& steered, bool on_stair,
+                                             const MotionOf& motion_of) {
   std::vector<HalfPlane>& planes = step.memory.planes;
   planes.clear();
   const TouchedSurface& first = step.memory.surfaces[0];
@@ -31,6 +32,7 @@ template <class MotionOf>
     return walkable(step, touched.normal) && mover_of(step, touched.piece) != no_mover;
   };
   const Vec2 origin = motion_of(first);
+  if (on_stair) add_plane({{0, 1}, 0, true}, planes);
   for (const TouchedSurface& surface : step.memory.surfaces) {
     const Vec2 motion = motion_of(surface);
     const bool is_carried_along =
@@ -142,15 +144,17 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
 /// The response to all touched surfaces. False where they leave no motion.
 [[nodiscard]] PAPERPROOF_NOT_INLINE inline bool respond_to_all(Step& step, DesiredMotion& desired) {
   const TouchedSurface& first = step.memory.surfaces[0];
+  const bool on_stair = rests_on_stair(step, first);
+  step.after_walk = step.after_walk || on_stair;
   if (step.steered == 0) desired = DesiredMotion::plain(desired.displacement.wanted, desired.velocity.wanted);
   const auto remaining = [&](const TouchedSurface& surface) { return remaining_of(step, surface); };
   const auto velocity = [&](const TouchedSurface& surface) { return step.movers.velocity(surface.mover); };
   Real steered_way = step.steered * step.movers.dt * (1 - step.time);
-  if (!respond_to_touched(step, desired.displacement, steered_way, remaining)) return false;
-  if (!respond_to_touched(step, desired.velocity, step.steered, velocity))
+  if (!respond_to_touched(step, desired.displacement, steered_way, on_stair, remaining)) return false;
+  if (!respond_to_touched(step, desired.velocity, step.steered, on_stair, velocity))
     desired.velocity = {Vec2::Zero(), Vec2::Zero()};
   if (step.memory.surfaces.size() > 1) {
-    if (holds_fall(step, desired) && !slips_between_rims(step, desired)) note_wedge(step, first);
+    if (!on_stair && holds_fall(step, desired) && !slips_between_rims(step, desired)) note_wedge(step, first);
   } else if (first.mover == no_mover && !walkable(step, first.normal) &&
              (enters(desired.displacement.wanted, first.normal) || enters(desired.velocity.wanted, first.normal))) {
     // A slow slide may still enter the surface by rounding. A motion along walkable ground does not.

@@ -154,13 +154,17 @@ PAPERPROOF_COLD inline void look_for_ground(Step& step) {
   if (step.result.grounded ||
       std::ranges::none_of(step.result.contacts, [&](const Contact& contact) { return is_steep(contact.normal); }))
     return;
+  std::optional<TouchedSurface> slide;
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const std::optional<TouchedSurface> surface = touched_here(step, piece);
     if (!surface || !is_steep(surface->normal) || step.space.covered(piece, surface->axis)) return;
-    const bool first = step.result.ground.state == GroundState::air;
-    if (first || step.up.up_of(surface->normal) > step.up.up_of(step.result.ground.normal))
-      note_ground(step, GroundState::steep, piece, surface->normal);
+    if (!slide || step.up.up_of(surface->normal) > step.up.up_of(slide->normal)) slide = surface;
   });
+  if (!slide) return;
+  if (rests_on_stair(step, *slide))
+    note_ground(step, GroundState::walkable, slide->piece, upward(step));
+  else
+    note_ground(step, GroundState::steep, slide->piece, slide->normal);
 }
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not

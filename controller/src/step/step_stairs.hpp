@@ -3,12 +3,10 @@
 /// Both are motions beside the law of motion, off unless the character asks for them, made after the step's own motion,
 /// in no time and by the same sweeps. They add no speed.
 ///
-/// A hull that is narrower at the foot touches the corner of a stair with its slanted side before its foot is on the
-/// stair. There it may rest if a little ahead, where its foot would be, there is walkable ground.
+/// A stair may end where the walker only rests on it, and stands as on level ground: see `rests_on_stair`.
 #pragma once
 
 #include "inlining.hpp"
-#include "step/contact_geometry.hpp"
 #include "step/step.hpp"
 #include "step/step_free_position.hpp"
 #include "step/step_ground.hpp"
@@ -23,63 +21,26 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return advance(step, step.found.hit ? step.found.stop : Real(1));
 }
 
-/// How far the hull and its foot reach to a side.
-[[nodiscard]] PAPERPROOF_COLD inline FootReach foot_reach(const Step& step, Real side) {
-  Real low = std::numeric_limits<Real>::infinity();
-  for (const Vec2d& point : step.space.hull()) low = std::min<Real>(low, step.up.up_of(point));
-  FootReach reach{-std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
-  for (const Vec2d& point : step.space.hull()) {
-    const Real across = side * step.up.across_of(point);
-    reach.hull = std::max(reach.hull, across);
-    if (step.up.up_of(point) - low <= tolerances.touch) reach.foot = std::max(reach.foot, across);
-  }
-  return reach;
+/// What ends a way straight down; the last sweep is that way.
+[[nodiscard]] inline std::optional<TouchedSurface> ground_below(Step& step, Real down) {
+  sweep_along(step, step.up.in_world({0, -down}));
+  if (!step.found.hit) return std::nullopt;
+  return surface_at(step, step.found.stops[0].piece, step.found.stops[0].axes.normal);
 }
 
-/// The ground that ends a way straight down: walkable, or the corner of a stair whose ground lies ahead. The last sweep
-/// is then that way down.
-/// @param side of what is ahead: 1, -1, or 0 if nothing is. @param down how far [m].
-/// @param lean how far a stair may lean back [m].
-[[nodiscard]] inline std::optional<TouchedSurface> ground_below(Step& step, Real side, Real down, Real lean) {
-  const Vec2 from = step.position;
-  const auto ground = [&]() -> std::optional<TouchedSurface> {
-    sweep_along(step, step.up.in_world({0, -down}));
-    if (!step.found.hit) return std::nullopt;
-    const TouchedSurface surface = surface_at(step, step.found.stops[0].piece, step.found.stops[0].axes.normal);
-    return step.up.up_of(surface.normal) > 0 ? std::optional(surface) : std::nullopt;
-  };
-  std::optional<TouchedSurface> below = ground();
-  if (!below || walkable(step, below->normal) || side == 0) return below;
-  // Where the foot is just over the corner; farther, as this may be the corner of the stair behind; and behind the edge
-  // of a stair that leans back.
-  const Vec2 there = local(step, below->piece, Vec2(from + step.motion.displacement * step.found.stop));
-  const Vec2 corner = contact_place(step.space, below->piece, below->axis, below->normal, there).point;
-  const FootReach reach = foot_reach(step, side);
-  const Real overhang = std::max(reach.hull - reach.foot, foot_reach(step, -side).hull - foot_reach(step, -side).foot);
-  const Real over = side * step.up.across_of(Vec2(corner - there)) - reach.foot + 2 * tolerances.touch;
-  for (const Real ahead : {over, overhang, overhang / 2, overhang / 4, lean}) {
-    if (ahead <= 0) continue;
-    sweep_along(step, step.up.in_world({side * ahead, 0}));
-    step.position += step.motion.displacement * step.found.stop;
-    below = ground();
-    step.position = from;
-    if (below && walkable(step, below->normal)) break;
-  }
-  if (below) ground();
-  return below;
-}
-
-/// Stands on ground that `ground_below` found, at the end of the way down.
+/// Goes down to what `ground_below` found, and stands there. @return false if it cannot; it may have gone down then.
 /// @param speed sideways [m/s], which the walker keeps.
-inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) {
-  const Vec2 carried = ground_velocity(step, ground.piece, ground.normal);
-  if (!walkable(step, ground.normal) || falls_away(step, ground_velocity(step, ground.piece, ground.normal)) ||
-      !advance(step, step.found.stop))
+[[nodiscard]] inline bool step_down_to(Step& step, TouchedSurface ground, Real speed) {
+  if (!advance(step, step.found.stop)) return false;
+  if (rests_on_stair(step, ground))  // that stops no wanted motion
+    ground.normal = upward(step);
+  else if (walkable(step, ground.normal))
+    report_contact(step, ground.piece, ground.axis, step.time, step.result.contacts.size());
+  else
     return false;
-  const Stop& stop = step.found.stops[0];
-  note_ground(step, GroundState::walkable, stop.piece, ground.normal);
-  if (walkable(step, step.space.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion
-    report_contact(step, stop.piece, stop.axes.normal, step.time, step.result.contacts.size());
+  const Vec2 carried = ground_velocity(step, ground.piece, ground.normal);
+  if (falls_away(step, carried)) return false;
+  note_ground(step, GroundState::walkable, ground.piece, ground.normal);
   const Vec2 followed = HalfPlane{step.up.seen(ground.normal)}.along(speed - step.up.across_of(carried));
   step.velocity = in_world(step.up, followed, ground.normal) + carried;
   return true;
@@ -90,7 +51,7 @@ inline bool step_down_to(Step& step, const TouchedSurface& ground, Real speed) {
   const Vec2 before = step.position;
   if (!go_along(step, step.up.in_world({0, rise})) || !go_along(step, step.up.in_world({sideways, 0}))) return false;
   const Vec2 by = step.up.seen(Vec2(step.position - before));
-  const auto ground = ground_below(step, std::copysign(Real(1), sideways), by.y(), by.y());
+  const auto ground = ground_below(step, by.y());
   const bool is_higher =
       (1 - step.found.stop) * by.y() > tolerances.touch && by.x() * sideways > tolerances.touch * std::abs(sideways);
   return ground && is_higher && step_down_to(step, *ground, speed);
@@ -109,6 +70,7 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
              !walkable(step, contact.normal);
     });
     if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
+    step.time = 1;
     push_corner(step, step.time);
     const std::size_t corner = step.result.path.size() - 1;
     note_reported(step);
@@ -143,18 +105,15 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
 /// Follows the ground down where a walk has left it, over a crest as well: as far as `snap` allows, and at seams that
 /// hardly bend. Beyond such a seam the walk is above its ground by up to `touch` more than before.
 PAPERPROOF_COLD inline void follow_ground_down(Step& step) {
-  constexpr Real bend = 4 * tolerances.touch;          // straight down: enough on ground as steep as 60 degrees
-  if (is_passed_through(step)) return;                 // a crushed character does not move
-  const Vec2 left_ground = step.moving.ride.velocity;  // of the ground that was walked on
+  constexpr Real bend = 4 * tolerances.touch;  // straight down: enough on ground as steep as 60 degrees
+  if (is_passed_through(step)) return;         // a crushed character does not move
   const Real snap =
       step.movers.active ? std::max(step.settings.snap, falls_away_below_rider(step)) : step.settings.snap;
-  const Real down = std::max(snap, bend);
-  const Real walked =
-      step.up.across_of(Vec2(step.position - Vec2(step.request.state.position) - left_ground * step.movers.dt));
-  const Real side = walked == 0 || snap == 0 ? Real(0) : std::copysign(Real(1), walked);
-  const auto ground = ground_below(step, side, down, 0);
-  if (ground && ((snap > 0 && step.found.stop * down <= snap) || hardly_leaves(step, *ground)))
-    step_down_to(step, *ground, step.up.across_of(step.velocity));
+  push_corner(step, step.time);
+  const std::size_t corner = step.result.path.size() - 1;
+  const auto ground = ground_below(step, std::max(snap, bend));
+  const bool is_followed = ground && (snap > 0 || hardly_leaves(step, *ground));
+  if (is_followed && !step_down_to(step, *ground, step.up.across_of(step.velocity))) go_back_to(step, corner);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL
