@@ -260,7 +260,7 @@ bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
   const std::vector<ExactImpact> impacts = first_below(scenery_, above + ahead, rise);
   double down = rise;
   for (const ExactImpact& impact : impacts) down = std::min(down, static_cast<double>(impact.fraction) * rise);
-  const Place landing(above + ahead - down * up_, step_.movers, 1);
+  const Place landing(above + ahead - (down - contact_reach / 2) * up_, step_.movers, 1);  // not in it by rounding
   const std::vector<NearPart> parts = scenery_.near_parts(landing, contact_reach);
   return down < rise - 2 * contact_reach && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
            return is_stair(header_, scenery_, step_, landing, part);

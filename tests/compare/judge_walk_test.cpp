@@ -143,7 +143,8 @@ TEST(KerbThatIsMissed, has_room_above_it) {
   // Above the kerb alone: the half of the height leads below the lintel.
   const std::vector<ColliderDef> ahead{box(0.95, head + 0.26, 9, 9)};
   EXPECT_TRUE((AtAKerb{.height = 0.2, .more = ahead}.is_missed()));
-  EXPECT_FALSE((AtAKerb{.height = 0.25 + hardly, .more = ahead}.is_missed()));
+  EXPECT_TRUE((AtAKerb{.height = 0.25 + hardly, .more = ahead}.is_missed())) << "it stands on the corner on the way";
+  EXPECT_FALSE((AtAKerb{.height = 0.26 + hardly, .more = ahead}.is_missed()));
 }
 
 TEST(KerbThatIsMissed, has_ground_behind_its_edge) {
@@ -165,6 +166,43 @@ TEST(KerbThatIsMissed, stops_a_walk) {
   EXPECT_FALSE(
       (AtAKerb{.wanted = to_the_right([](Wanted& w) { w.displacement.x() = w.velocity.x() = -walk; })}.is_missed()));
   EXPECT_FALSE((AtAKerb{.wanted = in_the_air()}.is_missed()));
+}
+
+/// Who rests with a slanted side on the corner of a kerb, and says that it stands.
+struct OnACorner {
+  double foot = 0.1;  ///< So high its foot is, half as high as the kerb [m].
+  double step_height = 0.25;
+  double snap = 0;
+  bool walks = true;
+  std::vector<ColliderDef> more{};
+
+  [[nodiscard]] bool is_refuted() const {
+    std::vector<ColliderDef> colliders{box(-9, -1, 9, 0), box(1, -1, 9, 2 * foot)};
+    colliders.insert(colliders.end(), more.begin(), more.end());
+    TraceHeader all = promising(colliders);
+    all.character.step_height = step_height;
+    all.character.snap = snap;
+    const Vec2d at(1 - half_width / 2 - foot / 2 - gap * 1.2, half_height + foot);
+    TraceStep rests = step({at, at});
+    rests.grounded = true;
+    rests.velocity = {0, 0};
+    Wanted wanted = wanting({0, -1e-3});
+    wanted.from_ground = walks;
+    return judged(all, rests, wanted, 0).ground_refuted;
+  }
+};
+
+TEST(StairThatIsStoodOn, is_climbed_no_higher_than_a_step) {
+  EXPECT_FALSE((OnACorner{}.is_refuted()));
+  EXPECT_FALSE((OnACorner{.step_height = 0.1 + hardly}.is_refuted()));
+  EXPECT_TRUE((OnACorner{.step_height = 0.1 - hardly}.is_refuted()));
+  EXPECT_TRUE((OnACorner{.more = {box(-9, 0.15 + 2 * half_height, 9, 9)}}.is_refuted())) << "there is no room";
+  EXPECT_TRUE((OnACorner{.walks = false}.is_refuted())) << "a fall slides off";
+}
+
+TEST(StairThatIsStoodOn, is_gone_down_no_farther_than_a_snap) {
+  EXPECT_FALSE((OnACorner{.step_height = 0, .snap = 0.1 + hardly}.is_refuted()));
+  EXPECT_TRUE((OnACorner{.step_height = 0, .snap = 0.1 - hardly}.is_refuted()));
 }
 
 }  // namespace
