@@ -393,6 +393,7 @@ double LegJudge::leg_error() const {
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_, .most_pressed_out = push_beyond_motion / dt_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
+  law.sides = sides_of(header_, up_);
   const SolidsInStep solids(header_, scenery_, step_);
   const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks, first_.stays_on());

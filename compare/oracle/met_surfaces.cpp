@@ -20,32 +20,74 @@ using detail::RigidMotion;
 /// What is held up to this distance is touched [m].
 constexpr double touched = detail::guaranteed_touch + detail::touch_rounding;
 
-/// Whether what was touched still is, and there: who has come past a rim is beside it. The normal of a circle turns.
-bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact& touch) {
-  constexpr double same_face = 1 - 1e-9;
-  const bool round = solids.scenery().colliders[touch.collider].shape == ColliderDef::Shape::circle;
-  const std::vector<NearPart> parts = solids.near_parts(at, touched);
-  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.collider == touch.collider &&
-           (round || part.faces.front().separation < 0 ||
-            std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
-              return face.separation <= touched && face.normal.dot(touch.normal) >= same_face;
-            }));
-  });
-}
+/// Cosine of the angle between normals of one face.
+constexpr double same_face = 1 - 1e-9;
+/// A leg along a face may come nearer to it by so much of its length, and of a metre.
+constexpr double along_face = 1e-9;
+constexpr double along_face_in_metres = 1e-13;
 
-/// Whether a leg leads along some face of what was touched there, and against the normal that was touched: past a rim.
-bool leaves_past_rim(const SolidsInStep& solids, const PathPoint& from, const PathPoint& to, const Contact& touch) {
-  const double share = to.fraction - from.fraction;
-  const Vec2d way = to.position - from.position - share * solids.moved(touch.collider, touch.point, touch.fraction);
-  if (!(way.dot(touch.normal) < -touched)) return false;
-  const std::vector<NearPart> parts = solids.at(from.fraction).near_parts(Place(from, solids.step().movers), touched);
-  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.collider == touch.collider &&
-           std::any_of(part.faces.begin(), part.faces.end(),
-                       [&](const NearFace& face) { return face.separation >= 0 && way.dot(face.normal) >= -touched; });
-  });
-}
+/// How a way touches the surface of one contact.
+struct Touching {
+  const SolidsInStep& solids;
+  const Contact& contact;
+
+  /// Who has come past a rim is beside it. @param turned it may have another normal there: that of a circle turns.
+  [[nodiscard]] bool is_at(const PathPoint& at, bool turned) const {
+    const std::vector<NearPart> parts = near(at);
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return part.collider == contact.collider &&
+             ((turned && is_round()) || part.faces.front().separation < 0 ||
+              std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+                return face.separation <= touched && face.normal.dot(contact.normal) >= same_face;
+              }));
+    });
+  }
+  /// Whether it is touched there corner to corner: another face of it is as near.
+  [[nodiscard]] bool is_beside(const PathPoint& at) const {
+    const std::vector<NearPart> parts = near(at);
+    return !is_round() && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      const auto is_it = [&](const NearFace& face) { return face.normal.dot(contact.normal) >= same_face; };
+      return part.collider == contact.collider && std::any_of(part.faces.begin(), part.faces.end(), is_it) &&
+             std::any_of(part.faces.begin(), part.faces.end(),
+                         [&](const NearFace& face) { return face.separation >= 0 && !is_it(face); });
+    });
+  }
+  /// Whether a leg between two places where it is touched goes along it, or away.
+  [[nodiscard]] bool goes_along(const PathPoint& from, const PathPoint& to) const {
+    const Vec2d way = relative(from, to);
+    return is_at(from, true) && is_at(to, true) &&
+           way.dot(contact.normal) >= -along_face_in_metres - along_face * way.norm();
+  }
+  [[nodiscard]] bool enters(const PathPoint& from, const PathPoint& to) const {
+    return relative(from, to).dot(contact.normal) < -touched;
+  }
+  /// Whether a leg leads along some face of what was touched there, and against the normal that was touched: past a
+  /// rim.
+  [[nodiscard]] bool leaves_past_rim(const PathPoint& from, const PathPoint& to) const {
+    if (!enters(from, to)) return false;
+    const Vec2d way = relative(from, to);
+    const std::vector<NearPart> parts = near(from);
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return part.collider == contact.collider &&
+             std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+               return face.separation >= 0 && way.dot(face.normal) >= -touched;
+             });
+    });
+  }
+
+ private:
+  [[nodiscard]] bool is_round() const {
+    return solids.header().scenery.colliders[contact.collider].shape == ColliderDef::Shape::circle;
+  }
+  [[nodiscard]] std::vector<NearPart> near(const PathPoint& at) const {
+    return solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
+  }
+  /// A leg as what is touched sees it.
+  [[nodiscard]] Vec2d relative(const PathPoint& from, const PathPoint& to) const {
+    return to.position - from.position -
+           (to.fraction - from.fraction) * solids.moved(contact.collider, contact.point, contact.fraction);
+  }
+};
 
 /// The colliders that are a stair there.
 std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const PathPoint& at) {
@@ -148,6 +190,15 @@ bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool groun
   return grounded && wanted.dot(up) <= std::abs(wanted.dot(right_of(up))) * steepest;
 }
 
+std::vector<Vec2d> sides_of(const TraceHeader& header, const Vec2d& up) {
+  if (up.x() == 0 || up.y() == 0) return {};
+  std::vector<Vec2d> sides{Vec2d::UnitX(), Vec2d::UnitY()};
+  const std::vector<Vec2d>& points = header.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sides.push_back((points[(i + 1) % points.size()] - points[i]).normalized());
+  return sides;
+}
+
 std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts, bool walks,
                                      std::optional<ColliderIndex> ridden) {
   const TraceStep& step = solids.step();
@@ -167,41 +218,50 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
             .ridden = ridden == collider};
   };
   const bool may_stand_on_stairs = walks;
+  const std::vector<PathPoint>& path = step.path;
   for (const Contact& touch : contacts) {
-    // A contact tells when it would be touched, a corner when the way ends at the gap before it.
-    const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
-      return std::abs(a.fraction - touch.fraction) < std::abs(b.fraction - touch.fraction);
-    });
-    const auto is_touched = [&](const PathPoint& at) {
-      return is_touched_there(solids.at(at.fraction), Place(at, step.movers), touch);
+    const Touching touching{solids, touch};
+    const auto is_touched = [&](const PathPoint& at) { return touching.is_at(at, true); };
+    // A contact tells when it would be touched, a corner when the way ends at the gap before it. What is grazed would
+    // be touched long after the way has turned, and gone on along it.
+    const bool is_anywhere = std::any_of(path.begin(), path.end(), is_touched);
+    const auto off = [&](const PathPoint& at) {
+      return is_anywhere && !is_touched(at) ? 2 : std::abs(at.fraction - touch.fraction);
     };
+    auto corner =
+        std::min_element(path.begin(), path.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+    while (touch.fraction < 1 && corner != path.begin() && touching.goes_along(*std::prev(corner), *corner)) --corner;
     MetSurface one{.normal = touch.normal, .collider = touch.collider};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
     one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable || goes_along(touch.collider));
     one.ridden = ridden == touch.collider;
     one.is_side = touch.side == Side::left || touch.side == Side::right;
-    one.climbs = walks && touches_ground(solids, *corner);
-    one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
-    const auto leaves = std::find_if_not(corner + 1, step.path.end(), is_touched);
-    if (leaves != step.path.end())
-      one.left = (leaves_past_rim(solids, *std::prev(leaves), *leaves, touch) ? std::prev(leaves) : leaves)->fraction;
-    one.returned = leaves != step.path.end() && is_touched(step.path.back());
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction),
                                detail::extent_of(solids.header().points));
-    walks = walks || one.walkable;
-    surfaces.push_back(one);
-    if (may_stand_on_stairs && !one.walkable && one.normal.dot(up) > 0 &&
-        contains(stairs_at(solids, *corner), touch.collider)) {
-      MetSurface floor = level(touch.collider);
-      floor.met = one.met;
-      floor.left = one.left;
-      surfaces.push_back(floor);
+    one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
+    // It is reported once, however often the way comes back to it. What it goes on into is no obstacle there.
+    const auto is_back = [&](const PathPoint& at) {
+      return touching.is_at(at, false) && (&at == &path.back() || !touching.enters(at, *(&at + 1)));
+    };
+    while (corner != path.end()) {
+      const bool on_stair = may_stand_on_stairs && !one.walkable && one.normal.dot(up) > 0 &&
+                            contains(stairs_at(solids, *corner), touch.collider);
+      one.climbs = touches_ground(solids, *corner);
+      one.is_beside = touching.is_beside(*corner);
+      const auto leaves = std::find_if_not(corner + 1, path.end(), is_touched);
+      one.past_rim = leaves != path.end() && touching.leaves_past_rim(*std::prev(leaves), *leaves);
+      one.left = leaves == path.end() ? std::numeric_limits<double>::infinity()
+                                      : (one.past_rim ? std::prev(leaves) : leaves)->fraction;
+      corner = std::find_if(leaves, path.end(), is_back);
+      one.returned = one.returned || corner != path.end();
+      surfaces.push_back(one);
+      if (on_stair) {
+        surfaces.push_back(level(touch.collider));
+        surfaces.back().met = one.met;
+        surfaces.back().left = one.left;
+      }
+      if (corner != path.end()) one.met = corner->fraction;
     }
-    if (!one.returned) continue;
-    const auto back = std::find_if(leaves, step.path.end(), is_touched);  // it is reported once
-    one.met = back->fraction;
-    one.left = std::numeric_limits<double>::infinity();
-    surfaces.push_back(one);
   }
   if (may_stand_on_stairs && step.grounded)
     for (const ColliderIndex collider : stairs_at(solids, step.path.back())) {
@@ -209,6 +269,10 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
       surfaces.back().met = 1;
     }
   std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.met < b.met; });
+  for (MetSurface& one : surfaces) {
+    one.climbs = one.climbs && walks;
+    walks = walks || one.walkable;
+  }
   return surfaces;
 }
 

@@ -69,6 +69,9 @@ class SolidsInStep {
 /// @param grounded at the end of the step before. @param wanted in the step [m/s].
 [[nodiscard]] bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted);
 
+/// See `ControlledStep`.
+[[nodiscard]] std::vector<Vec2d> sides_of(const TraceHeader& header, const Vec2d& up);
+
 /// The surfaces of the contacts, in their order, for the law of octagon_sweep.
 /// @param contacts of the step: those reported, or of these the ones that exact arithmetic confirms.
 /// @param walks see `begins_as_walk`. @param ridden what the step rides from its begin on.

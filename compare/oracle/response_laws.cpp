@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -21,6 +23,8 @@ constexpr double one_direction = 1e-9;
 constexpr double same_velocity = 1e-9;
 /// Share of a velocity that is rounding in Box2D.
 constexpr double in_float = 1e-5;
+/// Share of a velocity that is rounding where up is slanted.
+constexpr double in_double = 1e-14;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -43,18 +47,20 @@ std::optional<Vec2d> held_by(const MetSurface& a, const MetSurface& b) {
                (of_b * a.normal.x() - of_a * b.normal.x()) / determinant);
 }
 
-/// The velocity nearest to `wanted` that enters none of the surfaces, if there is one.
+/// The velocity nearest to `wanted` that enters none of the surfaces, if there is one. What runs along a surface does
+/// not enter it, however it is rounded.
 std::optional<Vec2d> nearest_allowed(const Vec2d& wanted, std::span<const MetSurface> surfaces) {
   std::optional<Vec2d> best;
-  const auto consider = [&](const Vec2d& v) {
-    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return enters(v, at); })) return;
+  const auto consider = [&](const Vec2d& v, std::initializer_list<std::size_t> along) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      if (std::find(along.begin(), along.end(), i) == along.end() && enters(v, surfaces[i])) return;
     if (!best || (v - wanted).squaredNorm() < (*best - wanted).squaredNorm()) best = v;
   };
-  consider(wanted);
+  consider(wanted, {});
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    consider(slid(wanted, surfaces[i]));
+    consider(slid(wanted, surfaces[i]), {i});
     for (std::size_t k = 0; k < i; ++k)
-      if (const std::optional<Vec2d> held = held_by(surfaces[i], surfaces[k])) consider(*held);
+      if (const std::optional<Vec2d> held = held_by(surfaces[i], surfaces[k])) consider(*held, {i, k});
   }
   return best;
 }
@@ -64,6 +70,11 @@ std::optional<Vec2d> impulses_of(const Vec2d& change, const MetSurface& a, const
   const double determinant = cross(a.normal, b.normal);
   if (std::abs(determinant) < one_direction) return std::nullopt;
   return Vec2d(cross(change, b.normal) / determinant, cross(a.normal, change) / determinant);
+}
+
+/// Whether a velocity rises under a ceiling: then it slides there.
+bool rises_under(const Vec2d& v, const MetSurface& at) {
+  return at.normal.y() < 0 && v.y() - at.velocity.y() > in_double * std::max(1.0, (v - at.velocity).norm());
 }
 
 Vec2d follow(double x, const Vec2d& n) { return {x, -x * n.x() / n.y()}; }
@@ -112,8 +123,7 @@ std::optional<Vec2d> walked_towards(double x, double y, double begin, double end
 Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> surfaces, double& steering) {
   const Vec2d& n = at.normal;
   const double towards = n.x() < 0 ? 1 : -1;  // across, into the surface
-  const bool slides = n.y() < 0 && u.y() > at.velocity.y();
-  if (!enters(u, at) || n.x() == 0 || slides || !(towards * (u.x() - at.velocity.x()) > 0)) return u;
+  if (!enters(u, at) || n.x() == 0 || rises_under(u, at) || !(towards * (u.x() - at.velocity.x()) > 0)) return u;
   if (towards * steering < 0) {
     const double braked = std::min(towards * (u.x() - at.velocity.x()), -towards * steering);
     u.x() -= towards * braked;
@@ -133,8 +143,7 @@ Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> su
 bool slides_along(double steering, const Vec2d& u, std::span<const MetSurface> surfaces) {
   const Vec2d w = u + Vec2d(steering, 0);
   const auto presses = [&](const MetSurface& at) {
-    const bool rises = at.normal.y() < 0 && u.y() > at.velocity.y();
-    return !at.walkable && steering * at.normal.x() < 0 && !rises;
+    return !at.walkable && steering * at.normal.x() < 0 && !rises_under(u, at);
   };
   return std::none_of(surfaces.begin(), surfaces.end(), presses) &&
          std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& at) { return !at.walkable && enters(w, at); });
@@ -172,9 +181,10 @@ std::optional<Steered> respond(const Steered& velocity, double& steering, bool c
 
 /// What a trace does not say.
 struct Unknown {
-  bool met_at_end = false;  ///< What is touched where the step ends was met, by rounding.
-  bool carried = false;     ///< A landing without horizontal speed is carried at once.
-  bool one_by_one = false;  ///< What is met at one moment was met in turn, without a way between.
+  bool met_at_end = false;             ///< What is touched where the step ends was met, by rounding.
+  bool carried = false;                ///< A landing without horizontal speed is carried at once.
+  bool one_by_one = false;             ///< What is met at one moment was met in turn, without a way between.
+  Vec2d falls_along = Vec2d::UnitY();  ///< A fall that nothing holds.
 };
 
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
@@ -197,18 +207,20 @@ double most_pressed(const Vec2d& came, double steering, std::span<const MetSurfa
   return most + std::abs(steering);
 }
 
-/// Whether surfaces on both sides that nobody walks on, and that go almost alike, leave hardly anything of a fall.
+/// Whether surfaces on both sides that nobody walks on, and that go almost alike, leave hardly anything of a fall; or
+/// some beside which the character is.
 bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall) {
   const MetSurface& first = *std::max_element(held.begin(), held.end(),
                                               [](const auto& a, const auto& b) { return a.normal.y() < b.normal.y(); });
   const double hardly = 0.1 * (first.velocity.y() - fall);
   const auto goes_alike = [&](const MetSurface& at) {
-    return !at.walkable && (at.velocity - first.velocity).norm() <= hardly;
+    return (!at.walkable || at.is_beside) && (at.velocity - first.velocity).norm() <= hardly;
   };
   const auto is_at = [&](double side) {
     return std::any_of(held.begin(), held.end(), [&](const auto& at) { return side * at.normal.x() > 0; });
   };
-  return first.normal.y() > 0 && is_at(-1) && is_at(1) && (left - first.velocity).norm() <= hardly &&
+  const bool beside = std::any_of(held.begin(), held.end(), [](const auto& at) { return at.walkable; });
+  return first.normal.y() > 0 && (beside || (is_at(-1) && is_at(1))) && (left - first.velocity).norm() <= hardly &&
          std::all_of(held.begin(), held.end(), goes_alike);
 }
 
@@ -223,6 +235,9 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   for (std::size_t k = 0; k < surfaces.size();) {
     const MetSurface& at = surfaces[k];
     const bool goes_on = k > 0 && surfaces[k - 1].met < at.met;
+    std::vector<MetSurface> rims;  // touched here for the last time
+    std::copy_if(held.begin(), held.end(), std::back_inserter(rims),
+                 [&](const MetSurface& one) { return one.past_rim && one.left == at.met; });
     std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     do {
       if (!is_at_end(surfaces[k]) || unknown.met_at_end) held.push_back(surfaces[k]);
@@ -236,9 +251,16 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
       now = {held.back().velocity, held.back().velocity};
       steering = 0;
     }
-    now = respond(now, steering, at.climbs, held).value_or(Steered{Vec2d::Zero(), Vec2d::Zero()});
-    const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
-    if (all_left && hold_fall(held, now.unsteered, fall)) now = {Vec2d(0, fall), Vec2d(0, fall)};
+    const Steered rest{Vec2d::Zero(), Vec2d::Zero()};
+    rims.insert(rims.end(), held.begin(), held.end());
+    double spent = steering;
+    const Steered between = respond(now, spent, at.climbs, rims).value_or(rest);
+    now = respond(now, steering, at.climbs, held).value_or(rest);
+    const bool all_left = std::all_of(rims.begin(), rims.end(), [](const MetSurface& one) { return one.left <= 1; });
+    if (all_left && hold_fall(rims, between.unsteered, fall)) {
+      const Vec2d falls = unknown.falls_along * (unknown.falls_along.y() * fall);
+      now = {falls, falls};
+    }
     const double most = most_pressed(came, steering, held);
     fastest = std::max(fastest, most < infinity ? now.wanted.norm() : 0);
     if (now.wanted.norm() > most) now.wanted *= most / now.wanted.norm();
@@ -308,7 +330,8 @@ Box2 slowed_by_limit(Box2 box, std::span<const MetSurface> surfaces) {
 }
 
 /// What the trace leaves open of these surfaces.
-std::vector<Unknown> ways(std::span<const MetSurface> surfaces) {
+/// @param sides see `ControlledStep`.
+std::vector<Unknown> ways(std::span<const MetSurface> surfaces, std::span<const Vec2d> sides) {
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
   const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
   const bool any_at_once = std::adjacent_find(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) {
@@ -320,15 +343,21 @@ std::vector<Unknown> ways(std::span<const MetSurface> surfaces) {
       for (const bool one_by_one : {false, true})
         if (met_at_end <= any_at_end && carried <= any_carries && one_by_one <= any_at_once)
           all.push_back({met_at_end, carried, one_by_one});
+  const std::size_t upright = all.size();
+  for (std::size_t k = 0; k < upright && surfaces.size() > 1; ++k)
+    for (const Vec2d& side : sides) {
+      all.push_back(all[k]);
+      all.back().falls_along = side;
+    }
   return all;
 }
 
 /// All that the law can make, as an upright character sees it.
-/// @param most_pressed_out see `ControlledStep`.
+/// @param most_pressed_out see `ControlledStep`. @param sides the same.
 std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces,
-                                    double most_pressed_out) {
+                                    double most_pressed_out, std::span<const Vec2d> sides) {
   std::vector<Vec2d> outcomes;
-  for (const Unknown unknown : ways(surfaces)) {
+  for (const Unknown& unknown : ways(surfaces, sides)) {
     double fastest = 0;
     const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, unknown, fastest));
     if (fastest > most_pressed_out) outcomes.emplace_back(0, 0);
@@ -394,8 +423,10 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   }
   const bool ends_rise = step.side_hit_ends_rise &&
                          std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
-  std::vector<Vec2d> outcomes =
-      upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright, step.most_pressed_out);
+  std::vector<Vec2d> sides = step.sides;
+  for (Vec2d& side : sides) side = seen(side, step.up);
+  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright,
+                                                 step.most_pressed_out, sides);
   for (Vec2d& outcome : outcomes) {
     if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
     outcome = in_world(outcome, step.up);
@@ -461,8 +492,8 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
           if (!held) continue;
           const double limited = 2 * std::max(fastest(at), fastest(with));
           for (const double speed : {most, limited}) {
-            if (held->norm() > speed) *held *= speed / held->norm();
-            unsteered = unsteered.merged({*held, *held});
+            const Vec2d slow = held->norm() > speed ? Vec2d(*held * (speed / held->norm())) : *held;
+            unsteered = unsteered.merged({slow, slow});
           }
         }
     }

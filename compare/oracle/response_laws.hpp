@@ -23,7 +23,9 @@ struct MetSurface {
   bool climbs = false;         ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
   double met = 0;              ///< When it was met, as a fraction of the step; 1: only touched where that ends.
   double left = std::numeric_limits<double>::infinity();  ///< From then on it is touched no more.
-  bool returned = false;                                  ///< It was left, and is touched again where the step ends.
+  bool is_beside = false;                                 ///< It is touched corner to corner: it bears nobody.
+  bool past_rim = false;  ///< It is touched still where it is left: the way goes on past its rim.
+  bool returned = false;  ///< It was left, and is touched again.
   /// Its velocity is known to within this, where it turns [m/s]: for bounds along its normal, else in any direction.
   double spread = 0;
   double spread_along = 0;  ///< The same along the face; for bounds alone.
@@ -70,6 +72,9 @@ struct ControlledStep {
   bool side_hit_ends_rise = false;  ///< See `CharacterDef::side_hit_ends_rise`.
   /// A character that two surfaces press out faster may go to a free place instead, and rest there [m/s].
   double most_pressed_out = std::numeric_limits<double>::infinity();
+  /// Along the sides of the character, and of its box; none where up is along an axis: unit vectors. A fall between
+  /// rims may go along one of them.
+  std::vector<Vec2d> sides{};
 };
 
 /// The velocities that the law of octagon_sweep (§4 of the design) can make in a step at the surfaces, in the order in
@@ -78,7 +83,8 @@ struct ControlledStep {
 /// - Momentum across up that presses into what nobody walks on ends; steering against it is spent on it.
 /// - Walkable ground keeps the part across up. Else the nearest velocity to what is left of the momentum is taken.
 /// - Steering moves it across, as far as the surfaces allow at that height, or on ground.
-/// - Surfaces on both sides that leave hardly anything of a fall hold it; rims that are left behind do not.
+/// - Surfaces on both sides that leave hardly anything of a fall hold it; rims that are left behind do not, nor does
+///   ground that the character is beside. Then the fall goes on, where up is slanted along a side of the character.
 /// - Those of which one pushes give a limited speed.
 ///
 /// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was

@@ -90,6 +90,11 @@ TEST(ControlledLaw, makes_of_what_was_wanted) {
   const Surfaces past_wall{{.normal = {1, 0}, .left = 0.5}, {.normal = up, .walkable = true, .met = 0.5}};
   const Surfaces rims{surface(0.8, 0.6), surface(-0.8, 0.6)};
   const Surfaces left_rims{{.normal = {0.8, 0.6}, .left = 1}, {.normal = {-0.8, 0.6}, .left = 1}};
+  // A slope down to a rim, where the other one is met.
+  const Surfaces slid_to_rim{{.normal = {0.8, 0.6}, .left = 0.5, .past_rim = true},
+                             {.normal = {-0.8, 0.6}, .met = 0.5, .left = 1}};
+  const Surfaces past_corner{{.normal = up, .walkable = true, .left = 1, .is_beside = true},
+                             {.normal = {-0.8, 0.6}, .left = 1}};
   const Surfaces pressed{ground(), {.normal = {half, -half}, .velocity = {0.5, -0.5}}};
   const Surfaces aside{{.normal = up, .velocity = {3, 0}, .walkable = true}};
   const Surfaces ridden{{.normal = up, .velocity = {3, 0}, .walkable = true, .ridden = true}};
@@ -110,6 +115,8 @@ TEST(ControlledLaw, makes_of_what_was_wanted) {
       {"both met at one place", wedge, {2, -1}, 0, {{0, 0}, {-0.48, 0}}, {{2, 0}}},
       {"rims on both sides", rims, {0, -1}, 0, {{0, 0}}, {}},
       {"rims that are left behind hold no fall", left_rims, {0, -1}, 0, {{0, -1}}, {{0, 0}}},
+      {"nor do those between which a slide ends", slid_to_rim, {0, -1}, 0, {{0, -0.64}}, {{-0.3072, -0.2304}}},
+      {"nor does the corner of ground", past_corner, {0, -1}, 0, {{0, -1}}, {{0, 0}}},
       {"a slide ends on the floor", {surface(half, half), ground()}, {0, -4}, 0, {{2, 0}}, {{2, 2}}},
       {"a wall takes steering", {surface(1, 0), ground()}, {0, -4}, -1, {{0, 0}}, {}},
       {"it is there again when the wall is left", past_wall, {0, -4}, -1, {{-1, 0}}, {{0, 0}}},
@@ -121,6 +128,12 @@ TEST(ControlledLaw, makes_of_what_was_wanted) {
     for (const Vec2d& v : made) EXPECT_TRUE(has(controlled_outcomes(step, surfaces), v)) << what;
     for (const Vec2d& v : not_made) EXPECT_FALSE(has(controlled_outcomes(step, surfaces), v)) << what;
   }
+  const Surfaces ceiling{surface(0.6, -0.8)};
+  const Vec2d rise(0.8 - 1.8e8, 0.6 + 2.4e8);
+  EXPECT_LE(distance_from(controlled_outcomes({rise, rise}, ceiling), {0.8, 0.6}), 1e-6) << "however fast it came";
+  const ControlledStep slanted{.wanted = {0, -1}, .unsteered = {0, -1}, .sides = {{0.6, -0.8}}};
+  EXPECT_TRUE(has(controlled_outcomes(slanted, left_rims), {0.48, -0.64})) << "along a side, where up is slanted";
+  EXPECT_FALSE(has(controlled_outcomes(slanted, rims), {0.48, -0.64}));
   const ControlledStep ruled{.wanted = {3, 5}, .unsteered = {3, 5}, .side_hit_ends_rise = true};
   EXPECT_TRUE(has(controlled_outcomes(ruled, side), {0, 0})) << "the article's rule";
   EXPECT_FALSE(has(controlled_outcomes(ruled, side), {0, 5}));
