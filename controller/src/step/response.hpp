@@ -27,7 +27,8 @@
 ///     without a key. Steering that a surface took is there again at the next one; steering that was spent is not.
 ///
 /// **A wedge** holds a fall: surfaces on both sides, none of them walkable, that leave no more than a small share of
-/// it.
+/// it; or such with ground that the character is beside. It does not hold who can fall on between its rims, straight
+/// down or, where up is slanted, along a side of the character.
 ///
 /// Displacement and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every
 /// contact beside w. A falling motion comes to rise on nothing but walkable ground, and what moves. The loop ends after

@@ -62,12 +62,14 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
   step.ground_axis = ground.axis;
 }
 
-/// Whether the character can fall straight down between two rims that it touches: a shaft may be a little wider than
-/// the character. If it is off the middle, it shifts there.
+/// Whether the character can fall straight down between two rims that it touches, farther than touches reach: a shaft
+/// may be a little wider than the character. If it is off the middle, it shifts there.
 /// @param aside unit vector, across the fall.
 [[nodiscard]] PAPERPROOF_COLD inline bool shift_to_fall(Step& step, const Vec2& displacement, const Vec2& aside) {
+  const Real length = std::max(length_of(displacement), std::numeric_limits<Real>::min());
+  const Vec2 way = displacement * std::max(Real(1), 2 * tolerances.touch / length);
   const auto falls = [&] {
-    sweep_along(step, displacement);
+    sweep_along(step, way);
     return !step.found.hit || step.found.stop * step.motion.length > tolerances.touch;
   };
   if (falls()) return true;
@@ -173,7 +175,8 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
     step.steered = 0;
   }
   const bool on_ground = walkable(step, first.normal);
-  if (step.after_walk && !on_ground && step.up.up_of(desired.velocity.wanted) > 0)
+  const auto rises = [&](const Vec2& velocity) { return step.up.up_of(velocity) > 0; };
+  if (step.after_walk && !on_ground && (rises(desired.velocity.wanted) || rises(desired.velocity.unsteered)))
     step.after_walk = touches_ground(step);
   bool possible = true;
   const auto is_same_ground = [&](const TouchedSurface& surface) {

@@ -57,6 +57,12 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return ground && is_higher && step_down_to(step, *ground, speed);
 }
 
+/// A walk that was stopped waits until the step ends: what comes then takes no time.
+inline void end_motion(Step& step) {
+  step.time = 1;
+  push_corner(step, 1);
+}
+
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
 PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real speed) {
@@ -70,8 +76,7 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
              !walkable(step, contact.normal);
     });
     if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
-    step.time = 1;
-    push_corner(step, step.time);
+    end_motion(step);
     const std::size_t corner = step.result.path.size() - 1;
     note_reported(step);
     bool is_climbed = false;
@@ -109,7 +114,7 @@ PAPERPROOF_COLD inline void follow_ground_down(Step& step) {
   if (is_passed_through(step)) return;         // a crushed character does not move
   const Real snap =
       step.movers.active ? std::max(step.settings.snap, falls_away_below_rider(step)) : step.settings.snap;
-  push_corner(step, step.time);
+  end_motion(step);
   const std::size_t corner = step.result.path.size() - 1;
   const auto ground = ground_below(step, std::max(snap, bend));
   const bool is_followed = ground && (snap > 0 || hardly_leaves(step, *ground));
