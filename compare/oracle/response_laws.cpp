@@ -184,10 +184,12 @@ struct Unknown {
   bool met_at_end = false;             ///< What is touched where the step ends was met, by rounding.
   bool carried = false;                ///< A landing without horizontal speed is carried at once.
   bool one_by_one = false;             ///< What is met at one moment was met in turn, without a way between.
+  bool bears_beside = false;           ///< Ground that the character is beside bears it: there is no way to fall.
   Vec2d falls_along = Vec2d::UnitY();  ///< A fall that nothing holds.
 };
 
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
+bool is_ground_beside(const MetSurface& at) { return at.walkable && at.is_beside; }
 bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.velocity != Vec2d::Zero(); }
 
 /// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, which is along
@@ -219,9 +221,9 @@ bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall)
   const auto is_at = [&](double side) {
     return std::any_of(held.begin(), held.end(), [&](const auto& at) { return side * at.normal.x() > 0; });
   };
-  const bool beside = std::any_of(held.begin(), held.end(), [](const auto& at) { return at.walkable; });
-  return first.normal.y() > 0 && (beside || (is_at(-1) && is_at(1))) && (left - first.velocity).norm() <= hardly &&
-         std::all_of(held.begin(), held.end(), goes_alike);
+  const bool beside = std::any_of(held.begin(), held.end(), is_ground_beside);
+  return held.size() > 1 && hardly > 0 && first.normal.y() > 0 && (beside || (is_at(-1) && is_at(1))) &&
+         (left - first.velocity).norm() <= hardly && std::all_of(held.begin(), held.end(), goes_alike);
 }
 
 /// As an upright character sees it. Surfaces that are met at one moment are answered together with all that still hold.
@@ -257,13 +259,15 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     const Steered between = respond(now, spent, at.climbs, rims).value_or(rest);
     now = respond(now, steering, at.climbs, held).value_or(rest);
     const bool all_left = std::all_of(rims.begin(), rims.end(), [](const MetSurface& one) { return one.left <= 1; });
-    if (all_left && hold_fall(rims, between.unsteered, fall)) {
+    const bool borne = unknown.bears_beside && std::any_of(rims.begin(), rims.end(), is_ground_beside);
+    if (all_left && !borne && hold_fall(rims, between.unsteered, fall)) {
       const Vec2d falls = unknown.falls_along * (unknown.falls_along.y() * fall);
       now = {falls, falls};
     }
     const double most = most_pressed(came, steering, held);
     fastest = std::max(fastest, most < infinity ? now.wanted.norm() : 0);
-    if (now.wanted.norm() > most) now.wanted *= most / now.wanted.norm();
+    const double share = std::min(1.0, most / now.wanted.norm());
+    now = {now.wanted * share, now.unsteered * share};
   }
   return now.wanted;
 }
@@ -343,6 +347,11 @@ std::vector<Unknown> ways(std::span<const MetSurface> surfaces, std::span<const 
       for (const bool one_by_one : {false, true})
         if (met_at_end <= any_at_end && carried <= any_carries && one_by_one <= any_at_once)
           all.push_back({met_at_end, carried, one_by_one});
+  if (std::any_of(surfaces.begin(), surfaces.end(), is_ground_beside)) {
+    std::vector<Unknown> borne = all;
+    for (Unknown& unknown : borne) unknown.bears_beside = true;
+    all.insert(all.end(), borne.begin(), borne.end());
+  }
   const std::size_t upright = all.size();
   for (std::size_t k = 0; k < upright && surfaces.size() > 1; ++k)
     for (const Vec2d& side : sides) {
