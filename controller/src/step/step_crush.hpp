@@ -72,8 +72,8 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   const Real farthest = length_of(step.wanted) + longest_way(step) + static_cast<Real>(step.request.around.limits.push);
   if (length_of(whole) > farthest) return false;
   const Real most = std::max(own, 2 * speed) + std::abs(step.steered);
-  const Real now = length_of(allowed.velocity.wanted);
-  if (now > most) allowed.velocity.wanted *= most / now;
+  const Real share = std::min(Real(1), most / length_of(allowed.velocity.wanted));
+  allowed.velocity = {allowed.velocity.wanted * share, allowed.velocity.unsteered * share};
   return true;
 }
 

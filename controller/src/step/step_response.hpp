@@ -175,9 +175,7 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
     step.steered = 0;
   }
   const bool on_ground = walkable(step, first.normal);
-  const auto rises = [&](const Vec2& velocity) { return step.up.up_of(velocity) > 0; };
-  if (step.after_walk && !on_ground && (rises(desired.velocity.wanted) || rises(desired.velocity.unsteered)))
-    step.after_walk = touches_ground(step);
+  if (step.after_walk && !on_ground) step.after_walk = touches_ground(step);
   bool possible = true;
   const auto is_same_ground = [&](const TouchedSurface& surface) {
     return surface.mover == no_mover && surface.normal == first.normal;

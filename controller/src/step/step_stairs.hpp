@@ -114,11 +114,11 @@ PAPERPROOF_COLD inline void follow_ground_down(Step& step) {
   if (is_passed_through(step)) return;         // a crushed character does not move
   const Real snap =
       step.movers.active ? std::max(step.settings.snap, falls_away_below_rider(step)) : step.settings.snap;
+  const auto ground = ground_below(step, std::max(snap, bend));
+  if (!ground || !(snap > 0 || hardly_leaves(step, *ground))) return;
   end_motion(step);
   const std::size_t corner = step.result.path.size() - 1;
-  const auto ground = ground_below(step, std::max(snap, bend));
-  const bool is_followed = ground && (snap > 0 || hardly_leaves(step, *ground));
-  if (is_followed && !step_down_to(step, *ground, step.up.across_of(step.velocity))) go_back_to(step, corner);
+  if (!step_down_to(step, *ground, step.up.across_of(step.velocity))) go_back_to(step, corner);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL
