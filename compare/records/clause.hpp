@@ -60,6 +60,12 @@ inline constexpr std::array<std::string_view, 21> clause_names{
   return clauses;
 }
 
+/// Whether it takes more than one impact in a step: to meet a surface, to go on along it, to meet another.
+[[nodiscard]] constexpr bool takes_several_impacts(Clause clause) noexcept {
+  return clause == Clause::rest || clause == Clause::hanging || clause == Clause::speed_lost ||
+         clause == Clause::velocity;
+}
+
 /// On how many steps a clause was broken, and where first.
 struct Breach {
   int steps = 0;

@@ -184,6 +184,11 @@ TraceHeader header_of(const TechniqueEntry& technique, ScalarKind scalar, const 
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull()) header.points.push_back(as_run(point, scalar));
   add_terms(scene, rules_for(technique, scene, knobs), header);
+  TechniqueDef def;
+  def.name = technique.name;
+  turn_knobs(knobs, def);
+  // Who answers fewer impacts than is usual does not promise what takes several.
+  if (def.sweep_iterations < SweepDef{}.iterations) std::erase_if(header.guarantees, takes_several_impacts);
   header.scenery = as_run(scene.scenery, scalar);
   check_as_run(header.scenery, scenery.as_run(), scene.ids);
   header.ids = scene.ids;

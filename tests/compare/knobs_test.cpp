@@ -54,6 +54,16 @@ TEST(Knobs, change_each_technique_that_has_them_on_some_scene) {
   }
 }
 
+TEST(Iterations, below_the_usual_do_not_promise_what_takes_several_impacts) {
+  for (const auto& [text, clauses] : {std::pair{"iterations=12", 21U}, {"iterations=1", 17U}}) {
+    RunOptions options = alone("octagon_sweep", 1);
+    options.knobs = {parse_knob(text)};
+    const ReportScene result = run_scene(built_in("climb45_3m"), options);
+    EXPECT_EQ(result.runs.front().header.guarantees.size(), clauses) << text;
+    EXPECT_EQ(result.rows.front().verdict, clauses == 21 ? Verdict::holds : Verdict::flagged) << text;
+  }
+}
+
 TEST(JumpRules, are_decided_by_the_knob_then_by_the_scene_then_by_who_it_is) {
   const std::vector<KnobSetting> on{parse_knob("jump_rules=on")};
   const std::vector<KnobSetting> off{parse_knob("jump_rules=off")};
