@@ -25,7 +25,11 @@ void check(const Scene& scene, const std::vector<InputEvent>& input) {
   require(scene.gravity.x() == 0 && scene.gravity.y() <= 0, "gravity that is not straight down");
   require(character.snap == 0, "ground that is followed down (snap)");
   require(character.step_height == 0, "stairs that are climbed (step_height)");
-  require(!character.no_jump_toward_wall && !character.side_hit_ends_rise, "the article's rules for jumps");
+  const JumpRules& said = scene.jump_rules;
+  require(!said.no_jump_toward_wall.value_or(character.no_jump_toward_wall) &&
+              !said.side_hit_ends_rise.value_or(character.side_hit_ends_rise),
+          "the article's rules for jumps");
+  require(character.coyote_time == 0 && !character.jump_buffer && character.jump_cut == 1, "jumps that are helped");
   require(!scene.start.resolve_overlap, "a start inside a solid");
   for (const ColliderDef& collider : scene.scenery.colliders) {
     require(!collider.one_way, "one-way chains");
@@ -60,8 +64,13 @@ struct Extent {
 template <class Real>
 class Solver {
  public:
-  Solver(const Scene& scene, const std::vector<InputEvent>& input, Law law)
-      : scene_(scene), law_(law), inputs_(scene, input), facets_(facets_of<Real>(scene)), legs_(scene.movers.size()) {
+  Solver(const Scene& scene, const std::vector<InputEvent>& input, Law law, Time time)
+      : scene_(scene),
+        law_(law),
+        in_steps_(time == Time::in_steps),
+        inputs_(scene, input),
+        facets_(facets_of<Real>(scene)),
+        legs_(scene.movers.size()) {
     for (const Facet<Real>& facet : facets_) {
       extents_.emplace_back();
       extents_.back().add(facet.begin);
@@ -72,11 +81,18 @@ class Solver {
   }
 
   Course<Real> solve() {
+    if (!in_steps_) step_end_ = inputs_.end();
     while (now_ < inputs_.end()) {
       if (course_.arcs.size() == most_events) throw NotCovered("more than 20,000 events");
-      begin_legs();
+      begins_ = in_steps_ && now_ == step_end_;
+      if (begins_) begin_step();
+      if (begins_ || !in_steps_) begin_legs();
       inputs_.take_until(now_);
-      settle();
+      if (begins_) kick();
+      if (in_steps_)
+        settle_in_step();
+      else
+        settle();
       course_.arcs.push_back({now_, place_, velocity_, hold_.acceleration, hold_.stands});
       advance();
       check_map();
@@ -90,10 +106,34 @@ class Solver {
   [[nodiscard]] P carried_by(MoverIndex mover) const { return mover == no_mover ? P{} : legs_[mover].velocity; }
   [[nodiscard]] P offset_of(MoverIndex mover) const { return mover == no_mover ? P{} : legs_[mover].offset; }
 
+  void begin_step() {
+    if (step_ > 0) {
+      const std::vector<Touch<Real>> touches = touched();
+      hold_.stands = wedged_ || touches_ground(touches);
+      if (hold_.stands)
+        find_carrier(touches);
+      else
+        carrier_ = no_mover;
+    }
+    dt_ = scene_.dt_list.empty() ? scene_.dt : scene_.dt_list[step_ % scene_.dt_list.size()];
+    step_end_ += dt_;
+    ++step_;
+  }
+
+  static bool touches_ground(const std::vector<Touch<Real>>& touches) {
+    return std::any_of(touches.begin(), touches.end(), [](const Touch<Real>& at) { return at.walkable; });
+  }
+
+  [[nodiscard]] Leg<Real> leg_of(const MoverDef& mover) const {
+    const Leg<Real> leg = leg_at<Real>(mover, now_);
+    if (!in_steps_) return leg;
+    return {leg.offset, (leg_at<Real>(mover, step_end_).offset - leg.offset) * (1 / dt_), step_end_};
+  }
+
   /// What carries the character takes it along however suddenly it turns.
   void begin_legs() {
     const P before = carrier_velocity();
-    for (MoverIndex k = 0; k < legs_.size(); ++k) legs_[k] = leg_at<Real>(scene_.movers[k], now_);
+    for (MoverIndex k = 0; k < legs_.size(); ++k) legs_[k] = leg_of(scene_.movers[k]);
     if (hold_.stands) velocity_ += carrier_velocity() - before;
     const std::optional<double>& fastest = scene_.character.max_fall_speed;
     require(!hold_.stands || !fastest || carrier_velocity().y >= -*fastest,
@@ -116,8 +156,11 @@ class Solver {
       Touch<Real> touch{i, facet.normal, facet.walkable};
       const std::size_t other = at <= zero ? facet.before : at >= facet.length - zero ? facet.after : facet.none;
       if (other != facet.none) touch.corner = facets_[other].normal;
-      const P relative = velocity_ - carried_by(facet.mover);
-      if (dot(relative, touch.normal) <= zero * (1 + abs(relative.x) + abs(relative.y))) touches.push_back(touch);
+      const auto stays = [&](const P& velocity) {
+        const P relative = velocity - carried_by(facet.mover);
+        return dot(relative, touch.normal) <= zero * (1 + abs(relative.x) + abs(relative.y));
+      };
+      if (stays(velocity_) || (in_steps_ && stays(momentum_))) touches.push_back(touch);
     }
     return touches;
   }
@@ -150,6 +193,32 @@ class Solver {
     throw NotCovered("more than 64 impacts at one moment");
   }
 
+  /// Steering and gravity of a step, as it begins. The climb of a walk that brakes slows with the walk.
+  void kick() {
+    const Forces<Real> acting = forces();
+    const P& own = acting.velocity;
+    const Real most = (hold_.stands ? acting.on_ground : acting.in_air) * dt_;
+    steered_ = std::clamp(acting.missing, Real(-most), most);
+    if (hold_.stands && own.y > 0 && steered_ * own.x < 0)
+      velocity_.y -= own.y * std::min(Real(-steered_ / own.x), Real(1));
+    (void)jumped();
+    velocity_.y -= acting.fall * dt_;
+    if (const std::optional<double>& fastest = scene_.character.max_fall_speed)
+      velocity_.y = std::max(velocity_.y, Real(carrier_velocity().y - *fastest));
+    momentum_ = velocity_;
+    velocity_.x += steered_;
+    wedged_ = false;
+  }
+
+  void settle_in_step() {
+    for (int round = 0; round < most_at_once; ++round) {
+      const std::vector<Touch<Real>> touches = touched();
+      find_carrier(touches);
+      if (!answer_impact(touches)) return;
+    }
+    throw NotCovered("more than 64 impacts at one moment");
+  }
+
   bool jumped() {
     if (!hold_.stands || !inputs_.jump()) return false;
     velocity_.y = carrier_velocity().y + scene_.character.jump_speed;
@@ -160,20 +229,29 @@ class Solver {
   bool answer_impact(const std::vector<Touch<Real>>& touches) {
     const P carried = carrier_velocity();
     const P relative = velocity_ - carried;
-    P after = after_impact<Real>(law_, relative, touches, hold_.stands);
-    if (scene_.gravity.y() < 0) after = without_climb<Real>(law_, after, touches);
-    if (after.x == relative.x && after.y == relative.y) return false;
+    StepMotion<Real> after{relative, momentum_ - carried, steered_};
+    if (in_steps_) {
+      after = after_impact<Real>(law_, after, touches, hold_.stands && touches_ground(touches));
+    } else {
+      after.velocity = after_impact<Real>(law_, relative, touches, hold_.stands);
+      if (scene_.gravity.y() < 0) after.velocity = without_climb<Real>(law_, after.velocity, touches);
+    }
+    if (after.velocity.x == relative.x && after.velocity.y == relative.y) return false;
+    wedged_ = in_steps_ && after.velocity.x == 0 && after.velocity.y == 0 && momentum_.y < carried.y;
     // A character that comes from straight above is carried at once.
     if (carrier_ != no_mover && !hold_.stands && velocity_.x == 0) after = {};
     const auto less_into = [&](const Touch<Real>& a, const Touch<Real>& b) {
       return dot(relative, a.normal) < dot(relative, b.normal);
     };
     const auto met = std::min_element(touches.begin(), touches.end(), less_into);
-    course_.impacts.push_back({now_, facets_[met->facet].collider, velocity_, carried + after});
-    velocity_ = carried + after;
-    hold_.stands = hold_.stands || std::any_of(touches.begin(), touches.end(), [&](const Touch<Real>& at) {
-                     return at.walkable && abs(dot(after, at.normal)) <= same<Real>() * (1 + abs(after.x));
-                   });
+    if (!begins_) course_.impacts.push_back({now_, facets_[met->facet].collider, velocity_, carried + after.velocity});
+    velocity_ = carried + after.velocity;
+    momentum_ = carried + after.momentum;
+    steered_ = after.steered;
+    hold_.stands =
+        hold_.stands || std::any_of(touches.begin(), touches.end(), [&](const Touch<Real>& at) {
+          return at.walkable && abs(dot(after.velocity, at.normal)) <= same<Real>() * (1 + abs(after.velocity.x));
+        });
     return true;
   }
 
@@ -210,7 +288,8 @@ class Solver {
   /// Goes to the next event.
   void advance() {
     const P& a = hold_.acceleration;
-    Real until = inputs_.next_after(now_) - now_;
+    const Real planned = std::min(inputs_.next_after(now_), step_end_);
+    Real until = planned - now_;
     const auto consider = [&](const std::optional<Real>& time) {
       if (time && *time < until) until = *time;
     };
@@ -225,10 +304,11 @@ class Solver {
     const Extent way = way_until(until);
     for (std::size_t i = 0; i < facets_.size(); ++i)
       if (facets_[i].mover != no_mover || way.meets(extents_[i])) consider(impact_with(facets_[i]));
-    const bool at_input = until == inputs_.next_after(now_) - now_;
+    const bool as_planned = until == planned - now_;
     place_ += velocity_ * until + a * (until * until / 2);
     velocity_ += a * until;
-    now_ = at_input ? inputs_.next_after(now_) : now_ + until;
+    now_ = as_planned ? planned : now_ + until;
+    for (Leg<Real>& leg : legs_) leg.offset += leg.velocity * until;
     if (abs(forces().missing) <= same<Real>() && inputs_.move()) velocity_.x += forces().missing;
   }
 
@@ -291,6 +371,7 @@ class Solver {
 
   const Scene& scene_;
   Law law_;
+  bool in_steps_;
   InputTimes<Real> inputs_;
   std::vector<Facet<Real>> facets_;
   std::vector<Extent> extents_;
@@ -304,6 +385,15 @@ class Solver {
   std::vector<std::size_t> held_;  ///< Facets.
   MoverIndex carrier_ = no_mover;
   bool falls_fastest_ = false;
+
+  // In steps:
+  std::size_t step_ = 0;  ///< The next one.
+  Real dt_{0};            ///< Of the present one [s].
+  Real step_end_{0};      ///< [s]
+  bool begins_ = false;   ///< A step begins now.
+  P momentum_;            ///< See `StepMotion`.
+  Real steered_{0};
+  bool wedged_ = false;  ///< Its fall ended between surfaces.
 };
 
 }  // namespace
@@ -335,9 +425,9 @@ Vec2d Course<Real>::at(double time) const {
 }
 
 template <class Real>
-Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law) {
+Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law, Time time) {
   check(scene, input);
-  return Solver<Real>(scene, input, law).solve();
+  return Solver<Real>(scene, input, law, time).solve();
 }
 
 template <class Real>
@@ -360,8 +450,8 @@ template class Course<double>;
 template class Course<Number<30>>;
 template class Course<Number<50>>;
 template class Course<Number<70>>;
-template Course<Number<30>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
-template Course<Number<50>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
-template Course<Number<70>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
+template Course<Number<30>> course_of(const Scene&, const std::vector<InputEvent>&, Law, Time);
+template Course<Number<50>> course_of(const Scene&, const std::vector<InputEvent>&, Law, Time);
+template Course<Number<70>> course_of(const Scene&, const std::vector<InputEvent>&, Law, Time);
 
 }  // namespace paperproof::compare::continuous

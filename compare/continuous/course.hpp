@@ -7,6 +7,10 @@
 /// more there are, is how it shows that rounding decides nothing. It shares no code with the controller, and none with
 /// the exact judge.
 ///
+/// The same solver goes by the exact law of steps (design §4), so that the error of steps and that of a contender's
+/// collision are told apart: forces act at once as a step begins, and in between nothing accelerates. Movers go
+/// straight between their places at the ends of steps.
+///
 /// What acts on arcs and at events is in continuous/law.hpp.
 #pragma once
 
@@ -18,6 +22,11 @@
 #include <vector>
 
 namespace paperproof::compare::continuous {
+
+enum class Time : std::uint8_t {
+  continuous,
+  in_steps,  ///< Those of the scene.
+};
 
 /// A scene or a moment that the reference has no law for; `what()` says which, in words.
 class NotCovered : public std::runtime_error {
@@ -54,7 +63,7 @@ class Course {
   [[nodiscard]] Vec2d at(double time) const;
 
   std::vector<Arc<Real>> arcs;        ///< At least one.
-  std::vector<Impact<Real>> impacts;  ///< In order of time.
+  std::vector<Impact<Real>> impacts;  ///< In order of time; in steps without those at their beginnings.
 
  private:
   [[nodiscard]] const Arc<Real>& arc_at(const Real& time) const;
@@ -62,12 +71,14 @@ class Course {
 
 /// @param input what the character wants, by steps of the scene.
 /// @throws NotCovered for: more than one character; gravity that is not straight down; one-way chains, conveyors,
-///   circles and dropping through; bodies and movers that turn; `snap`, `step_height` and the article's rules for
-///   jumps; a start inside a solid; a map that is left; movers that are met by anything but their walkable side, that
-///   meet the character between them and something else, or that fall faster than the character; ground that the
-///   acceleration of the ground holds and that of the air does not; more than 20,000 events.
+///   circles and dropping through; coyote time, buffers and cuts of jumps; bodies and movers that turn; `snap`,
+///   `step_height` and the article's rules for jumps; a start inside a solid; a map that is left; movers that are met
+///   by anything but their walkable side, that meet the character between them and something else, or that fall faster
+///   than the character; ground that the acceleration of the ground holds and that of the air does not; more than
+///   20,000 events.
 template <class Real>
-[[nodiscard]] Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law);
+[[nodiscard]] Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law,
+                                     Time time = Time::continuous);
 
 /// The same in double: places are within an ulp of their coordinates, times the number of roundings in a parabola.
 template <class Real>

@@ -58,7 +58,7 @@ const Touch<Real>* most_level_entered(const Point<Real>& v, Touches<Real> touche
 
 /// octagon_sweep's answer to one surface.
 template <class Real>
-Point<Real> answer(Point<Real> v, const Touch<Real>& at, bool after_walk) {
+Point<Real> answer(Point<Real> v, const Touch<Real>& at, Touches<Real> touched, bool after_walk) {
   const Point<Real>& n = at.normal;
   if (at.walkable) return {v.x, -v.x * n.x / n.y};
   if (n.y < 0) {
@@ -68,6 +68,7 @@ Point<Real> answer(Point<Real> v, const Touch<Real>& at, bool after_walk) {
   if (v.x * n.x < 0) {
     v.x = 0;
     if (after_walk && v.y > 0) v.y = 0;
+    if (const Touch<Real>* ground = most_level_entered(v, touched); ground != nullptr && ground->walkable) return {};
   }
   return enters(v, at) ? slid(v, n) : v;
 }
@@ -89,7 +90,7 @@ Point<Real> after_impact_of_octagon(Point<Real> v, Touches<Real> touched, bool s
     const bool again = std::any_of(held.begin(), held.end(), [&](const auto& one) { return one.facet == at->facet; });
     if (again) return {};
     held.push_back(*at);
-    v = answer(v, *at, after_walk);
+    v = answer(v, *at, touched, after_walk);
     after_walk = after_walk || at->walkable;
     if (enters_any<Real>(v, held)) v = slipped<Real>(fall, held);
   }
@@ -215,6 +216,29 @@ Point<Real> after_impact(Law law, Point<Real> velocity, Touches<Real> touched, b
 }
 
 template <class Real>
+StepMotion<Real> after_impact(Law law, const StepMotion<Real>& step, Touches<Real> touched, bool stood) {
+  if (!enters_any(step.velocity, touched)) return step;
+  const Point<Real> whole = step.momentum + Point<Real>{step.steered, 0};
+  const auto opposes = [&](const Touch<Real>& at) {
+    return at.normal.y >= 0 && step.steered * at.normal.x < 0 && enters(whole, at);
+  };
+  const auto lands = [&](const Point<Real>& v) {
+    const Touch<Real>* const ground = most_level_entered(v, touched);
+    return ground != nullptr && ground->walkable;
+  };
+  if (law == Law::frictionless || lands(whole) || lands(step.momentum) ||
+      std::none_of(touched.begin(), touched.end(), opposes)) {
+    const Point<Real> after = after_impact<Real>(law, whole, touched, stood);
+    return {after, after, Real(0)};
+  }
+  const Point<Real> momentum = after_impact<Real>(law, step.momentum, touched, stood);
+  Point<Real> after = momentum + Point<Real>{step.steered, 0};
+  for (const Touch<Real>& at : touched)
+    if (opposes(at) && dot(after, at.normal) < 0) after.x = -after.y * at.normal.y / at.normal.x;
+  return {enters_any<Real>(after, touched) ? momentum : after, momentum, step.steered};
+}
+
+template <class Real>
 Point<Real> without_climb(Law law, Point<Real> velocity, Touches<Real> touched) {
   if (law == Law::frictionless) return velocity;
   for (const Touch<Real>& at : run_along(velocity, touched))
@@ -230,12 +254,15 @@ Hold<Real> acceleration_of(Law law, const Forces<Real>& forces, Touches<Real> to
 }
 
 template Point<Number<30>> after_impact(Law, Point<Number<30>>, Touches<Number<30>>, bool);
+template StepMotion<Number<30>> after_impact(Law, const StepMotion<Number<30>>&, Touches<Number<30>>, bool);
 template Point<Number<30>> without_climb(Law, Point<Number<30>>, Touches<Number<30>>);
 template Hold<Number<30>> acceleration_of(Law, const Forces<Number<30>>&, Touches<Number<30>>);
 template Point<Number<50>> after_impact(Law, Point<Number<50>>, Touches<Number<50>>, bool);
+template StepMotion<Number<50>> after_impact(Law, const StepMotion<Number<50>>&, Touches<Number<50>>, bool);
 template Point<Number<50>> without_climb(Law, Point<Number<50>>, Touches<Number<50>>);
 template Hold<Number<50>> acceleration_of(Law, const Forces<Number<50>>&, Touches<Number<50>>);
 template Point<Number<70>> after_impact(Law, Point<Number<70>>, Touches<Number<70>>, bool);
+template StepMotion<Number<70>> after_impact(Law, const StepMotion<Number<70>>&, Touches<Number<70>>, bool);
 template Point<Number<70>> without_climb(Law, Point<Number<70>>, Touches<Number<70>>);
 template Hold<Number<70>> acceleration_of(Law, const Forces<Number<70>>&, Touches<Number<70>>);
 

@@ -7,8 +7,8 @@
 /// **An impact.** Where a velocity v of finite size enters a surface, s and g * dt are as nothing beside it: the answer
 /// is that to v alone.
 ///  - Walkable: the horizontal part goes on along the surface, (x, -x n.x / n.y).
-///  - Steep or wall: a horizontal part that presses in dies; what still enters slides, v - (v·n) n. A rise that only
-///    came from following walkable ground dies with the walk.
+///  - Steep or wall: a horizontal part that presses in dies; what still enters slides, v - (v·n) n, or ends where it
+///    goes into walkable ground. A rise that only came from following walkable ground dies with the walk.
 ///  - Ceiling: a rise slides (that of a walk dies); a fall goes on, x follows the surface: (-y n.y / n.x, y).
 ///  - Two surfaces that both enter: the fall that there was before, (0, y), goes to the nearest motion that both allow,
 ///    if that still falls and neither is walkable; else the motion ends.
@@ -38,6 +38,12 @@
 ///
 /// Standing (the acceleration of the ground applies, a jump is allowed): walkable ground is held, or a fall ended
 /// between two surfaces.
+///
+/// **The law of steps itself.** s and g * dt are of finite size there: a step of it is an impact of v + s + g * dt with
+/// all surfaces that its way meets, those that are touched as it begins included. What differs from the answer above is
+/// how steering that presses onto a slope or a wall is answered: momentum alone is, and goes on falling so; steering
+/// then moves it across at that speed of falling, as far as the surface allows. Steering that leads away, or goes along
+/// walkable ground, is answered as momentum is.
 #pragma once
 
 #include "continuous/number.hpp"
@@ -73,6 +79,20 @@ template <class Real>
 /// The velocity without a climb: by octagon_sweep's law nothing rises along a steep surface that gravity presses onto.
 template <class Real>
 [[nodiscard]] Point<Real> without_climb(Law law, Point<Real> velocity, std::span<const Touch<Real>> touched);
+
+/// The motion of a step.
+template <class Real>
+struct StepMotion {
+  Point<Real> velocity;
+  Point<Real> momentum;  ///< Velocity without what this step's steering adds,
+  Real steered{0};       ///< and what that adds across, unless a surface answered it as momentum.
+};
+
+/// The law of steps: the motion after the impact of one that enters some of the surfaces touched.
+/// @param stood it stands on walkable ground up to this moment.
+template <class Real>
+[[nodiscard]] StepMotion<Real> after_impact(Law law, const StepMotion<Real>& step, std::span<const Touch<Real>> touched,
+                                            bool stood);
 
 /// What acts on a body that enters nothing.
 template <class Real>
