@@ -37,6 +37,7 @@ DARK = {"page": "#15181b", "text": "#e3e6e8", "quiet": "#363d44", "none": "#2450
 # the others: no two of 40 curves look alike.
 INKS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#8c7a3d")
 MARKS = "os^DvP*h"
+LAW, LAW_INK = "law of steps", "#858e97"  # has errors, and no cost; quiet on both pages
 
 
 def content_of(path):
@@ -179,7 +180,7 @@ def curves_of(rows):
         if "curve" in row:
             if "slope" in row:
                 curve["slope"] = f"{round(row['slope'], 2) + 0:.2f} \u00b1 {row['slope_within']:.2f}"
-        elif row.get("error_max_m") is None or row.get("ns_per_step") is None:
+        elif row.get("error_max_m") is None or (row.get("ns_per_step") is None and row["contender"] != LAW):
             curve["without"].append(row)
         else:
             curve["points"].append(row)
@@ -213,7 +214,8 @@ def draw_curve(axes, points, ink, mark, theme):
 
 
 def draw_curves(scene, rows, theme):
-    """Error against run time. Who has no place at all stands struck out below the others."""
+    """Error against run time. Who has no place at all stands struck out below the others. What steps alone make has no cost:
+    a line across for each length of a step."""
     figure = Figure(figsize=(9, 5), layout="constrained")
     axes = figure.subplots()
     axes.set_title(f"{scene}: the error from continuous motion, against run time", loc="left", weight="bold", fontsize=11)
@@ -225,13 +227,18 @@ def draw_curves(scene, rows, theme):
     axes.grid(color=theme["quiet"], linewidth=0.6)
     entries = []
     for i, (who, curve) in enumerate(curves_of(rows).items()):
-        if curve["points"]:
+        label = who if curve["slope"] is None else f"{who}, slope {curve['slope']}"
+        if who == LAW:
+            lines = [axes.axhline(max(row["error_max_m"], LEAST_ERROR), color=LAW_INK, linewidth=0.8, linestyle="--", zorder=1)
+                     for row in curve["points"]]
+            entries.append((lines[0], label))
+        elif curve["points"]:
             ours = who.startswith("octagon_sweep")
             ink = INKS[0] if ours else INKS[1 + i % (len(INKS) - 1)]
             line = draw_curve(axes, curve["points"], ink, MARKS[i % len(MARKS)], theme)
             line.set(linewidth=2.4 if ours else 1.2, zorder=3 if ours else 2)
             line.set_gid(f"curve-{i}")
-            entries.append((line, who if curve["slope"] is None else f"{who}, slope {curve['slope']}"))
+            entries.append((line, label))
         if curve["without"]:
             struck, = axes.plot([], [], "x", color=theme["text"], markersize=8)
             failed = sum(row["verdict"] == "failed" for row in curve["without"])

@@ -34,6 +34,9 @@ enum class Axis {
   return contender == "octagon_sweep" && scalar == "double";
 }
 
+/// The contender of rows that are of no run, and have no cost: what steps alone make of continuous motion.
+inline constexpr std::string_view law_of_steps = "law of steps";
+
 /// Where a run fell short: see records/verdict.hpp.
 struct AxisFault {
   Axis axis = Axis::safety;

@@ -17,13 +17,15 @@ bool is_small(const Scene& scene) {
   return corners <= most_corners;
 }
 
-std::optional<continuous::Course<double>> course_of(const Scene& scene, const std::vector<InputEvent>& input,
-                                                    continuous::Law law) {
-  try {
-    return continuous::rounded(continuous::course_of<continuous::Number<50>>(scene, input, law));
-  } catch (const continuous::NotCovered&) {
-    return std::nullopt;
-  }
+Courses courses_of(const Scene& scene, const std::vector<InputEvent>& input, continuous::Law law) {
+  const auto course = [&](continuous::Time time) -> std::optional<continuous::Course<double>> {
+    try {
+      return continuous::rounded(continuous::course_of<continuous::Number<50>>(scene, input, law, time));
+    } catch (const continuous::NotCovered&) {
+      return std::nullopt;
+    }
+  };
+  return {course(continuous::Time::continuous), course(continuous::Time::in_steps)};
 }
 
 }  // namespace
@@ -33,25 +35,29 @@ ContinuousCourses::ContinuousCourses(const Scene& scene, const std::vector<Input
   if (!is_small(scene)) return;
   Scene run = scene;
   run.steps = steps;
-  walking_ = course_of(run, input, continuous::Law::octagon_sweep);
-  frictionless_ = course_of(run, input, continuous::Law::frictionless);
+  walking_ = courses_of(run, input, continuous::Law::octagon_sweep);
+  frictionless_ = courses_of(run, input, continuous::Law::frictionless);
 }
 
-const continuous::Course<double>* ContinuousCourses::of(std::string_view contender) const {
-  const std::optional<continuous::Course<double>>& course = is_reference(contender) ? frictionless_ : walking_;
-  return course ? &*course : nullptr;
+const Courses& ContinuousCourses::of(std::string_view contender) const {
+  return is_reference(contender) ? frictionless_ : walking_;
 }
 
 void ContinuousError::add(const Vec2d& position, double time) {
-  if (course_ == nullptr) return;
-  const double error = (position - course_->at(time)).norm();
+  if (courses_ == nullptr) return;
+  ++count_;
+  const auto from = [&](const continuous::Course<double>& course) { return (position - course.at(time)).norm(); };
+  if (courses_->steps) largest_of_law_ = std::max(largest_of_law_, from(*courses_->steps));
+  if (!courses_->motion) return;
+  const double error = from(*courses_->motion);
   largest_ = std::max(largest_, error);
   squares_ += error * error;
-  ++count_;
 }
 
 void ContinuousError::write(Row& row) const {
   if (count_ == 0) return;
+  if (courses_->steps) row.error_law_max_m = largest_of_law_;
+  if (!courses_->motion) return;
   row.error_max_m = largest_;
   row.error_rms_m = std::sqrt(squares_ / count_);
 }

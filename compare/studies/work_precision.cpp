@@ -1,6 +1,7 @@
 #include "studies/work_precision.hpp"
 
 #include "runs/contender.hpp"
+#include "runs/continuous_error.hpp"
 #include "runs/run.hpp"
 #include "studies/front.hpp"
 #include "studies/motions.hpp"
@@ -90,6 +91,23 @@ std::vector<Row> points_of(const Motion& motion, const Runs& runs) {
   return points;
 }
 
+/// What steps alone make of the continuous motion. Nobody runs it, and it has no cost.
+Row law_point(const Motion& motion, double dt) {
+  const Scene scene = scene_of(motion, dt);
+  const ContinuousCourses courses(scene, scene.input, scene.steps);
+  const Courses& both = courses.of("octagon_sweep");
+  ContinuousError error(&both);
+  for (int step = 0; step < scene.steps; ++step) error.add(both.steps.value().at(courses.end(step)), courses.end(step));
+  Row row;
+  row.scene = motion.name;
+  row.contender = law_of_steps;
+  row.mode = "work_precision";
+  row.steps = scene.steps;
+  row.parameters = {{"dt_s", dt}};
+  error.write(row);
+  return row;
+}
+
 bool same_curve(const Row& a, const Row& b) {
   return a.contender == b.contender && a.scalar == b.scalar && knob_of(a).first == knob_of(b).first;
 }
@@ -101,7 +119,7 @@ Row curve_of(const Row& first, const std::vector<Row>& points) {
     if (!same_curve(point, first)) continue;
     on_front = on_front || point.on_front.value_or(false);
     logs.emplace_back();
-    if (counts(point) && *point.error_max_m > least_error)
+    if ((counts(point) || point.contender == law_of_steps) && *point.error_max_m > least_error)
       logs.back() = {std::log(knob_of(point).second), std::log(*point.error_max_m)};
   }
   Row row;
@@ -126,6 +144,7 @@ void add_motion(const Motion& motion, const std::vector<Runs>& all, WorkPrecisio
   std::vector<Row> points;
   for (const Runs& runs : all)
     for (Row& point : points_of(motion, runs)) points.push_back(std::move(point));
+  for (const double dt : lengths) points.push_back(law_point(motion, dt));
   mark_front(points);
   for (auto point = points.begin(); point != points.end(); ++point)
     if (std::none_of(points.begin(), point, [&](const Row& before) { return same_curve(before, *point); }))

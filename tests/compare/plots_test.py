@@ -30,7 +30,7 @@ def shot(contender, speed, thickness, tunnels=0, **more):
 
 def precise(contender, dt, error, ns, **more):
     return {"scene": "rest", "contender": contender, "scalar": "double", "mode": "work_precision", "verdict": "holds",
-            "parameters": {"dt_s": dt}, "error_max_m": error, "ns_per_step": ns, "ns_per_step_max": 2 * ns, **more}
+            "parameters": {"dt_s": dt}, "error_max_m": error, "ns_per_step": ns, "ns_per_step_max": ns and 2 * ns, **more}
 
 
 def failed(contender, dt):
@@ -88,13 +88,13 @@ class Curves(unittest.TestCase):
     def test_what_failed_is_struck_out_at_its_place_or_else_in_the_legend_and_what_goes_beyond_a_limit_is_hollow(self):
         axes = self.figure([precise("mask", 0.1, 0.01, 50), precise("mask", 0.05, 0.5, 50, reason="safety: step 1: passed it"),
                             precise("mask", 0.01, 0.2, 60, ns_per_step_bare=40, reason="progress: hangs; validity: too fast"),
-                            failed("mask", 0.01), failed("grid", 0.1), failed("grid", 0.01)])
+                            failed("mask", 0.01), failed("grid", 0.1), failed("grid", 0.01), precise(plots.LAW, 0.1, 0.3, None)])
         hollow = [line.get_xydata().tolist() for line in axes.lines if line.get_fillstyle() == "none"]
         self.assertEqual(hollow, [[[4000, 0.2]]])
         crosses = [line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "x" and len(line.get_xdata())]
         self.assertEqual(crosses, [[[1000, 0.5]]])
         self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],
-                         ["mask", "mask: 1 failed", "grid: 2 failed"])
+                         ["mask", "mask: 1 failed", "grid: 2 failed", plots.LAW], "what has no cost is a line across")
 
 
 class Files(unittest.TestCase):

@@ -121,21 +121,5 @@ TEST(Failures, to_search_a_whole_step_are_told_from_leaving_the_range) {
   }
 }
 
-/// After n steps of h a fall has gone g h² n (n + 1) / 2 instead of g (h n)² / 2: g h² n / 2 too far.
-TEST(ContinuousError, of_a_fall_is_that_of_the_formula) {
-  const Scene scene = built_in("fall_dt_1e-1");
-  const double one = -scene.gravity.y() * scene.dt * scene.dt / 2;
-  const double n = scene.steps;
-  RunOptions options = quick({"octagon_sweep"});
-  options.continuous = true;
-  for (const char* contender : {"octagon_sweep", "box2d"}) {
-    const Row row = row_of(run_scene(scene, options), contender);
-    const double rounding = row.scalar == "float" ? 1e-4 : 1e-12;
-    EXPECT_NEAR(row.error_max_m.value(), one * n, rounding) << contender;
-    EXPECT_NEAR(row.error_rms_m.value(), one * std::sqrt((n + 1) * (2 * n + 1) / 6), rounding) << contender;
-  }
-  EXPECT_FALSE(row_of(run_scene(built_in("conveyor"), options), "octagon_sweep").error_max_m) << "there is no law";
-}
-
 }  // namespace
 }  // namespace paperproof::compare

@@ -31,6 +31,7 @@ function logAxis(title, values, {text, grid}) {
 
 /// A contender has the same colour in charts and replays.
 function colourOfSeries(series, all) {
+  if (series.name.startsWith('law of steps')) return theme().quiet;
   const list = INKS[darkPreferred() ? 'dark' : 'light'], who = (name) => name.split(/[ ,]/)[0];
   const {contenders} = namesWith(all.map((one) => ({contender: who(one.name), mode: 'free', scalar: 'double'})));
   return list[contenders.indexOf(who(series.name)) % list.length];
