@@ -308,7 +308,7 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
   const std::string contenders = ": expected grid, pixel_colour, ";
   const std::string commands =
       "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, campaign, "
-      "replay, report, convert, check, plan, demo, list; see paperproof --help\n";
+      "replay, report, export, convert, check, plan, demo, list; see paperproof --help\n";
   for (const auto& [arguments, says] : std::vector<std::pair<std::string, std::string>>{
            {"compare article_bulet", "article_bulet" + scenes + "; did you mean article_bullet?\n"},
            {"compare Corner-Hit", "Corner-Hit" + scenes + "; did you mean corner_to_corner_hit?\n"},
