@@ -1,4 +1,4 @@
-/// A small game for tests of `Hero`: a world, a listener, and a hero.
+/// A small game for tests of `Hero`: a world, and one with a listener and a hero.
 #pragma once
 
 #include "campaign/shapes.hpp"
@@ -50,12 +50,8 @@ class HeroListener : public b2ContactListener {
   }
 };
 
-struct Game {
-  explicit Game(const HeroDef& def = {}) : hero(world, def) {
-    world.SetContactListener(&listener);
-    listener.hero = &hero.body();
-  }
-
+/// Bodies of one fixture each.
+struct World {
   b2Fixture& add(b2BodyType type, const b2Vec2& at, const b2Shape& shape, float density = 0) {
     b2BodyDef def;
     def.type = type;
@@ -89,6 +85,15 @@ struct Game {
   }
   b2Fixture& floor() { return box(b2_staticBody, {0, -1}, 100, 1); }
 
+  b2World world{{0, -10}};
+};
+
+struct Game : World {
+  explicit Game(const HeroDef& def = {}) : hero(world, def) {
+    world.SetContactListener(&listener);
+    listener.hero = &hero.body();
+  }
+
   StepStatus go(const Input& input = {.move = 0.0}) {
     world.Step(static_cast<float>(frame), 8, 3);
     return hero.step(input, frame);
@@ -114,7 +119,6 @@ struct Game {
     return std::count(listener.begun.begin(), listener.begun.end(), &fixture);
   }
 
-  b2World world{{0, -10}};
   HeroListener listener;
   Hero hero;
 };

@@ -1,6 +1,7 @@
 /// Several heroes of one world that take turns.
 #include "box2d_adapter/hero_world.hpp"
 #include "controller/states.hpp"
+#include "float_geometry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,105 +14,62 @@ namespace {
 using hero_test::frame;
 using hero_test::half_height;
 using hero_test::half_width;
+using hero_test::World;
 
-b2Body& add(b2World& world, b2BodyType type, const b2Vec2& at, const b2PolygonShape& shape, float density = 0) {
-  b2BodyDef def;
-  def.type = type;
-  def.position = at;
-  b2Body& body = *world.CreateBody(&def);
-  body.CreateFixture(&shape, density);
-  return body;
-}
+b2Body* lift(World& world) { return world.box(b2_kinematicBody, {0, -1}, 4, 1).GetBody(); }
 
-b2Body& add_box(b2World& world, b2BodyType type, const b2Vec2& at, float half_x, float half_y, float density = 0) {
-  b2PolygonShape shape;
-  shape.SetAsBox(half_x, half_y);
-  return add(world, type, at, shape, density);
-}
-
-b2Body* add_floor(b2World& world) { return &add_box(world, b2_staticBody, {0, -1}, 60, 1); }
-b2Body* add_lift(b2World& world) { return &add_box(world, b2_kinematicBody, {0, -1}, 4, 1); }
-
-b2Body* add_slope(b2World& world) {
-  add_box(world, b2_staticBody, {-20, -1}, 20, 1);
+b2Body* slope(World& world) {
+  world.box(b2_staticBody, {-20, -1}, 20, 1);
   b2PolygonShape shape;
   const std::array<b2Vec2, 3> corners{b2Vec2{0, 0}, {60, 0}, {60, 60 * std::tan(30 * b2_pi / 180)}};
   shape.Set(corners.data(), 3);
-  return &add(world, b2_staticBody, {0, 0}, shape);
+  return world.add(b2_staticBody, {0, 0}, shape).GetBody();
 }
 
-b2Body* add_wall(b2World& world) {
-  add_floor(world);
-  return &add_box(world, b2_kinematicBody, {-2.5F, 1.5F}, 0.5F, 1.4F);
+b2Body* wall(World& world) {
+  world.floor();
+  return world.box(b2_kinematicBody, {-2.5F, 1.5F}, 0.5F, 1.4F).GetBody();
 }
 
-b2Body* add_crate(b2World& world) {
-  add_floor(world);
-  return &add_box(world, b2_dynamicBody, {0, 0.505F}, 0.5F, 0.5F, 100);
+b2Body* crate(World& world) {
+  world.floor();
+  return world.box(b2_dynamicBody, {0, 0.505F}, 0.5F, 0.5F).GetBody();
 }
 
 /// Of planks, from -7 m to 7 m.
-b2Body* add_bridge(b2World& world) {
-  b2Body* before = &add_box(world, b2_staticBody, {-8, -1}, 1, 0.125F);
-  const auto join = [&](b2Body& next, float x) {
+b2Body* bridge(World& world) {
+  b2Body* before = world.box(b2_staticBody, {-8, -1}, 1, 0.125F).GetBody();
+  const auto join = [&](b2Fixture& next, float x) {
     b2RevoluteJointDef joint;
-    joint.Initialize(before, &next, {x, -1});
-    world.CreateJoint(&joint);
-    before = &next;
+    joint.Initialize(before, next.GetBody(), {x, -1});
+    world.world.CreateJoint(&joint);
+    before = next.GetBody();
   };
-  for (int i = 0; i < 14; ++i) {
-    const auto x = static_cast<float>(i);
-    join(add_box(world, b2_dynamicBody, {-6.5F + x, -1}, 0.5F, 0.125F, 20), -7 + x);
-  }
-  join(add_box(world, b2_staticBody, {8, -1}, 1, 0.125F), 7);
+  for (float x = -7; x < 7; ++x) join(world.box(b2_dynamicBody, {x + 0.5F, -1}, 0.5F, 0.125F, 20), x);
+  join(world.box(b2_staticBody, {8, -1}, 1, 0.125F), 7);
   return before;
 }
 
 /// Where heroes are, and how what carries or pushes them goes.
 struct Place {
   const char* name;
-  b2Body* (*build)(b2World&);
-  Vec2d first;                                                      ///< The feet of the first one.
-  Vec2d next{0, 2 * half_height + 0.01};                            ///< From one to the next.
-  b2Vec2 (*velocity)(double) = [](double) { return b2Vec2_zero; };  ///< At a time [m/s].
-  double swing = 0;                                                 ///< [radians/s]
-  double move = 0;                                                  ///< Of the first one.
+  b2Body* (*build)(World&);
+  Vec2d first{0, 0};                      ///< The feet of the first one.
+  Vec2d next{0, 2 * half_height + 0.01};  ///< From one to the next.
+  Vec2d velocity{0, 0};                   ///< [m/s]
+  Vec2d swing{0, 0};                      ///< The most of it, there and back across at 1.3 radians/s, and up at 2.
+  double spin = 0;                        ///< [radians/s] The most, there and back.
+  double move = 0;                        ///< Of the first one.
 };
 
-const std::array places{
-    Place{.name = "slow_lift",
-          .build = add_lift,
-          .first = {0, 0},
-          .velocity =
-              [](double) {
-                return b2Vec2{0, 1e-4F};
-              }},
-    Place{.name = "lift",
-          .build = add_lift,
-          .first = {0, 0},
-          .velocity =
-              [](double) {
-                return b2Vec2{0, 1};
-              }},
-    Place{.name = "lift_on_a_sine",
-          .build = add_lift,
-          .first = {0, 0},
-          .velocity =
-              [](double t) {
-                return b2Vec2{static_cast<float>(2 * std::cos(1.3 * t)), static_cast<float>(3 * std::sin(2 * t))};
-              }},
-    Place{.name = "rocking_plank", .build = add_lift, .first = {0, 0}, .swing = 0.4},
-    Place{.name = "wall",
-          .build = add_wall,
-          .first = {-1.4, 0},
-          .next = {0.7, 0},
-          .velocity =
-              [](double) {
-                return b2Vec2{3, 0};
-              }},
-    Place{.name = "slope", .build = add_slope, .first = {-1, 0}, .move = 1},
-    Place{.name = "crate", .build = add_crate, .first = {0, 1.01}},
-    Place{.name = "bridge", .build = add_bridge, .first = {0, -0.8}}};
+const std::array places{Place{.name = "slow_lift", .build = lift, .velocity = {0, 1e-4}},
+                        Place{.name = "lift", .build = lift, .velocity = {0, 1}},
+                        Place{.name = "lift_on_a_sine", .build = lift, .swing = {2, 3}},
+                        Place{.name = "rocking_plank", .build = lift, .spin = 0.4},
+                        Place{.name = "wall", .build = wall, .first = {-1.4, 0}, .next = {0.7, 0}, .velocity = {3, 0}},
+                        Place{.name = "slope", .build = slope, .first = {-1, 0}, .move = 1},
+                        Place{.name = "crate", .build = crate, .first = {0, 1.01}},
+                        Place{.name = "bridge", .build = bridge, .first = {0, -0.8}}};
 
 struct Outcome {
   int crushed = 0;
@@ -121,8 +79,9 @@ struct Outcome {
 };
 
 Outcome run(const Place& place, int count, bool last_first) {
-  b2World world({0, -10});
-  b2Body& body = *place.build(world);
+  World all;
+  b2World& world = all.world;
+  b2Body& body = *place.build(all);
   std::vector<std::unique_ptr<Hero>> heroes;
   std::vector<Hero*> party;
   std::vector<Input> inputs;
@@ -142,8 +101,9 @@ Outcome run(const Place& place, int count, bool last_first) {
     const double time = step * frame;
     if (step == 0) inputs[last_first ? inputs.size() - 1 : 0].move = place.move;
     if (step >= 0 && body.GetType() == b2_kinematicBody) {
-      body.SetLinearVelocity(place.velocity(time));
-      body.SetAngularVelocity(static_cast<float>(place.swing * std::cos(1.5 * time)));
+      const Vec2d swing = place.swing.cwiseProduct(Vec2d(std::cos(1.3 * time), std::sin(2 * time)));
+      body.SetLinearVelocity(rounded(place.velocity + swing));
+      body.SetAngularVelocity(static_cast<float>(place.spin * std::cos(1.5 * time)));
     }
     world.Step(static_cast<float>(frame), 8, 3);
     step_together(party, inputs, frame);
