@@ -26,7 +26,7 @@ namespace paperproof::test {
 namespace {
 
 using compare::RandomRun;
-using compare::Scene;
+
 /// How one and the same thing is said in another way of a run: vectors are multiplied, colliders are numbered anew, and
 /// a character is said to be somewhere else, as its shape is written around another origin.
 struct Saying {
@@ -251,7 +251,7 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
     };
     filter->user = is_there.get();
   }
-  // And one that goes through everything: it makes the ties, see "Found and open" in controller/README.md.
+  // And one that turns and goes through everything: it makes the ties, see "Found and open" in controller/README.md.
   const auto ghost = static_cast<MoverIndex>(run.scene.movers.size());
   add(compare::box(-2, -2, 2, 2, ghost), false);
   const Stepper whole = controller_of(def, run.scene.character);
@@ -259,7 +259,7 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
   other.step = [=, kept = is_there](CharacterState& state, const Input& input, const StepContext& context,
                                     StepReport& report) {
     motions->assign(context.movers.begin(), context.movers.end());
-    motions->push_back({{0, 0}, {0.1, 0}});
+    motions->push_back({{0, 0}, {0.1, 0}, 0, 0.1});
     StepContext with = context;
     with.movers = *motions;
     // Another character takes its step before, with the same memory and without a filter.

@@ -460,21 +460,6 @@ TEST(LevelTurning, a_mover_that_keeps_its_angle_is_as_one_that_was_made_turned) 
   EXPECT_GE(dropped, runs / 20);
 }
 
-TEST(LevelTurning, what_the_filter_leaves_out_changes_nothing) {
-  ColliderDef spinner = box(-1, 1.5, 1, 1.6, 0);
-  spinner.filter.category = 2;
-  Played with({{box(-10, -1, 10, 0), spinner}});
-  Played without({{box(-10, -1, 10, 0)}});
-  const ColliderFilter filter{Filter{.mask = 1}};
-  for (int i = 0; i < 120; ++i) {
-    const MoverMotion motion = turning({0, 0}, 6, i);
-    const Input input{.move = 0.1, .jump = i % 40 > 30};
-    with.controller.step(with.state, input, {with.gravity, frame, {&motion, 1}, &filter}, with.scratch, with.report);
-    without.step(input);
-    ASSERT_EQ(with.state, without.state) << i;
-  }
-}
-
 /// The id of the ground was taken for an index of what is near: memory beyond it was read.
 TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_ground) {
   SceneryDef tiles;
