@@ -7,9 +7,8 @@
 
 #include <paperproof/techniques.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,10 @@ using compare::half_height;
 using compare::half_width;
 using compare::Random;
 using test::refusal_by;
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double frame = 1.0 / 60;
 
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
@@ -41,14 +44,6 @@ inline std::vector<Vec2d> on_an_ellipse(Random& random, const Vec2d& centre, con
     outline.push_back(centre + radii.cwiseProduct(compare::towards(angle)));
   }
   return outline;
-}
-
-/// A square of one pixel: the article's single-pixel character.
-inline CharacterShape single_pixel() { return CharacterShape(rectangle(-px / 2, -px / 2, px / 2, px / 2).points); }
-
-/// A point below, and one on each other side.
-inline CharacterShape diamond() {
-  return CharacterShape(std::array{Vec2d{0, -0.5}, Vec2d{0.5, 0}, Vec2d{0, 0.5}, Vec2d{-0.5, 0}});
 }
 
 inline CharacterDef of_shape(const CharacterShape& shape) {

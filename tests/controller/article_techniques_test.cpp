@@ -6,74 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace paperproof::article_tests {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// How a technique that keeps the free component stops.
-struct Stopping {
-  std::string_view kind;
-  double most = 0;         ///< Of the gap that it leaves [m];
-  bool is_a_stop = false;  ///< or the gap is always that of `Tolerances::stop`.
-  bool knows_when = true;  ///< Otherwise its contacts are at the end of the step.
-};
-constexpr std::array all_stopping{
-    Stopping{.kind = "pixel_colour"},
-    Stopping{.kind = "pixel_tile"},
-    Stopping{.kind = "mask"},
-    Stopping{.kind = "bounding_box", .knows_when = false},
-    Stopping{.kind = "discrete", .is_a_stop = true},
-    Stopping{.kind = "penetration_resolution", .most = px, .knows_when = false},
-    Stopping{.kind = "speculative_march", .most = px},
-    Stopping{.kind = "speculative"},
-};
-
-constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-
-TEST(EveryTechnique, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
-  struct Case {
-    Side side;
-    ColliderDef wall;
-    Vec2d out;
-  };
-  const double away = 3 * px;
-  const std::array cases{
-      Case{Side::left, rectangle(-4, -9, -half_width - away, 9), {-1, 0}},
-      Case{Side::right, rectangle(half_width + away, -9, 4, 9), {1, 0}},
-      Case{Side::bottom, rectangle(-9, -4, 9, -half_height - away), {0, -1}},
-      Case{Side::top, rectangle(-9, half_height + away, 9, 4), {0, 1}},
-  };
-  for (const Stopping& by : all_stopping) {
-    SCOPED_TRACE(by.kind);
-    for (const Case& each : cases) {
-      Rig rig(by.kind, {each.wall});
-      const MoveResult& result = rig.move({0, 0}, 10.3 * px * each.out);
-      const Vec2d end = result.position;
-      const double left = away - end.dot(each.out);
-      const double stop = by.is_a_stop ? Tolerances{}.stop : 0;
-      EXPECT_GE(left, stop - rounding);
-      EXPECT_LE(left, by.most + stop + rounding);
-      EXPECT_EQ(end.cwiseAbs().minCoeff(), 0);
-      EXPECT_TRUE(result.velocity.isZero(0));
-      EXPECT_EQ(result.grounded, each.side == Side::bottom);
-      ASSERT_EQ(result.contacts.size(), 1U);
-      EXPECT_EQ(result.contacts[0].side, each.side);
-      EXPECT_EQ(result.contacts[0].normal, -each.out);
-      EXPECT_NEAR(result.contacts[0].fraction, by.knows_when ? (3 - by.most / px / 2) / 10.3 : 1,
-                  by.most / px / 2 / 10.3 + 1e-6);
-      EXPECT_NEAR(result.contacts[0].separation, left, rounding);
-      if (by.most > 0) continue;
-      // Pressing on changes nothing, even by a fraction of a pixel.
-      rig.move(end, 0.1 * px * each.out);
-      EXPECT_LE((result.position - end).norm(), by.is_a_stop ? rounding : 0);
-      EXPECT_EQ(result.contacts.size(), 1U);
-    }
-  }
-}
 
 TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
   const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
@@ -97,7 +33,6 @@ TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at
 }
 
 TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
-  const double infinity = std::numeric_limits<double>::infinity();
   std::vector<std::pair<ArticleKnobs, std::string>> cases{{{.iterations = 0}, "iterations:"},
                                                           {{.points = 6}, "points:"}};
   for (const double bad : {0.0, nan, infinity}) cases.push_back({{.unit = bad}, "unit:"});
@@ -171,6 +106,48 @@ TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
               std::string(kind) + " knows no circles: make a polygon of them");
   EXPECT_EQ(refusal("bounding_box", mover), "");
   EXPECT_EQ(refusal("bounding_box", belt), "bounding_box carries nobody: there is a conveyor");
+}
+
+/// A long double holds every sum of doubles of these sizes, but for less than any gap.
+bool overlap(const Box2& piece, const Vec2d& position, const Box2& character) {
+  const auto wide = [](const Vec2d& v) { return v.cast<long double>(); };
+  return (wide(piece.lower) - wide(position) - wide(character.upper)).maxCoeff() < 0 &&
+         (wide(piece.upper) - wide(position) - wide(character.lower)).minCoeff() > 0;
+}
+
+/// In random scenes.
+TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
+  Random random(41);
+  int hits = 0;
+  int tried = 0;
+  for (int scene = 0; scene < 200; ++scene) {
+    std::vector<ColliderDef> boxes;
+    for (int i = 0; i < 30; ++i) {
+      const Vec2d low = random.point(9);
+      const Vec2d high = low + Vec2d{random.between(0.1, 2), random.between(0.1, 2)};
+      boxes.push_back(rectangle(low.x(), low.y(), high.x(), high.y()));
+    }
+    Rig rig("bounding_box", boxes, {.iterations = 64});
+    const auto free = [&](const Vec2d& position) {
+      return std::none_of(rig.scenery.boxes().begin(), rig.scenery.boxes().end(),
+                          [&](const Box2& piece) { return overlap(piece, position, rig.character.shape.box()); });
+    };
+    for (int sweep = 0; sweep < 100; ++sweep) {
+      const Vec2d start = random.point(9);
+      if (!free(start)) continue;
+      const Vec2d wanted = random.point(4);
+      const Vec2d end = start + wanted;
+      const MoveResult& result = rig.move(start, wanted);
+      ASSERT_TRUE(free(result.position)) << "seed 41, scene " << scene << ", sweep " << sweep;
+      ASSERT_EQ(result.position, result.position.cwiseMax(start.cwiseMin(end)).cwiseMin(start.cwiseMax(end)))
+          << "seed 41, scene " << scene << ", sweep " << sweep;
+      ASSERT_EQ(result.contacts.empty(), result.position == end) << "seed 41, scene " << scene << ", sweep " << sweep;
+      ++tried;
+      hits += result.contacts.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(hits, tried * 3 / 10);
+  EXPECT_LT(hits, tried * 7 / 10);
 }
 
 }  // namespace

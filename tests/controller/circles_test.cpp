@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace paperproof::stepping {
@@ -17,7 +16,6 @@ namespace {
 
 using compare::circle;
 
-constexpr double frame = 1.0 / 60;
 constexpr double foot = 5 * px;  ///< From the middle of the article's character to its end [m].
 
 const CharacterShape article = CharacterShape::article();
@@ -28,7 +26,7 @@ const std::span<const Vec2d> outline = article.hull();
 /// By the edges alone, without a case more than a polygon has.
 double slow_separation(const Vec2d& at, const Circle& circle) {
   const Vec2d centre = circle.centre - at;
-  double outside = std::numeric_limits<double>::infinity();
+  double outside = infinity;
   double inside = -outside;
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2d edge = outline[(k + 1) % outline.size()] - outline[k];
@@ -93,19 +91,6 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
   }
   EXPECT_GT(hits, cases * 3 / 10);
   EXPECT_LT(hits, cases * 7 / 10);
-}
-
-TEST(CircleInFloat, is_landed_on_and_slid_along) {
-  Stepper stepper = in_float({circle({0, -2}, 2)});
-  stepper.at(0.25, 3).steps(120);
-  EXPECT_TRUE(stepper.state.grounded);
-  const double arc = std::sqrt(4 - (0.25 - foot) * (0.25 - foot));  // where the left corner of the foot is
-  EXPECT_NEAR(stepper.state.position.y(), half_height + arc - 2, 1e-3);
-  Stepper bullet = in_float({circle({0, 0}, 1)});
-  const MoveResult& move = bullet.at(-4, 0).fly(100, 0);
-  ASSERT_EQ(move.contacts.size(), 1U);
-  EXPECT_NEAR(move.contacts[0].fraction, (4 - 1 - half_width) / 100, 1e-6);
-  EXPECT_LT(move.position.x(), -1 - half_width);
 }
 
 TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {

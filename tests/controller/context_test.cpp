@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace paperproof::stepping {
@@ -12,8 +11,6 @@ namespace {
 
 using compare::box;
 
-constexpr double frame = 1.0 / 60;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const ColliderDef ground = box(-9, -1, 9, 0);
 
 TEST(Filter, has_the_rule_of_box2d) {
@@ -158,7 +155,7 @@ TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   Scratch of_other = with_mover.sweep().make_scratch();
   EXPECT_TRUE(controller.cast({0, 2}, {0, -5}, {}, own));
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5}, {}, foreign));
-  EXPECT_FALSE(controller.cast({0, std::numeric_limits<double>::infinity()}, {0, -5}, {}, own));
+  EXPECT_FALSE(controller.cast({0, infinity}, {0, -5}, {}, own));
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5e6}, {}, own));
   EXPECT_FALSE(with_mover.sweep().cast({0, 2}, {0, -5}, {}, of_other));
   EXPECT_FALSE(with_mover.sweep().overlaps({0, 0}, {}, of_other));

@@ -5,9 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace paperproof::stepping {
 namespace {
 
@@ -143,7 +140,6 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
     Input input{.move = 0.5};
     StepContext context{{0, -10}, 1.0 / 60};
   };
-  const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Case> cases;
   const auto add = [&cases]() -> Case& { return cases.emplace_back(); };
   for (const double bad : {infinity - infinity, infinity, -infinity}) {

@@ -13,7 +13,6 @@
 namespace paperproof::article_tests {
 namespace {
 
-using grid::Square;
 using grid::Squares;
 
 constexpr double tolerance = Tolerances{}.touch;

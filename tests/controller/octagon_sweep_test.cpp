@@ -1,6 +1,6 @@
-/// octagon_sweep: what no situation of tests/situations can say. In `float`, with few iterations, what its report calls
-/// the ground, what bits a scale keeps, and starts inside a solid.
-#include "controller/stepping_in_float.hpp"
+/// octagon_sweep: what no situation of tests/situations can say. What its report calls the ground, and starts inside a
+/// solid.
+#include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
@@ -10,43 +10,6 @@
 
 namespace paperproof::stepping {
 namespace {
-
-TEST(Float, meets_the_scenes_within_its_own_tolerances) {
-  Stepper bullet = in_float({rectangle(-100 * px, -5 * px, 100 * px, 0)}, of_shape(single_pixel()));
-  const MoveResult& move = bullet.at(0, 30.5 * px).fly(0, -50 * px);
-  ASSERT_EQ(move.contacts.size(), 1U);
-  EXPECT_NEAR(move.contacts[0].fraction, 0.6, 4 * std::numeric_limits<float>::epsilon());
-  EXPECT_GT(move.position.y(), 0.5 * px);
-  EXPECT_LE(move.position.y(), 0.5 * px + tolerances_in_float.touch);
-
-  int met = 0;
-  for (int tenths = 0; tenths <= 900; ++tenths) {
-    const double angle = tenths * 0.1 * degree;
-    const Vec2d n{std::cos(angle), std::sin(angle)};
-    const auto at = [&n](double along_normal, double along_wall) {
-      return Vec2d{along_normal * n.x() - along_wall * n.y(), along_normal * n.y() + along_wall * n.x()};
-    };
-    const double face = std::max(n.dot(Vec2d{10, 10}), n.dot(Vec2d{5, 20})) * px + 1.5;
-    Stepper flyer = in_float({polygon({at(face, -9), at(face + 0.01, -9), at(face + 0.01, 9), at(face, 9)})});
-    const MoveResult& into = flyer.at(0, 0).fly(n.x() * 3, n.y() * 3);
-    if (into.contacts.empty()) continue;
-    ++met;
-    // Vertices up to 9.3 m away are rounded by half of 2^-20 m, which the face turns into as much; then a few ulp.
-    EXPECT_NEAR(into.contacts[0].fraction, 0.5, 4e-6 / 3) << tenths;
-    EXPECT_LT(into.position.dot(n), 1.5) << tenths;
-  }
-  EXPECT_EQ(met, 901) << "of 901 walls in float";
-}
-
-TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
-  for (const int iterations : {1, 2, 3}) {
-    Stepper faller({rectangle(-4, -1, 4, 0)}, {}, {.sweep_iterations = iterations});
-    faller.gravity = {0, -30};
-    faller.at(0, 2).steps(200);
-    EXPECT_EQ(faller.state.velocity.y(), 0) << iterations;
-    EXPECT_TRUE(faller.state.grounded) << iterations;
-  }
-}
 
 /// Two floors, and a step down to a third one.
 TEST(Ground, names_the_collider_that_is_stood_on) {
@@ -91,28 +54,6 @@ TEST(Ground, is_a_wedge_between_two_steep_faces) {
   EXPECT_TRUE(faller.state.grounded);
   EXPECT_EQ(faller.report.move.ground.state, GroundState::wedge);
   EXPECT_EQ(faller.report.move.ground.collider, ColliderIndex{0});
-}
-
-/// The fraction of a flight to a slanted wall, everything multiplied by `scale`.
-double fraction_at(double scale) {
-  std::vector<Vec2d> points;
-  const CharacterShape article = CharacterShape::article();
-  for (const Vec2d& point : article.points()) points.push_back(point * scale);
-  const auto at = [scale](double x, double y) { return Vec2d{x * scale, y * scale}; };
-  Stepper flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, of_shape(CharacterShape(points)));
-  const MoveResult& move = flyer.at(0.3 * scale, 0.2 * scale).fly(7.7 * scale, -1.3 * scale);
-  EXPECT_FALSE(move.contacts.empty()) << scale;
-  return move.contacts.empty() ? -1 : move.contacts[0].fraction;
-}
-
-TEST(Scale, by_a_power_of_two_gives_the_same_bits_of_the_time_of_impact) {
-  const double expected = fraction_at(1);
-  // The wall's left edge goes from (2, -5) to (4, 6): n = (11, -2) / sqrt(125) towards it; the arm (10, -10) px is the
-  // octagon's furthest point along it.
-  const Vec2d n = Vec2d{11, -2} / std::sqrt(125.0);
-  const double distance = n.dot(Vec2d{2, -5} - Vec2d{0.3, 0.2} - Vec2d{10 * px, -10 * px});
-  EXPECT_NEAR(expected, distance / n.dot(Vec2d{7.7, -1.3}), 1e-14);
-  for (int k = -13; k <= 13; ++k) EXPECT_TRUE(same_bits(fraction_at(std::ldexp(1.0, k)), expected)) << "2^" << k;
 }
 
 TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {

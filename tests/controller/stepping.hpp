@@ -9,10 +9,12 @@
 namespace paperproof::stepping {
 
 using article_tests::chain;
+using article_tests::frame;
+using article_tests::infinity;
+using article_tests::nan;
 using article_tests::of_shape;
 using article_tests::px;
 using article_tests::rectangle;
-using article_tests::single_pixel;
 using compare::degree;
 using compare::half_height;
 using compare::half_width;

@@ -71,10 +71,6 @@ struct Together {
       movers[k] = {movers[k].to, places[k].to, movers[k].to_angle, places[k].to_angle};
     step();
   }
-  void step_with_movers_by(const std::vector<Vec2d>& ways) {
-    for (std::size_t k = 0; k < movers.size(); ++k) movers[k] = {movers[k].to, movers[k].to + ways[k]};
-    step();
-  }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
   }

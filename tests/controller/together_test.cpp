@@ -1,21 +1,16 @@
 /// Characters that take turns, where the answer is a formula that tests/situations/together.json cannot say. See also
 /// the scenes of built_in_crowd.cpp, and the random runs of tests/agreement/together_test.cpp.
 #include "controller/together.hpp"
-#include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace paperproof {
 namespace {
 
 using namespace stepping;
 using compare::box;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double frame = 1.0 / 60;
 
 /// Ids, which decide the turns, ascend along the characters or descend, and so does the array.
 struct Order {
@@ -211,29 +206,14 @@ TEST(Together, on_a_plank_that_rocks_two_stand_and_one_that_walks_stops_at_the_o
 
 /// Lists of those in the way.
 TEST(Together, a_step_takes_less_than_one_piece_of_memory_for_each) {
-  std::vector<Vec2d> at;
-  for (int i = 0; i < 12; ++i) at.emplace_back(i * 0.7, half_height + 0.2 * (i % 3));
   for (const MoverIndex mover : {no_mover, MoverIndex{0}}) {
-    Together all =
-        under_gravity(at, {box(-20, -1, 20, 0, mover), box(-4, 0.1, -3, 3, mover == no_mover ? no_mover : 1)});
+    Together all(a_dozen(), {box(-20, -1, 20, 0, mover), box(-4, 0.1, -3, 3, mover == no_mover ? no_mover : 1)});
     std::size_t met = 0;
-    const auto step_200_times = [&] {
-      for (int step = 0; step < 200; ++step) {
-        for (std::size_t i = 0; i < all.inputs.size(); ++i)
-          all.inputs[i] = {.move = (step / 20 + static_cast<int>(i)) % 3 - 1, .jump = step % 40 == static_cast<int>(i)};
-        all.step_with_movers_by({{0, 0.02}, {0.02, 0.02}});
-        for (std::size_t i = 0; i < all.inputs.size(); ++i)
-          for (const Contact& contact : all.reports[i].move.contacts) met += all.is_body(contact.collider);
-      }
+    const auto count = [&] {
+      for (const StepReport& report : all.reports)
+        for (const Contact& contact : report.move.contacts) met += all.is_body(contact.collider);
     };
-    const std::vector<CharacterState> at_first = all.states;
-    const std::vector<MoverMotion> movers_at_first = all.movers;
-    step_200_times();  // scratch and reports come to know what there is
-    all.states = at_first;
-    all.movers = movers_at_first;
-    const std::size_t before = tests::allocations();
-    step_200_times();
-    EXPECT_LT(tests::allocations() - before, 200 * at.size());
+    EXPECT_LT(allocations_once_known(all, count), 200 * all.inputs.size());
     EXPECT_GT(met, 100U);
   }
 }

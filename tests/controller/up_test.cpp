@@ -11,8 +11,6 @@
 namespace paperproof::stepping {
 namespace {
 
-constexpr double frame = 1.0 / 60;
-
 /// With gravity along -up.
 StepContext standing_with(const Vec2d& up) { return {-30 * up, frame, {}, nullptr, up}; }
 
@@ -28,8 +26,8 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
   Stepper stepper({rectangle(-9, -1, 9, 0)});
   stepper.at(0, 3);
   const CharacterState before = stepper.state;
-  for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{std::nan(""), 1}, Vec2d{0, std::nan("")},
-                          Vec2d{HUGE_VAL, 0}, Vec2d{1, 1}, Vec2d{0, 1 + 1e-14}}) {
+  for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{nan, 1}, Vec2d{0, nan}, Vec2d{infinity, 0}, Vec2d{1, 1},
+                          Vec2d{0, 1 + 1e-14}}) {
     EXPECT_EQ(step_with(stepper, up), StepStatus::invalid_input) << up.transpose();
     EXPECT_EQ(stepper.sweep().move(stepper.state, {1, 0}, standing_with(up), stepper.scratch, stepper.report),
               StepStatus::invalid_input);

@@ -268,7 +268,7 @@ json computed(const json& document, const Values& values) {
 std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& text = situation.text;
   const ordered_json& file = situation.shared;
-  refuse_other_keys(text, " name for let scene expect contender breaks because ", "a situation");
+  refuse_other_keys(text, " name for let scene expect contender in_float knobs breaks because ", "a situation");
   for (const std::string clause : text.value("breaks", ordered_json::array()))
     if (!compare::clause_named(clause)) throw std::invalid_argument(situation.name + ": no such clause: " + clause);
   std::vector<SituationCase> cases;
@@ -290,6 +290,8 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
                        .values = values,
                        .scene = computed(scene, values),
                        .contender = contender,
+                       .in_float = text.value("in_float", false),
+                       .knobs = text.value("knobs", std::vector<std::string>{}),
                        .expected = json(text.at("expect")),
                        .breaks = text.value("breaks", std::vector<std::string>{})});
   }

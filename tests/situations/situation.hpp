@@ -25,6 +25,8 @@ struct SituationCase {
   Values values;         ///< Of `for` and `let`.
   nlohmann::json scene;  ///< As a scene file.
   std::string contender;
+  bool in_float = false;            ///< It computes in `float`.
+  std::vector<std::string> knobs;   ///< Those that are turned: `name=value`.
   nlohmann::json expected;          ///< A list, formulas not computed.
   std::vector<std::string> breaks;  ///< Clauses that the judge finds broken, because that is known and open.
 };

@@ -36,6 +36,13 @@ std::vector<json> records_of(const std::string& path) {
   return records;
 }
 
+/// How the command is told of them.
+std::string options_of(const SituationCase& situation) {
+  std::string options = " --contender " + situation.contender + (situation.in_float ? " --scalar float" : "");
+  for (const std::string& knob : situation.knobs) options += " --knob " + knob;
+  return options;
+}
+
 class Situations : public ::testing::TestWithParam<Situation> {
  protected:
   /// Files of this test: its scene and its trace, kept where it fails.
@@ -48,7 +55,13 @@ class Situations : public ::testing::TestWithParam<Situation> {
     std::ofstream(stem() + ".json") << situation.scene.dump(1);
     const compare::Scene scene = compare::load_scenes(stem() + ".json").front();
     const Scenery scenery(scene.scenery);
-    compare::Lane lane(situation.contender, compare::ScalarKind::binary64, scene, scenery, {}, "free", stem(),
+    std::vector<compare::KnobSetting> knobs;
+    for (const std::string& knob : situation.knobs) {
+      knobs.push_back(compare::parse_knob(knob));
+      ASSERT_TRUE(compare::has_knob(situation.contender, knobs.back().name)) << knob;
+    }
+    const auto scalar = situation.in_float ? compare::ScalarKind::binary32 : compare::ScalarKind::binary64;
+    compare::Lane lane(situation.contender, scalar, scene, scenery, {.knobs = knobs}, "free", stem(),
                        {.steps = scene.steps});
     ASSERT_TRUE(lane.running()) << lane.row().reason;
     const compare::Script script = script_of(scene);
@@ -56,10 +69,10 @@ class Situations : public ::testing::TestWithParam<Situation> {
     for (int step = 0; step < scene.steps && lane.running(); ++step) lane.step(step, cursor.at(step));
     ASSERT_TRUE(lane.running()) << lane.row().reason;
     lane.finish();
-    const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, "double");
+    const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, name_of(scalar));
     for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
     std::filesystem::remove(trace);
-    if (situation.contender != "octagon_sweep") return;
+    if (situation.contender != "octagon_sweep" || situation.in_float) return;
     for (const auto& [clause, breach] : lane.breaches()) {
       broken_.emplace(name_of(clause));
       EXPECT_EQ(std::count(situation.breaks.begin(), situation.breaks.end(), name_of(clause)), 1)
@@ -78,8 +91,8 @@ TEST_P(Situations, come_to_what_they_must) {
   for (std::size_t k = 0; k < count; ++k) {  // in even strides, from the first: it is often the cheapest
     const SituationCase& situation = cases[k * cases.size() / count];
     run(situation);
-    ASSERT_FALSE(HasFailure()) << GetParam().name << situation.title << "\npaperproof compare " << stem()
-                               << ".json --contender " << situation.contender << " --trace STEM";
+    ASSERT_FALSE(HasFailure()) << GetParam().name << situation.title << "\npaperproof compare " << stem() << ".json"
+                               << options_of(situation) << " --trace STEM";
   }
   std::filesystem::remove(stem() + ".json");
   if (count < cases.size()) return;  // it may be another case that breaks it
