@@ -57,14 +57,6 @@ TEST(Blocking, small_features_on_a_floor_leave_no_hole_in_it) {
   }
 }
 
-TEST(Blocking, a_speck_of_two_millimetres_stops_a_character_above_it) {
-  for (const SceneryMode mode : modes) {
-    ReferenceWorld world(level({box(-0.001, -0.002, 0.001, 0)}), {}, {0, 1.5}, {.mode = mode});
-    for (int k = 0; k < 10; ++k) world.step({0, -60}, frame);
-    EXPECT_GT(world.position().y(), half_height);
-  }
-}
-
 const Vec2d up{0, 1};
 
 ColliderDef one_way(ColliderDef def, const Vec2d& front) {

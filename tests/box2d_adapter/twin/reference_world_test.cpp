@@ -1,4 +1,5 @@
-/// Characters in the twin: how they go, what moves there, and what a step reports.
+/// Characters in the twin: what moves there, and what a step reports. How they go by formulas is in
+/// tests/situations/box2d.json.
 #include "collider_lookup.hpp"
 #include "levels.hpp"
 
@@ -41,31 +42,6 @@ TEST(ReferenceWorld, cites_the_package_and_says_truly_whether_its_asserts_are_on
   } else {
     EXPECT_EQ(box2d_asserts(), "unknown");
   }
-}
-
-TEST(ReferenceWorld, placed_at_the_rest_gap_it_touches_both_tiles_in_the_next_step_and_a_jump_leaves_at_once) {
-  ReferenceWorld world(level({box(-1, -1, 0, 0), box(0, -1, 1, 0)}), {}, {0, 3});
-  world.place(standing, {0, 0});
-  const TwinStep& step = world.step(gravity * frame, frame);
-  EXPECT_TRUE(step.grounded);
-  ASSERT_EQ(colliders_of(step), (std::vector<ColliderIndex>{0, 1}));
-  EXPECT_EQ(step.contacts[0].side, Side::bottom);
-  EXPECT_EQ(step.contacts[0].fraction, 0);
-  EXPECT_NEAR(step.contacts[0].separation, rest_gap, 1e-4);
-  EXPECT_NEAR(world.position().y(), standing.y(), 1e-4);
-  const TwinStep& jump = world.step({0, 12}, frame);
-  EXPECT_FALSE(jump.grounded);
-  EXPECT_TRUE(jump.contacts.empty());
-}
-
-TEST(ReferenceWorld, box2d_moves_two_metres_per_step_and_no_more_and_says_so) {
-  ReferenceWorld world(level({box(-5, -1000, 5, -999)}), {}, {0, 0});
-  const double allowed = 0.999 * max_travel_per_step / frame;
-  EXPECT_FALSE(world.step({allowed, 0}, frame).capped);
-  EXPECT_NEAR(world.position().x(), allowed * frame, 1e-5);
-  world.place({0, 0}, {0, 0});
-  EXPECT_TRUE(world.step({3 * allowed, 0}, frame).capped);
-  EXPECT_NEAR(world.position().x(), max_travel_per_step, 1e-5);
 }
 
 TEST(ReferenceWorld, says_what_it_made_of_the_scenery_rounded_to_float) {
@@ -145,34 +121,6 @@ TEST(TwinMovers, are_refused_where_they_are_not_one_for_each_or_not_finite_and_f
   EXPECT_FALSE(turned({{0, 1.5}}));
   EXPECT_TRUE(turned({{0, 1.6}})) << "a quarter of a circle";
   EXPECT_THROW(turned(std::vector<MoverTurn>(2)), InvalidDefinition);
-}
-
-TEST(Characters, two_bullets_do_not_pass_each_other_and_both_name_the_other) {
-  // 110 m/s is below the travel cap: 1.83 m in a step, and half of the 3.375 m between them is less.
-  ReferenceWorld world(floor(), {}, std::array{Vec2d(-2, 5), Vec2d(2, 5)});
-  const std::vector<TwinWish> wishes{{.velocity = {110, 0}}, {.velocity = {-110, 0}}};
-  const std::span<const TwinStep> steps = world.step_all(wishes, frame);
-  EXPECT_GE(world.position(1).x() - world.position(0).x(), 2 * half_width);
-  for (const std::size_t k : {0U, 1U}) {
-    ASSERT_EQ(steps[k].met.size(), 1U);
-    EXPECT_EQ(steps[k].met[0].other, 1 - k);
-    EXPECT_EQ(steps[k].met[0].side, k == 0 ? Side::right : Side::left);
-    EXPECT_NEAR(steps[k].met[0].fraction, (4 - 2 * half_width) / (220 * frame), touch_gap / (220 * frame));
-    EXPECT_TRUE(steps[k].contacts.empty());
-  }
-  EXPECT_EQ(steps[0].met[0].normal, -steps[1].met[0].normal);
-}
-
-TEST(Characters, who_stands_on_another_is_grounded_and_nothing_carries_it) {
-  ColliderDef belt = box(-20, -1, 20, 0);
-  belt.surface_speed = 1;
-  ReferenceWorld world(level({belt}), {}, std::array{standing, Vec2d(0, 3 * half_height + 2 * rest_gap)});
-  const std::vector<TwinWish> fall(2, {.velocity = {0, -0.5}});
-  world.step_all(fall, frame);
-  const std::span<const TwinStep> steps = world.step_all(fall, frame);
-  EXPECT_TRUE(steps[0].ground && steps[1].grounded);
-  EXPECT_FALSE(steps[1].ground);
-  EXPECT_TRUE(steps[1].contacts.empty());
 }
 
 TEST(Characters, another_number_of_velocities_is_refused_and_one_is_placed) {
