@@ -1,4 +1,5 @@
-/// Bodies that Box2D moves, free and joined, against closed forms; bad definitions never reach Box2D.
+/// Bodies that Box2D moves, free and joined, against closed forms, as in tests/situations/box2d.json; bad definitions
+/// never reach Box2D.
 #include "levels.hpp"
 
 #include <paperproof/box2d/body_world.hpp>
@@ -42,16 +43,6 @@ TEST(BodyWorld, equal_masses_exchange_their_velocities_and_a_heavy_one_goes_on) 
   }
 }
 
-TEST(BodyWorld, friction_of_a_body_and_of_scenery_mix_to_the_root_of_their_product) {
-  // On the flat a body slows down by mu g, mu = sqrt(0.45 * 0.2) = 0.3: from 3 m/s it stops within 1.5 m, within
-  // Box2D's gap above the ground. A slack spring changes nothing.
-  Bodies bodies({box(-9, -1, 9, 0), box(0, rest_gap, 1, 1, 0)}, {{.friction = 0.45, .velocity = {3, 0}}}, gravity,
-                {spring(1e-3)});
-  for (int n = 0; n < 120; ++n) bodies.step();
-  EXPECT_NEAR(bodies.motions[0].to.x(), 3 * 3 / (2 * 0.3 * 10), 0.05);
-  EXPECT_NEAR(bodies.motions[0].to.y(), 0, 0.006);
-}
-
 TEST(BodyWorld, bad_definitions_and_steps_are_refused_before_box2d_sees_them) {
   const std::vector<ColliderDef> colliders{box(-9, -9, 9, -8), box(0, 0, 1, 1, 0)};
   std::vector<BodyDef> bad{{.velocity = {nan, 0}}};
@@ -92,23 +83,6 @@ TEST(Rod, keeps_its_length_and_swings_like_a_pendulum) {
   }
   EXPECT_NEAR(farthest, 0.2, 0.004);
   EXPECT_NEAR(half, std::numbers::pi * std::sqrt(rod.length / 10), 0.05);
-}
-
-TEST(RailAndPin, leave_a_body_one_direction_and_hold_two_to_each_other) {
-  Bodies rail = joined({{.velocity = {3, 4}}}, {{.kind = Kind::prismatic, .axis = {2, 0}}});
-  Bodies held = joined({{.velocity = {3, 4}}}, {{.kind = Kind::revolute, .point = {0.5, 0.5}}});
-  Bodies both =
-      joined({{.mass = 1, .velocity = {4, 0}}, {.mass = 3}}, {{.kind = Kind::revolute, .other = 1, .point = {2, 0.5}}});
-  for (int n = 1; n <= 60; ++n) {
-    rail.step();
-    held.step();
-    both.step();
-    EXPECT_LT((rail.motions[0].to - Vec2d(3 * n * frame, 0)).norm(), 1.5e-4) << n;
-    EXPECT_LT(held.motions[0].to.norm(), 0.01) << n;
-    EXPECT_LT((both.motions[0].to - both.motions[1].to).norm(), 0.01) << n;
-  }
-  EXPECT_NEAR(both.motions[1].to.x(), 1, 0.02) << "momentum: 1 kg of 4 kg at 4 m/s";
-  EXPECT_NEAR(both.motions[1].to.y(), -10 * frame * frame * 60 * 61 / 2, 0.01);
 }
 
 TEST(Joints, that_box2d_must_not_see_are_refused) {
