@@ -11,7 +11,6 @@
 namespace paperproof::test {
 namespace {
 
-using compare::Breach;
 using compare::Clause;
 using compare::Family;
 using compare::Findings;

@@ -10,7 +10,6 @@
 #include <paperproof/together.hpp>
 
 #include <bit>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

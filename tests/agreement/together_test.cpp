@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 namespace paperproof::test {
 namespace {

@@ -119,22 +119,5 @@ TEST_P(OneWay, who_jumps_up_through_it_lands_on_it_and_drops_through_it_and_says
   }
 }
 
-TEST(OneWayDirections, a_wall_blocks_from_the_side_that_it_faces_only_and_along_it_nothing_blocks) {
-  struct Case {
-    Vec2d front;
-    double start;
-    bool blocks;
-  };
-  for (const Case& one : {Case{{-1, 0.3}, -2, true}, {{-1, 0.3}, 2, false}, {up, -2, false}}) {
-    ReferenceWorld world(level({one_way(chain({{0, -4}, {0, 4}}), one.front)}), {}, {one.start, 0});
-    for (int k = 0; k < 60; ++k) world.step({-5 * one.start, 0}, frame);
-    if (one.blocks)
-      EXPECT_LT(world.position().x(), 0);
-    else
-      EXPECT_NEAR(world.position().x(), -4 * one.start, 1e-4);
-    EXPECT_EQ(world.size().fixtures == 0, one.front == up);
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::box2d::test
