@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace paperproof::compare {
 namespace {
@@ -154,7 +155,16 @@ class PeerContender final : public Contender {
         throw NotApplicable(fmt::format("{} does not say that it can: {}", engine_, feature.name));
     header_.scalar = greeting.value("scalar", header_.scalar);
     header_.path_exact = greeting.value("path_exact", false);
+    if (greeting.contains("points")) header_.points = shape_said(greeting["points"]);
     header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin)}};
+  }
+
+  /// The judge looks at this one then: a capsule that fits into the octagon stands deeper than the octagon would.
+  static std::vector<Vec2d> shape_said(const Json& said) {
+    std::vector<Vec2d> points;
+    std::transform(said.begin(), said.end(), std::back_inserter(points), point_of);
+    const CharacterShape shape(points);
+    return {shape.hull().begin(), shape.hull().end()};
   }
 
   /// @throws NotApplicable for a refusal.

@@ -52,7 +52,7 @@ class SceneRun {
             std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, planning_, mode, stem, replay));
         twins_.back()->row().findings.push_back("twin of " + name);
       }
-    for (const auto& lane : lanes_) lane->expect(answers());
+    for (const auto& lane : lanes_) lane->expect(answers(*lane));
     try {
       cursor_.emplace(scene_, script_);
     } catch (const NotApplicable& reason) {
@@ -93,9 +93,15 @@ class SceneRun {
     options_.progress(static_cast<double>(done) / static_cast<double>(steps_));
   }
 
-  /// The scene's, where it is run as it is.
-  [[nodiscard]] std::vector<Answer> answers() const {
-    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free;
+  /// The scene's, where it is run as it is, with its own character: a peer may say that it has another shape.
+  [[nodiscard]] std::vector<Answer> answers(const Lane& lane) const {
+    if (!lane.running()) return {};
+    const std::span<const Vec2d> hull = scene_.character.shape.hull();
+    const double rounding = 1e-5 * scene_.character.shape.box().upper.norm();  // of shapes in float
+    const bool own_shape =
+        !std::equal(hull.begin(), hull.end(), lane.header().points.begin(), lane.header().points.end(),
+                    [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
+    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && !own_shape;
     return as_it_is ? scene_.answers : std::vector<Answer>{};
   }
 

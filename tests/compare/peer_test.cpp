@@ -60,6 +60,8 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
            {"echo hello", "thin_platform", "failed", "the peer's answer:1:1: expected JSON"},
            {"cat", "thin_platform", "failed", "/: expected exactly one of name, refuses, characters"},
            {"kill -SEGV $$", "thin_platform", "failed", "ended with status 139: Segmentation fault"},
+           {R"(echo "{\"name\":\"p\",\"version\":\"1\",\"points\":[[0,0],[1,0],[0,0]]}")", "thin_platform", "failed",
+            "point 2 of the character repeats point 0"},
            {R"(echo "{\"refuses\":\"no papers\"}")", "thin_platform", "not_applicable", "no papers"},
            {greets, "lift_up", "not_applicable", "p 1 does not say that it can: movers"},
            {greets, "thin_platform", "failed", "step 0: the peer ended with status 0"},
