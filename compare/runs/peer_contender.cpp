@@ -218,6 +218,9 @@ class PeerContender final : public Contender {
     record.jumping = state.jumping;
     record.ride = recorded_ride(state.ride);
     record.stuck = said.value("stuck", false);
+    for (const Json& id : said.value("dropped_through", Json::array()))
+      record.dropped_through.push_back(collider_in({{"collider", id}}));
+    std::sort(record.dropped_through.begin(), record.dropped_through.end());
     for (const Json& contact : said.value("contacts", Json::array())) {
       const Vec2d normal = point_of(contact["normal"]);
       record.contacts.push_back({.collider = collider_in(contact),
