@@ -58,11 +58,13 @@ check_part(box2d_adapter/twin "${may_include_twin}" box2d_adapter/twin/src)
 check_part(compare "${may_include_compare}" compare)
 check_part(compare/oracle "${may_include_oracle}" compare)
 check_part(compare/continuous "${may_include_oracle}" compare)
+# A peer is a program of its own: it knows its engine, and nothing of this project.
+check_part(compare/peers "${standard}|<(chipmunk|nlohmann)/.*>|<unistd[.]h>" compare/peers)
 
 # Inside `compare`, of its own folders each may include itself and those that are listed:
 #   records  <-  oracle  <-  scenes  <-  metrics  <-  runs  <-  studies  <-  command,  records  <-  report  <-  studies,
 #   scenes  <-  continuous  <-  runs,   runs  <-  campaign  <-  command,   runs  <-  benchmarks
-set(folders records oracle scenes continuous metrics runs report studies campaign benchmarks command)
+set(folders records oracle scenes continuous metrics runs report studies campaign benchmarks command peers)
 file(GLOB sources RELATIVE "${ROOT}/compare" "${ROOT}/compare/*/*.cpp")
 foreach(source IN LISTS sources)
   cmake_path(GET source PARENT_PATH folder)
@@ -81,6 +83,7 @@ set(studies_may ${runs_may} runs report)
 set(campaign_may ${runs_may} runs)
 set(benchmarks_may ${runs_may} runs)
 set(command_may ${studies_may} studies campaign)
+set(peers_may "")
 foreach(folder IN LISTS folders)
   file(GLOB_RECURSE files "${ROOT}/compare/${folder}/*.[ch]pp")
   foreach(file IN LISTS files)
