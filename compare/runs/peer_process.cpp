@@ -93,6 +93,8 @@ void PeerProcess::send(const std::string& text, Clock::time_point until) {
       done += static_cast<std::size_t>(put);
     else if (errno == EAGAIN)
       wait(POLLOUT, until);
+    else if (errno == EPIPE || errno == ECONNRESET)
+      return;  // it has ended, and may have answered before
     else if (errno != EINTR)
       give_up("");
   }
