@@ -46,7 +46,7 @@ std::string slope_in_words(const Row& curve) {
 
 std::string who_ran(const Row& row, const std::vector<std::string>& varied) {
   std::string name = row.contender;
-  const bool is_float = row.scalar == "float" && !name.starts_with("box2d");
+  const bool is_float = row.scalar == "float" && row.engine.empty() && !name.starts_with("box2d");
   std::istringstream knobs(row.knob);
   for (std::string knob; knobs >> knob;)
     if (std::find(varied.begin(), varied.end(), knob.substr(0, knob.find('='))) == varied.end()) name += ' ' + knob;

@@ -97,7 +97,8 @@ std::string words_of_front(const std::string& motion, const std::vector<Row>& ro
     if (is_guaranteed(row) && counts(row) && (best == nullptr || *row.error_max_m < *best->error_max_m)) best = &row;
     if (!row.on_front.value_or(false)) continue;
     const std::string who =
-        row.contender + (row.scalar == "float" && !row.contender.starts_with("box2d") ? " (float)" : "");
+        row.contender +
+        (row.scalar == "float" && row.engine.empty() && !row.contender.starts_with("box2d") ? " (float)" : "");
     if (std::find(front.begin(), front.end(), who) == front.end()) front.push_back(who);
   }
   std::string text = fmt::format("{}: on the front: {}.", motion, fmt::join(front, ", "));
