@@ -34,7 +34,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
 /// The surface that carries the character here: of the collider that it rides already, or, where it does not stand on
 /// anything else, the one of the others whose normal points up most.
-[[nodiscard]] inline std::optional<TouchedSurface> carrier_here(Step& step, ColliderIndex ridden, bool walkable_only) {
+[[nodiscard]] inline std::optional<TouchedSurface> carrier_here(Step& step, ColliderIndex ridden) {
   std::optional<TouchedSurface> carrier;
   bool rides = false;
   bool stands_still = false;
@@ -42,7 +42,6 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
     const std::optional<TouchedSurface> surface = touched_here(step, piece);
     if (!surface || step.up.up_of(surface->normal) <= 0) return;
     const Vec2 normal = surface->normal;
-    if (walkable_only && !walkable(step, normal)) return;
     if (!carries(step, piece)) {
       stands_still = stands_still || walkable(step, normal);
       return;
@@ -71,11 +70,9 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
   const StepRequest& request = step.request;
   const Ride& ride = request.state.ride;
   constexpr Real noise = std::numeric_limits<Real>::epsilon() * 4;
-  const bool riding = ride.ground != Ride::none;
-  const bool at_rest = step.up.across_of(request.velocity) == 0 && step.up.up_of(request.velocity) <= 0;
   std::optional<TouchedSurface> ground;
-  if (riding || at_rest) ground = carrier_here(step, ride.ground, !riding);
-  if (riding && ground && collider_of(step, ground->piece) != ride.ground) ground.reset();
+  if (ride.ground != Ride::none) ground = carrier_here(step, ride.ground);
+  if (ground && collider_of(step, ground->piece) != ride.ground) ground.reset();
   Vec2 carried = Vec2::Zero();
   if (ground) carried = ground_velocity(step, ground->piece, ground->normal);
   if (!ground || falls_away(step, carried)) {
@@ -83,11 +80,9 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
     return request.displacement + ride.velocity * request.dt;
   }
   begin_to_ride(step, *ground);
-  if (riding) {
-    const Vec2 there = offset(step, ground->piece) + ride.place;
-    const Real size = std::max(there.cwiseAbs().maxCoeff(), offset(step, ground->piece).cwiseAbs().maxCoeff());
-    if ((there - step.position).cwiseAbs().maxCoeff() <= noise * size) step.moving.ride.place = ride.place;
-  }
+  const Vec2 there = offset(step, ground->piece) + ride.place;
+  const Real size = std::max(there.cwiseAbs().maxCoeff(), offset(step, ground->piece).cwiseAbs().maxCoeff());
+  if ((there - step.position).cwiseAbs().maxCoeff() <= noise * size) step.moving.ride.place = ride.place;
   step.velocity += carried;
   return request.displacement + ground_rest(step, ground->piece, ground->normal);
 }
@@ -101,7 +96,7 @@ PAPERPROOF_COLD inline void begin_to_ride(Step& step, const TouchedSurface& grou
 /// Without gravity nothing holds the character to ground that it only touches: that does not carry it.
 PAPERPROOF_COLD inline void end_ride(Step& step) {
   if (!step.result.grounded || step.result.contacts.empty()) return;
-  const std::optional<TouchedSurface> ground = carrier_here(step, step.moving.ride.ground, false);
+  const std::optional<TouchedSurface> ground = carrier_here(step, step.moving.ride.ground);
   if (!ground) return;
   const ColliderIndex collider = collider_of(step, ground->piece);
   step.result.ride.ground = collider;

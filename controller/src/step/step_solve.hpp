@@ -180,17 +180,19 @@ PAPERPROOF_INLINE void find_ground(Step& step) {
 }
 
 /// Lands on the ground that the character touches at the end of a step in which no sweep hit it, and reports it:
-/// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion leaves
-/// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
-/// ceiling. Nor is a one-way surface that the step began beneath.
+/// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion does
+/// not enter stops nothing, and carries nobody: a character that jumps and hits a ceiling at once stands again, and its
+/// only contact is the ceiling. Nor does a one-way surface that the step began beneath.
 PAPERPROOF_COLD inline void land(Step& step, const Vec2& wanted) {
   if (lies_still(step, wanted)) return;
   step.memory.surfaces.clear();
   for_each_near(step, {step.position, step.position}, [&](PieceIndex piece) {
     const std::optional<TouchedSurface> ground = stood_on(step, piece);
-    if (!ground || !may_block(step, piece, step.start, Real(0))) return;
+    if (!ground || !may_block(step, piece, step.start, Real(0)) ||
+        !enters(step.movers.relative(wanted, ground->mover, Real(0)), ground->normal))
+      return;
     step.memory.surfaces.push_back(*ground);
-    if (enters(step.movers.relative(wanted, ground->mover, Real(0)), ground->normal)) report_touched(step, piece);
+    report_touched(step, piece);
   });
   if (step.memory.surfaces.empty()) return;
   DesiredMotion desired = desired_motion(step);
