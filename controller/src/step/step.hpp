@@ -86,13 +86,6 @@ struct MoverState {
   StepStatus status_before_crush = StepStatus::moved;  ///< the status until then.
 };
 
-/// A free position, and the corner of the path from which it is reached.
-struct FreePosition {
-  Real distance;  ///< From where the character is [m].
-  Vec2 position;
-  std::size_t corner;
-};
-
 /// All that a step knows.
 struct Step {
   // As an aggregate, all of it would be zero first: an eighth of a step.

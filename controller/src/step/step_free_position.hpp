@@ -41,30 +41,23 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return pieces_for(step, query, [&](PieceIndex piece) { return may_pass(step, piece, corner); });
 }
 
-/// Takes a free position that is reached from a corner, if it is nearer than the one found so far.
-inline void search_from(Step& step, std::size_t corner, Real gap, FreePosition& found) {
-  FreePositionQuery query = query_from(step, corner, gap, found.distance);
-  if (!(query.begin < 1)) return;
-  const std::span<const PieceIndex> pieces = pieces_from(step, corner, query);
-  if (const std::optional<Vec2> nearest = nearest_free(step.space, pieces, query))
-    found = {length_of(Vec2(*nearest - step.position)), *nearest, corner};
-}
-
+/// The nearest free position that is reached from a corner.
 /// @param gap that is left around the character [m].
-[[nodiscard]] inline std::optional<FreePosition> nearest_free_position(Step& step, Real gap, Real reach,
-                                                                       std::size_t corners) {
+[[nodiscard]] inline std::optional<Vec2> nearest_free_from(Step& step, std::size_t corner, Real gap, Real reach) {
   // The gap to a mover comes on top of its displacement.
   constexpr Real beyond = 16 * tolerances.stop;
   const Real whole = reach + beyond;
   // Mostly there is one nearby, among few pieces.
   const Real near = std::min<Real>(whole, step.space.hull_box().size().maxCoeff());
+  std::optional<Vec2> nearest;
   for (const Real radius : {near, whole}) {
-    FreePosition found{radius, Vec2::Zero(), corners};
-    for (std::size_t corner = corners; corner-- > 0;) search_from(step, corner, gap, found);
-    if (found.corner < corners) return found;
-    if (near == whole) break;
+    FreePositionQuery query = query_from(step, corner, gap, radius);
+    if (!(query.begin < 1)) break;
+    const std::span<const PieceIndex> pieces = pieces_from(step, corner, query);
+    nearest = nearest_free(step.space, pieces, query);
+    if (nearest || near == whole) break;
   }
-  return std::nullopt;
+  return nearest;
 }
 
 /// Whether a piece pushes or comes nearer, and is as near as a contact then. A face that a neighbour covers is none,
@@ -131,19 +124,18 @@ template <class Holds>
 
 /// A character that arrives later at a place where it was stopped may touch nothing there. It then goes on in the same
 /// direction, no faster than before, until something is as near as a contact.
-inline void extend_until_contact(Step& step, FreePosition& found) {
-  const PathPoint from = step.result.path[found.corner];
-  if (!(step.time > from.fraction) || next_near(step, found.corner, {found.position, 1}, {})) return;
-  const Vec2 displacement = found.position - from.position;
+inline void extend_until_contact(Step& step, std::size_t corner, Vec2& end) {
+  const PathPoint from = step.result.path[corner];
+  if (!(step.time > from.fraction) || next_near(step, corner, {end, 1}, {})) return;
+  const Vec2 displacement = end - from.position;
   const Real high = (1 - from.fraction) / (step.time - from.fraction);
   const Real reach = length_of(Vec2(Vec2(from.position) + displacement * high - step.position));
-  FreePositionQuery query = query_from(step, found.corner, Real(0), reach);
-  const std::span<const PieceIndex> pieces = pieces_from(step, found.corner, query);
+  FreePositionQuery query = query_from(step, corner, Real(0), reach);
+  const std::span<const PieceIndex> pieces = pieces_from(step, corner, query);
   const auto is_reached = [&](Real part) {
     return reaches(step.space, pieces, query, Vec2(from.position + displacement * part));
   };
-  found.position =
-      from.position + displacement * last_where(1, high, length_of(displacement), tolerances.hit, is_reached);
+  end = from.position + displacement * last_where(1, high, length_of(displacement), tolerances.hit, is_reached);
 }
 
 /// Takes back the path since a corner, and its contacts.
@@ -188,7 +180,8 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
   push_corner(step, step.time);
 }
 
-/// Moves to the nearest free position. False if there is none: then nothing has changed.
+/// Moves to the nearest free position that is reached from the last corner from which any is: until there the motion is
+/// that of every other step. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
 /// @param corners of the path at which the motion may begin: so many, the first ones.
 [[nodiscard]] inline bool move_to_free_position(Step& step, Real reach, std::size_t corners) {
@@ -196,16 +189,18 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = step.moving.ignored;
   step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
-  std::optional<FreePosition> found = nearest_free_position(step, tolerances.hit * Real(least_gap), reach, corners);
+  std::optional<Vec2> found;
+  std::size_t corner = corners;
+  while (!found && corner-- > 0) found = nearest_free_from(step, corner, tolerances.hit * Real(least_gap), reach);
   if (found) {
     // Mostly there is also one with the gap that is kept everywhere else.
-    if (const auto ample = nearest_free_position(step, tolerances.stop, reach, corners)) found = ample;
+    if (const auto ample = nearest_free_from(step, corner, tolerances.stop, reach)) found = ample;
+    extend_until_contact(step, corner, *found);
   }
-  if (found) extend_until_contact(step, *found);
   step.moving.ignored = ignored_before;
   if (!found) return false;
-  go_back_to(step, found->corner);
-  go_to_free_position(step, found->corner, found->position);
+  go_back_to(step, corner);
+  go_to_free_position(step, corner, *found);
   return true;
 }
 
