@@ -16,7 +16,9 @@ rm -rf "$3" && mkdir -p "$3" && cd "$3"
 # A study of minutes: it ends when nobody reads on after the first rows.
 mkfifo endless.jsonl
 head -n 3 endless.jsonl >stability.jsonl &
+exec 3>endless.jsonl  # until it reads: a pipe without a reader is replaced by a file
 "$command" stability --grid quick --contender octagon_sweep --quiet --rows endless.jsonl || [[ $? -eq 141 ]]
+exec 3>&-
 wait
 rm endless.jsonl
 grep -q '"drift_ok":' stability.jsonl
