@@ -10,7 +10,7 @@ target=sanitized_tests
 left_out=(--label-exclude '^windows$')
 windows=
 case ${1-} in
-  "") peers=yes ;;
+  "") ;;
   --windows)
     left_out=()
     windows=yes
@@ -33,10 +33,6 @@ source compare/packages.sh
 install_missing "${build_packages[@]}" "${test_packages[@]}" ${windows:+"${windows_test_packages[@]}"}
 mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
 (install_missing "${optional[@]}") || echo "going on without ${optional[*]}: tests that need it are skipped"
-
-if [[ -n ${peers:-} ]] && command -v npm >/dev/null && [[ ! -d compare/peers/node_modules ]]; then
-  (cd compare/peers && npm ci --no-audit --no-fund) || echo "going on without the engines of compare/peers: their test is skipped"
-fi
 
 jobs=$(build_jobs)
 {
