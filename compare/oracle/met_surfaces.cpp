@@ -31,7 +31,8 @@ struct Touching {
   const SolidsInStep& solids;
   const Contact& contact;
 
-  /// Who has come past a rim is beside it. @param turned it may have another normal there: that of a circle turns.
+  /// Whether the surface is touched there. A character past its rim does not touch it.
+  /// @param turned the normal may differ there: that of a circle turns.
   [[nodiscard]] bool is_at(const PathPoint& at, bool turned) const {
     const std::vector<NearPart> parts = near(at);
     return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
@@ -61,8 +62,7 @@ struct Touching {
   [[nodiscard]] bool enters(const PathPoint& from, const PathPoint& to) const {
     return relative(from, to).dot(contact.normal) < -touched;
   }
-  /// Whether a leg leads along some face of what was touched there, and against the normal that was touched: past a
-  /// rim.
+  /// Whether a leg leads past a rim: against the normal that was touched, and along another face of the same part.
   [[nodiscard]] bool leaves_past_rim(const PathPoint& from, const PathPoint& to) const {
     if (!enters(from, to)) return false;
     const Vec2d way = relative(from, to);
@@ -82,7 +82,7 @@ struct Touching {
   [[nodiscard]] std::vector<NearPart> near(const PathPoint& at) const {
     return solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
   }
-  /// A leg as what is touched sees it.
+  /// The displacement of a leg relative to the surface.
   [[nodiscard]] Vec2d relative(const PathPoint& from, const PathPoint& to) const {
     return to.position - from.position -
            (to.fraction - from.fraction) * solids.moved(contact.collider, contact.point, contact.fraction);
@@ -222,8 +222,8 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
   for (const Contact& touch : contacts) {
     const Touching touching{solids, touch};
     const auto is_touched = [&](const PathPoint& at) { return touching.is_at(at, true); };
-    // A contact tells when it would be touched, a corner when the way ends at the gap before it. What is grazed would
-    // be touched long after the way has turned, and gone on along it.
+    // A contact has the time at which the surface would be touched, and a corner of the path the time at which the
+    // motion stops before it. A surface that is grazed would be touched long after the path has turned along it.
     const bool is_anywhere = std::any_of(path.begin(), path.end(), is_touched);
     const auto off = [&](const PathPoint& at) {
       return is_anywhere && !is_touched(at) ? 2 : std::abs(at.fraction - touch.fraction);
@@ -239,7 +239,8 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction),
                                detail::extent_of(solids.header().points));
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
-    // It is reported once, however often the way comes back to it. What it goes on into is no obstacle there.
+    // A contact is reported once, however often the path returns to its surface. A surface that the next leg enters
+    // does not stop the character there.
     const auto is_back = [&](const PathPoint& at) {
       return touching.is_at(at, false) && (&at == &path.back() || !touching.enters(at, *(&at + 1)));
     };

@@ -181,9 +181,9 @@ std::optional<Steered> respond(const Steered& velocity, double& steering, bool c
 
 /// What a trace does not say.
 struct Unknown {
-  bool met_at_end = false;             ///< What is touched where the step ends was met, by rounding.
+  bool met_at_end = false;             ///< Rounding decides that surfaces touched at the end were met.
   bool carried = false;                ///< A landing without horizontal speed is carried at once.
-  bool one_by_one = false;             ///< What is met at one moment was met in turn, without a way between.
+  bool one_by_one = false;             ///< Surfaces met at one time act one after another, with no way between.
   bool bears_beside = false;           ///< Ground that the character is beside bears it: there is no way to fall.
   Vec2d falls_along = Vec2d::UnitY();  ///< A fall that nothing holds.
 };
