@@ -36,9 +36,9 @@ std::vector<Vec2d> grown(std::vector<Vec2d> points, double by) {
 }
 
 /// The solids of one run, and the same questions for shapes that are barely larger and smaller.
-class Level {
+class NearlySame {
  public:
-  Level(const SceneryDef& scenery, const std::vector<Vec2d>& points)
+  NearlySame(const SceneryDef& scenery, const std::vector<Vec2d>& points)
       : scenery_(scenery, points), larger_(scenery, grown(points, barely)), smaller_(scenery, grown(points, -barely)) {}
 
   /// @return nothing for a way that begins inside something, or has nothing near it, or more than a question holds.
@@ -104,7 +104,7 @@ class QueryRun {
     const std::unique_ptr<Contender> contender = make_contender("octagon_sweep", ScalarKind::binary64, scene_, scenery);
     const Script script = script_of(scene_);
     InputCursor cursor(scene_, script);
-    const Level level(scene_.scenery, contender->header().points);
+    const NearlySame solids(scene_.scenery, contender->header().points);
     std::array<TraceStep, 1> record;
     std::size_t launch = 0;
     for (int step = 0; step < scene_.steps && most > 0; ++step) {
@@ -113,7 +113,7 @@ class QueryRun {
       const StepInput input = with_up(run_, step, cursor.at(step));
       contender->step(input, record);
       for (const auto& [position, displacement] : ways_of(record.front()))
-        if (std::optional<Query> query = level.ask(position, displacement); query && most-- > 0) {
+        if (std::optional<Query> query = solids.ask(position, displacement); query && most-- > 0) {
           query->source = fmt::format("{} step {}", title_, step);
           take(*query);
         }
@@ -126,7 +126,7 @@ class QueryRun {
     const double angle = random_.angle();
     const double length = random_.log_between(barely, 100);
     const Vec2d away = Vec2d{std::cos(angle), std::sin(angle)} * length;
-    const Vec2d left = record.path.back().position;  // what it wanted goes on from where it was stopped
+    const Vec2d left = record.path.back().position;  // the same motion is wanted again where the step was stopped
     return {Way{at, record.requested}, Way{left, record.requested}, Way{at, away}, Way{on_grid(at), on_grid(4 * away)}};
   }
 

@@ -3,6 +3,7 @@
 #include "command/commands.hpp"
 #include "records/collider_json.hpp"
 #include "records/output_file.hpp"
+#include "records/rows_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -28,19 +29,12 @@ Json query_json(int id, const Query& query) {
   return line;
 }
 
-/// Numbers and words stand as they are, lists as JSON within quotes, null is an empty cell.
+/// Numbers and words stand as they are, lists as JSON, null is an empty cell.
 std::string csv_line(const Json& line) {
   std::string text;
   for (const Json& value : line) {
     if (!text.empty()) text += ',';
-    const std::string cell = value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
-    if (!value.is_array()) {
-      text += cell;
-      continue;
-    }
-    text += '"';
-    for (const char letter : cell) text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    text += '"';
+    if (!value.is_null()) text += csv_quoted(value.is_string() ? value.get<std::string>() : value.dump());
   }
   return text + '\n';
 }

@@ -427,6 +427,8 @@ Vec2d Course<Real>::at(double time) const {
 template <class Real>
 Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law, Time time) {
   check(scene, input);
+  const bool may_end = time == Time::continuous || scene.steps <= static_cast<int>(most_events);
+  require(may_end, "more steps than it has events");  // known before the first one
   return Solver<Real>(scene, input, law, time).solve();
 }
 

@@ -66,7 +66,8 @@ bool read_option(const std::string& name, const std::string& value, Case& one) {
   if (name == "--scalar") one.scalar = value;
   if (name == "--mode") one.mode = value;
   if (name == "--plan") one.full_plan = value == "full";
-  return name == "--contender" || name == "--peer" || name == "--scalar" || name == "--mode" || (name == "--plan" && one.full_plan);
+  return name == "--contender" || name == "--peer" || name == "--scalar" || name == "--mode" ||
+         (name == "--plan" && one.full_plan);
 }
 
 std::string setting_in_words(const char* option, const Case::Setting& each) {

@@ -44,14 +44,6 @@ void add_columns(const Cells& cells, std::vector<std::string>& columns) {
   }
 }
 
-/// A `#` is quoted, too: behind one that is not, readers that know comments see none of the line.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 /// As `box2d[continuous=off]`: rows that are grouped by contender do not mix up what was set differently.
 ordered_json with_knobs_named(ordered_json row) {
   const std::string knob = row.value("knob", "");
@@ -110,6 +102,13 @@ void RowsFile::finish(const ordered_json& more) {
   file_->commit();
 }
 
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 std::string rows_csv(const ordered_json& rows, const ordered_json& header) {
   std::vector<std::string> columns;
   std::vector<Cells> lines;
@@ -120,7 +119,7 @@ std::string rows_csv(const ordered_json& rows, const ordered_json& header) {
   std::string text = comments_of(header);
   for (const std::string& column : columns) {
     if (column != columns.front()) text += ',';
-    text += quoted(column);
+    text += csv_quoted(column);
   }
   text += "\r\n";
   for (const Cells& cells : lines) {
@@ -128,7 +127,7 @@ std::string rows_csv(const ordered_json& rows, const ordered_json& header) {
       const auto cell =
           std::find_if(cells.begin(), cells.end(), [&](const auto& each) { return each.first == column; });
       if (column != columns.front()) text += ',';
-      if (cell != cells.end()) text += quoted(cell->second);
+      if (cell != cells.end()) text += csv_quoted(cell->second);
     }
     text += "\r\n";
   }

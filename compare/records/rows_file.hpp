@@ -42,4 +42,8 @@ class RowsFile {
 /// lines that begin with `#`.
 [[nodiscard]] std::string rows_csv(const nlohmann::ordered_json& rows, const nlohmann::ordered_json& header);
 
+/// A cell, within quotes where it must be. A `#` is quoted, too: behind one that is not, readers that know comments see
+/// none of the line.
+[[nodiscard]] std::string csv_quoted(const std::string& text);
+
 }  // namespace paperproof::compare

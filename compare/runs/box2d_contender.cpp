@@ -142,16 +142,13 @@ class Box2dContender final : public Contender {
 
   /// A one-way chain that turns would hold on another side in every step: Box2D is not asked to.
   void note_turning(const Scene& scene) {
-    std::vector<bool> turning;
-    for (const MoverDef& mover : scene.movers) turning.push_back(!mover.turns.empty());
-    if (std::find(turning.begin(), turning.end(), true) == turning.end()) return;
-    for (ColliderIndex i = 0; i < scene.ids.size(); ++i) {
+    header_.turning = turning_movers(scene);
+    for (ColliderIndex i = 0; i < scene.ids.size() && !header_.turning.empty(); ++i) {
       const ColliderDef& collider = scene.scenery.colliders[i];
-      if (collider.one_way && collider.mover != no_mover && turning[collider.mover])
+      if (collider.one_way && collider.mover != no_mover && header_.turning[collider.mover])
         throw NotApplicable(header_.contender + " is for one-way chains that do not turn, and \"" + scene.ids[i] +
                             "\" does");
     }
-    header_.turning = std::move(turning);
   }
 
   /// A substep's share of a step. What is returned holds until the next call.

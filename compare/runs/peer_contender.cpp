@@ -84,9 +84,7 @@ class PeerContender final : public Contender {
     add_terms(scene, rules_for_twin(scene), header_);
     header_.scenery = scenery.as_run();
     header_.ids = scene.ids;
-    if (std::any_of(scene.movers.begin(), scene.movers.end(),
-                    [](const MoverDef& mover) { return !mover.turns.empty(); }))
-      for (const MoverDef& mover : scene.movers) header_.turning.push_back(!mover.turns.empty());
+    header_.turning = turning_movers(scene);
     greet(scene);
     place_at_start(*this, scene);
   }
@@ -210,7 +208,8 @@ class PeerContender final : public Contender {
                      .grounded = said.value("grounded", false)};
     if (said.contains("velocity")) ended.velocity = point_of(said["velocity"]);
     if (said.contains("ground"))
-      ended.ground = EngineGround{collider_in(said["ground"]), point_of(said["ground"].value("normal", Json{0, 1}))};
+      ended.ground = EngineGround{collider_named(said["ground"]["collider"]),
+                                  point_of(said["ground"].value("normal", Json{0, 1}))};
     intent_.take_over(ended, input, characters_[k]);
     const CharacterState& state = characters_[k].state;
     record.velocity = state.velocity;
@@ -219,11 +218,11 @@ class PeerContender final : public Contender {
     record.ride = recorded_ride(state.ride);
     record.stuck = said.value("stuck", false);
     for (const Json& id : said.value("dropped_through", Json::array()))
-      record.dropped_through.push_back(collider_in({{"collider", id}}));
+      record.dropped_through.push_back(collider_named(id));
     std::sort(record.dropped_through.begin(), record.dropped_through.end());
     for (const Json& contact : said.value("contacts", Json::array())) {
       const Vec2d normal = point_of(contact["normal"]);
-      record.contacts.push_back({.collider = collider_in(contact),
+      record.contacts.push_back({.collider = collider_named(contact["collider"]),
                                  .point = contact.contains("point") ? point_of(contact["point"]) : places_[k].position,
                                  .normal = normal,
                                  .fraction = contact.value("fraction", 0.0),
@@ -232,8 +231,7 @@ class PeerContender final : public Contender {
     }
   }
 
-  [[nodiscard]] ColliderIndex collider_in(const Json& said) const {
-    const auto id = said["collider"].get<std::string>();
+  [[nodiscard]] ColliderIndex collider_named(const std::string& id) const {
     const auto found = std::find(header_.ids.begin(), header_.ids.end(), id);
     if (found == header_.ids.end()) throw std::runtime_error("the peer names a collider that there is not: " + id);
     return static_cast<ColliderIndex>(found - header_.ids.begin());

@@ -157,6 +157,13 @@ void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vec
 
 }  // namespace
 
+std::vector<bool> turning_movers(const Scene& scene) {
+  std::vector<bool> turning;
+  for (const MoverDef& mover : scene.movers) turning.push_back(!mover.turns.empty());
+  if (std::find(turning.begin(), turning.end(), true) == turning.end()) turning.clear();
+  return turning;
+}
+
 void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& header) {
   header.character = character;
   header.gravity = scene.gravity;

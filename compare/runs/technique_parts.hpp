@@ -27,6 +27,9 @@ namespace paperproof::compare {
 /// `jump_rules` as rows have it: 1 where both rules are in force, 0 for none, 0.5 for one of them.
 [[nodiscard]] double jump_rules_in_force(const CharacterDef& character);
 
+/// Which movers turn, by mover; empty where none does: `TraceHeader::turning`.
+[[nodiscard]] std::vector<bool> turning_movers(const Scene& scene);
+
 /// What a trace says of the scene: what is wanted, where characters begin, and where movers are.
 /// @param character with the jumping rules in force.
 void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& header);
