@@ -25,13 +25,13 @@ Hero::Impl::Impl(b2World& in, const HeroDef& from)
       controller(fixtures.level(), from.character),
       scratch(controller.make_scratch()) {
   make_fixture(def.filter);
-  note_hero(*body, &state.position);
+  note_hero(*body, {&state.position, &def.character.shape});
   state.position = def.position;
   report.move.position = def.position;
 }
 
 Hero::Impl::~Impl() {
-  note_hero(*body, nullptr);
+  note_hero(*body, {});
   world->DestroyBody(body);
 }
 

@@ -117,34 +117,38 @@ std::vector<ColliderDef> cut_to(const Box2& box, const ColliderDef& chain) {
   return runs;
 }
 
-/// Where each hero of the program is. Neither the body nor its fixture has a place for it: their user data are the
-/// game's. Worlds may be stepped in threads of their own.
-struct HeroPlaces {
+/// Each hero of the program. Neither the body nor its fixture has a place for it: their user data are the game's.
+/// Worlds may be stepped in threads of their own.
+struct AllHeroes {
   std::mutex mutex;
-  std::map<const b2Body*, const Vec2d*> places;
+  std::map<const b2Body*, HeroInWorld> of_body;
 };
 
-HeroPlaces& hero_places() {
-  static HeroPlaces all;
+AllHeroes& all_heroes() {
+  static AllHeroes all;
   return all;
+}
+
+/// @return nothing of a body that is no hero's.
+HeroInWorld hero_of(const b2Body& body) {
+  if (body.GetFixtureList() == nullptr || !is_of_hero(*body.GetFixtureList())) return {};
+  const std::lock_guard lock(all_heroes().mutex);
+  const auto found = all_heroes().of_body.find(&body);
+  return found != all_heroes().of_body.end() ? found->second : HeroInWorld{};
 }
 
 }  // namespace
 
-void note_hero(const b2Body& body, const Vec2d* place) {
-  const std::lock_guard lock(hero_places().mutex);
-  if (place != nullptr)
-    hero_places().places[&body] = place;
+void note_hero(const b2Body& body, const HeroInWorld& hero) {
+  const std::lock_guard lock(all_heroes().mutex);
+  if (hero.place != nullptr)
+    all_heroes().of_body[&body] = hero;
   else
-    hero_places().places.erase(&body);
+    all_heroes().of_body.erase(&body);
 }
 
 Vec2d place_of(const b2Body& body) {
-  if (body.GetFixtureList() != nullptr && is_of_hero(*body.GetFixtureList())) {
-    const std::lock_guard lock(hero_places().mutex);
-    const auto found = hero_places().places.find(&body);
-    if (found != hero_places().places.end()) return *found->second;
-  }
+  if (const HeroInWorld hero = hero_of(body); hero.place != nullptr) return *hero.place;
   return widened(body.GetPosition());
 }
 
@@ -292,6 +296,8 @@ MoverIndex NearFixtures::mover_of(const b2Fixture& fixture) {
 void NearFixtures::define(const Near& near) {
   const Seen& seen = near.known->seen;
   ColliderDef whole = collider_of(*seen.shape, seen.moves ? at({0, 0}) : seen.body->GetTransform());
+  if (const HeroInWorld hero = hero_of(*seen.body); hero.shape != nullptr)
+    whole.points.assign(hero.shape->hull().begin(), hero.shape->hull().end());
   whole.sensor = seen.sensor;
   whole.surface_speed = seen.surface.speed;
   if (seen.one_way && whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);

@@ -27,9 +27,15 @@ inline constexpr float hero_inset = 0.0035F;
   return fixture.GetShape()->m_radius == -hero_inset;
 }
 
-/// Notes where a hero is, for `place_of`. Thread-safe.
-/// @param place must outlive the entry. Null: forgets it.
-void note_hero(const b2Body& body, const Vec2d* place);
+/// A hero as the other heroes see it.
+struct HeroInWorld {
+  const Vec2d* place = nullptr;           ///< Its position [m].
+  const CharacterShape* shape = nullptr;  ///< Its body is larger.
+};
+
+/// Notes the hero of a body, for the other heroes. Thread-safe.
+/// @param hero what it points to must outlive the entry. Without a place: forgets it.
+void note_hero(const b2Body& body, const HeroInWorld& hero);
 
 /// Position of a body [m]; for the body of another hero that hero's own, because `world.Step` moved the body and the
 /// hero has not stepped yet.

@@ -1,5 +1,5 @@
-/// What the table of controller/README.md is made of: each measurement steps the controller and Box2D in turns, in one
-/// process. Box2D is given the velocities, and reads no contact.
+/// What the tables of controller/README.md and box2d_adapter/README.md are made of: each measurement steps the
+/// controller and Box2D in turns, in one process. Box2D is given the velocities, and reads no contact.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +25,9 @@ struct Measurement {
 [[nodiscard]] std::vector<Measurement> step_measurements();
 /// Set-up of a level, its memory, and edits.
 [[nodiscard]] std::vector<Measurement> level_measurements();
+/// What a hero of the adapter costs a game [ns]: its `step`; by how much `its_body` makes a step of the world dearer;
+/// and `plain_body`, the same of a body of Box2D alone.
+[[nodiscard]] std::vector<Measurement> hero_measurements();
 
 /// How long it takes [ns].
 template <class Run>

@@ -1,5 +1,5 @@
 // Measures the controller beside Box2D, and prints the figures as one JSON object: "measurement figure": number.
-// table.py makes the table of controller/README.md of them.
+// table.py makes the tables of controller/README.md and box2d_adapter/README.md of them.
 //   paperproof_benchmarks          all
 //   paperproof_benchmarks edit     those with this word in their name
 #include "figures.hpp"
@@ -15,6 +15,7 @@ int main(int argc, char** argv) try {
   const std::string word = argc > 1 ? argv[1] : "";
   std::vector<Measurement> all = paperproof::benchmarks::step_measurements();
   std::ranges::move(paperproof::benchmarks::level_measurements(), std::back_inserter(all));
+  std::ranges::move(paperproof::benchmarks::hero_measurements(), std::back_inserter(all));
   nlohmann::json figures = nlohmann::json::object();
   for (const Measurement& measurement : all) {
     if (measurement.name.find(word) == std::string::npos) continue;

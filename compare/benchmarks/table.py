@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The table of controller/README.md, measured.
+"""The tables of controller/README.md and box2d_adapter/README.md, measured.
 
     table.py BENCHMARKS [--processes N] [--json FILE]
 
 BENCHMARKS is the program `paperproof_benchmarks`. Of N processes (3) the least of each figure is taken: whatever else
 the machine does only adds. --json keeps the figures, of which `plots.py` makes a picture; given a file instead of the
-program, the table of that file is printed."""
+program, the tables of that file are printed."""
 import argparse
 import json
 import math
@@ -33,6 +33,14 @@ ROWS = [
     ("memory for each piece", "set_up", "_bytes", "B"),
 ]
 
+# What a hero costs a game: words, measurement.
+HERO_ROWS = [
+    ("one box, stands", "hero/box/stands"),
+    ("one box, walks", "hero/box/walks"),
+    ("tiles, stands", "hero/tiles/stands"),
+    ("tiles, walks", "hero/tiles/walks"),
+]
+
 
 def measured(program, processes):
     """Every figure by its name, the least of all processes."""
@@ -56,6 +64,14 @@ def markdown(rows):
     return "\n".join(lines)
 
 
+def hero_markdown(figures):
+    lines = ["| ground | `hero.step` | its body in `world.Step` | a body of Box2D alone there |", "|---|---|---|---|"]
+    for words, name in HERO_ROWS:
+        lines.append(f"| {words} | " + " | ".join(f"{figures[f'{name} {what}']:,.0f} ns" for what in
+                                                  ("step", "its_body", "plain_body")) + " |")
+    return "\n".join(lines)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("benchmarks")
@@ -70,7 +86,7 @@ def main():
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(figures, file, indent=1, sort_keys=True)
-    print(markdown(table(figures)))
+    print(markdown(table(figures)), hero_markdown(figures), sep="\n\n")
 
 
 if __name__ == "__main__":

@@ -43,6 +43,21 @@ TEST(Hero, stands_on_the_floor_and_the_listener_sees_it_until_it_jumps) {
   EXPECT_EQ(changes, (std::vector{added, persisted, removed}));
 }
 
+/// Box2D takes a body in eight sub-steps to what is within 5 mm before it, but not to what it overlaps.
+TEST(Hero, is_solved_once_a_frame_for_each_standing_thing_that_it_touches) {
+  OnFloor game;
+  b2Fixture& wall = game.box(b2_staticBody, {3, 1}, 1, 1);
+  const double roof = 2 * half_height + 2e-6;
+  game.box(b2_staticBody, {0, static_cast<float>(roof) + 1}, 10, 1);
+  game.run(120, {.move = 1.0});
+  ASSERT_TRUE(game.touches(wall) && game.listener.touching.size() == 3);
+  for (const std::optional<double> key : {std::optional(1.0), std::optional(0.0), std::optional<double>()}) {
+    game.listener.solved = 0;
+    game.run(100, {.move = key});
+    EXPECT_EQ(game.listener.solved, 100 * game.listener.touching.size());
+  }
+}
+
 TEST(Hero, pushes_a_crate_no_faster_than_its_force_allows) {
   // Newton, with the friction of Box2D (0.2): force - 0.2 m g = (m + M) a.
   const double mass = 70;

@@ -36,10 +36,14 @@ class HeroListener : public b2ContactListener {
   void EndContact(b2Contact* contact) override {
     if (b2Fixture* other = other_of(*contact)) touching.erase(other);
   }
+  void PreSolve(b2Contact* contact, const b2Manifold* /*before*/) override {
+    solved += static_cast<std::size_t>(other_of(*contact) != nullptr);
+  }
 
   const b2Body* hero = nullptr;
   std::multiset<b2Fixture*> touching;
   std::vector<b2Fixture*> begun;
+  std::size_t solved = 0;  ///< How often Box2D asked about a contact.
   std::function<void()> on_begin;
 
  private:

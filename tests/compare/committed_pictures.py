@@ -43,9 +43,10 @@ def same(name, committed, written):
 def main(command, repository, folder):
     committed, folder, benchmarks = Path(repository, "compare/report/pictures"), Path(folder), Path(repository, "compare/benchmarks")
     folder.mkdir(parents=True, exist_ok=True)
-    table = subprocess.check_output([benchmarks / "table.py", benchmarks / "table.json"], text=True)
-    if table.strip() not in Path(repository, "controller/README.md").read_text(encoding="utf-8"):
-        sys.exit(f"controller/README.md has not this table:\n{table}")
+    tables = subprocess.check_output([benchmarks / "table.py", benchmarks / "table.json"], text=True).strip().split("\n\n")
+    for table, readme in zip(tables, ("controller/README.md", "box2d_adapter/README.md"), strict=True):
+        if table not in Path(repository, readme).read_text(encoding="utf-8"):
+            sys.exit(f"{readme} has not this table:\n{table}")
     subprocess.run([command, "compare", STRIP, "--no-timing", "--quiet", "--strip", folder / f"{STRIP}.svg"], check=True)
     xml.parse(folder / f"{STRIP}.svg")
     if (committed / f"{STRIP}.svg").read_bytes() != (folder / f"{STRIP}.svg").read_bytes():

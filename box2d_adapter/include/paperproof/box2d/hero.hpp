@@ -79,7 +79,8 @@ struct BodyPose {
   double spin = 0;                ///< Counter-clockwise [radians/s].
 };
 
-/// A hero at one time, to save or to roll back. Restore it together with the world.
+/// A hero at one time, to roll back. Restore it together with the world. It names the game's own bodies and fixtures by
+/// their addresses: it is not for a file, nor for another process.
 struct HeroSave {
   CharacterDef character;
   CharacterState state;
@@ -114,11 +115,11 @@ struct HeroSave {
 /// - The game's `b2ContactFilter` decides with which fixtures the hero collides. Without one Box2D's own does, by
 ///   categories, masks and groups.
 ///
-/// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
-/// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic
-/// body: in the next `world.Step`, of what the hero then touches within 6.5 mm. Dynamic bodies feel the hero through
-/// this body: its mass, its weight and its push. The hero takes the impacts that its body took from them. Where it
-/// touches them, its body is some millimetres beside it: draw it at `position()`.
+/// The world has a dynamic body for the hero, of the same shape but 0.2 mm larger, without gravity, friction and
+/// restitution. Box2D reports contacts of its fixture to the game's listener, also with static bodies and sensors, as
+/// for each dynamic body: in the next `world.Step`, of what the hero then touches within 6.5 mm. Dynamic bodies feel
+/// the hero through this body: its mass, its weight and its push. The hero takes the impacts that its body took from
+/// them. Where it touches them, its body is some millimetres beside it: draw it at `position()`.
 ///
 /// Not thread-safe, as the world is not.
 class Hero {
@@ -177,8 +178,8 @@ class Hero {
   /// `knock_back`.
   void set_velocity(const Vec2d& velocity);
   /// Another shape, or another way to move: to crouch, to stand up, to swim. The lowest points of both shapes are at
-  /// one height, and their boxes have one middle. Another shape is another fixture: the game's listener hears the end
-  /// of every contact, and in the next step of the world their begin.
+  /// one height along up, and their boxes have one middle across it. Another shape is another fixture: the game's
+  /// listener hears the end of every contact, and in the next step of the world their begin.
   /// @return false if the new shape would overlap a solid; then nothing changed.
   /// @throws InvalidCharacter, InvalidDefinition as the constructor; InvalidDefinition during a step of the world.
   bool change(const CharacterDef& character);
