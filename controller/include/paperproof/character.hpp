@@ -57,15 +57,16 @@ struct CharacterDef {
   /// Absent: as long as the button is held.
   std::optional<double> jump_buffer{};
   /// The share of its upward speed that a jump keeps if the button is released during the rise, or before it, in
-  /// [0, 1]. On a mover it is a share of the speed in the world.
+  /// [0, 1]. On a mover it is a share of the speed in the world. A speed that the game sets is no jump, and is not cut.
   double jump_cut = 1;
   std::optional<double> max_fall_speed{};  ///< Against up [m/s]; no limit where absent.
   double max_climb_degrees = 50;           ///< Steepest walkable ground, from the horizontal; in [0, 89].
-  /// How far down a walker follows its ground, over crests and down stairs [m]; 0: not at all. A jump leaves the
-  /// ground.
+  /// How far down a walker follows its ground in one step, over crests and down all stairs that it passes in the step
+  /// [m]; 0: not at all. A jump leaves the ground.
   double snap = 0;
-  /// How high a walker climbs a kerb or a stair that stops it, if there is room above and walkable ground behind the
-  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none. On the way it stands on the corner.
+  /// How high a walker climbs in one step, up a kerb or the stairs that stop it [m], if there is room above and
+  /// walkable ground behind the edge; 0: not at all. It keeps its speed sideways, and gains none. On the way it stands
+  /// on the corner.
   double step_height = 0;
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
   /// character if a move by `wall_reach` would meet the wall, or if the last step met it.
