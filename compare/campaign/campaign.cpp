@@ -60,8 +60,7 @@ class JudgedRun {
   void take(int step) {
     const StepInput input = with_up(run_, step, cursor_.at(step));
     std::vector<bool> launched(lane_.characters());
-    for (; next_launch_ < run_.launches.size() && run_.launches[next_launch_].step == step; ++next_launch_) {
-      const Launch& launch = run_.launches[next_launch_];
+    for (const Launch& launch : run_.launches_before(step)) {
       lane_.launch(launch.velocity, launch.character);
       launched[launch.character] = true;
     }
@@ -93,7 +92,6 @@ class JudgedRun {
   Script script_;
   Lane lane_;
   InputCursor cursor_;
-  std::size_t next_launch_ = 0;
   std::vector<bool> grounded_;  ///< By character, after the last step.
   Findings findings_;
   bool ends_ = false;

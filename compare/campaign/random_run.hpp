@@ -5,6 +5,7 @@
 
 #include <paperproof/together.hpp>
 
+#include <span>
 #include <vector>
 
 namespace paperproof::compare {
@@ -24,6 +25,9 @@ struct RandomRun {
   Vec2d centre{Vec2d::Zero()};    ///< [m]
   double reach = 1e9;             ///< The run ends once a character is farther than this from `centre` in x or y [m].
   bool may_begin_inside = false;  ///< If not, a run that would is none.
+
+  /// Those before a step.
+  [[nodiscard]] std::span<const Launch> launches_before(int step) const;
 };
 
 /// What the players of a run do, noted as it is drawn.
