@@ -1,6 +1,7 @@
 /// Questions of first contact with their exact answers, from random runs: anybody's method can be held against them.
 #pragma once
 
+#include "campaign/families.hpp"
 #include "oracle/exact.hpp"
 
 #include <cstdint>
@@ -24,10 +25,15 @@ struct Query {
   bool degenerate = false;
 };
 
-/// From the runs of all families of one character among solids that stand, equally many of each, in their order. Half
-/// of the ways are those of the runs themselves; the others have random directions and lengths, or begin and end on a
-/// grid, where touching without overlap is frequent. No way begins inside anything.
+/// Random ways of a scene's character.
+/// @throws InputError where anything else moves.
+[[nodiscard]] Family ways_through(const Scene& scene);
+
+/// From the runs of families, of those with one character among solids that stand: equally many of each, in their
+/// order. Half of the ways are those of the runs themselves; the others have random directions and lengths, or begin
+/// and end on a grid, where touching without overlap is frequent. No way begins inside anything, and no run asks one
+/// twice.
 /// @param take is called with each.
-void make_queries(int count, const std::function<void(const Query&)>& take);
+void make_queries(int count, const std::vector<Family>& from, const std::function<void(const Query&)>& take);
 
 }  // namespace paperproof::compare

@@ -296,11 +296,14 @@ void add_export(CLI::App& app, int& status) {
   struct Asked {
     int count = 100'000;
     std::string path;
+    std::vector<std::string> scenes;
   };
   const auto asked = std::make_shared<Asked>();
   add_option(queries, "--count", asked->count, "N", "How many").check(CLI::Range(1, 10'000'000));
   add_option(queries, "OUT", asked->path, "FILE.jsonl|.csv", "Where they go").required();
-  on_parsed(queries, status, asked, [](const Asked& typed) { return export_queries_command(typed.count, typed.path); });
+  add_option(queries, "SCENES", asked->scenes, "SCENE|MAP...", "To go through beside the random runs");
+  on_parsed(queries, status, asked,
+            [](const Asked& typed) { return export_queries_command(typed.count, typed.path, typed.scenes); });
 }
 
 void add_report(CLI::App& app, int& status) {

@@ -14,8 +14,8 @@ namespace paperproof::compare {
 int convert_command(const std::string& from, const std::string& to);
 
 /// Questions of first contact with exact answers, as JSON Lines or CSV: see compare/queries/README.md.
-/// @return 0.
-int export_queries_command(int count, const std::string& path);
+/// @param scenes to go through beside the random runs; maps, too. @return 0.
+int export_queries_command(int count, const std::string& path, const std::vector<std::string>& scenes);
 
 /// The article's bullet, one technique at a time.
 /// @param technique empty: all, in the order of the article.

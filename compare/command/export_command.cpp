@@ -4,8 +4,12 @@
 #include "records/collider_json.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
+#include "scenes/load.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
 
 namespace paperproof::compare {
 namespace {
@@ -41,14 +45,17 @@ std::string csv_line(const Json& line) {
 
 }  // namespace
 
-int export_queries_command(int count, const std::string& path) {
+int export_queries_command(int count, const std::string& path, const std::vector<std::string>& scenes) {
+  std::vector<Family> from = families();
+  for (const std::string& name : scenes)
+    std::ranges::transform(load_scenes(name), std::back_inserter(from), ways_through);
   ClaimedFiles files;
   files.claim_for_option("export queries", path);
   OutputFile file(path);
   const bool as_csv = path.ends_with(".csv");
   if (as_csv) file.write("id,source,points,position,displacement,solids,contact,with,degenerate\n");
   int id = 0;
-  make_queries(count, [&](const Query& query) {
+  make_queries(count, from, [&](const Query& query) {
     const Json line = query_json(id++, query);
     file.write(as_csv ? csv_line(line) : line.dump() + '\n');
   });
