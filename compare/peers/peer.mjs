@@ -8,6 +8,9 @@ import {createInterface} from "node:readline";
 /** The words after the peer's file: `node compare/peers/rapier.mjs body_ccd` has one. */
 export const words = process.argv.slice(2);
 
+/** An installed package: they are beside this file. */
+export const load = (name) => import(name);
+
 /** The version of an installed package. */
 export const versionOf = (name) =>
   JSON.parse(readFileSync(new URL(`node_modules/${name}/package.json`, import.meta.url))).version;

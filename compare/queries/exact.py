@@ -11,8 +11,8 @@ import time
 from fractions import Fraction
 
 
-def vector(pair):
-    return Fraction(pair[0]), Fraction(pair[1])
+def vector(pair, number=Fraction):
+    return number(pair[0]), number(pair[1])
 
 
 def minus(a, b):
@@ -44,16 +44,16 @@ def times(corner, way, edge):
         yield time_of
 
 
-def first_contact(query):
-    """A fraction of the way, or None where it is free."""
-    position, way = vector(query["position"]), vector(query["displacement"])
-    shape = [minus(vector(point), (-position[0], -position[1])) for point in query["points"]]
+def first_contact(query, number=Fraction):
+    """A fraction of the way, or None where it is free. Fractions are exact, floats are fast."""
+    position, way = vector(query["position"], number), vector(query["displacement"], number)
+    shape = [minus(vector(point, number), (-position[0], -position[1])) for point in query["points"]]
     back = (-way[0], -way[1])
     found = []
     for solid in query["solids"]:
         rings = [solid.get("polygon", solid.get("chain"))] + solid.get("holes", [])
         for ring in rings:
-            points = list(map(vector, ring))
+            points = [vector(point, number) for point in ring]
             for edge in edges(points, "polygon" in solid):
                 found += [t for corner in shape for t in times(corner, way, edge)]
             found += [t for corner in points for edge in edges(shape, True) for t in times(corner, back, edge)]
