@@ -11,7 +11,7 @@ out=build/release/queries
 mkdir -p "$out"
 cmake --build build/release --target paperproof queries_sweep queries_box2d24 >"$out/build.log"
 
-shopt -s nullglob
+shopt -s nullglob # a level that is not there is none: each name is a pattern
 levels=(/usr/share/games/supertux2/levels/world1/{welcome_antarctica,frosted_fields,icy_valley,night_chill,stone_cold}.st[l])
 questions=$out/questions.jsonl
 build/release/bin/paperproof export queries --count "${1:-100000}" "$questions" "${levels[@]}"
