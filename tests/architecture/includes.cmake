@@ -60,11 +60,13 @@ check_part(compare/oracle "${may_include_oracle}" compare)
 check_part(compare/continuous "${may_include_oracle}" compare)
 # A peer is a program of its own: it knows its engine, and nothing of this project.
 check_part(compare/peers "${standard}|<(chipmunk|nlohmann)/.*>|<unistd[.]h>" compare/peers)
+# An answerer of questions knows what it asks, and nothing of what makes the questions and their answers.
+check_part(compare/queries "${standard}|<(box2d|nlohmann)/.*>|<paperproof/(in_float|paperproof)[.]hpp>" compare/queries)
 
 # Inside `compare`, of its own folders each may include itself and those that are listed:
 #   records  <-  oracle  <-  scenes  <-  metrics  <-  runs  <-  studies  <-  command,  records  <-  report  <-  studies,
 #   scenes  <-  continuous  <-  runs,   runs  <-  campaign  <-  command,   runs  <-  benchmarks
-set(folders records oracle scenes continuous metrics runs report studies campaign benchmarks command peers)
+set(folders records oracle scenes continuous metrics runs report studies campaign benchmarks command peers queries)
 file(GLOB sources RELATIVE "${ROOT}/compare" "${ROOT}/compare/*/*.cpp")
 foreach(source IN LISTS sources)
   cmake_path(GET source PARENT_PATH folder)
@@ -84,6 +86,7 @@ set(campaign_may ${runs_may} runs)
 set(benchmarks_may ${runs_may} runs)
 set(command_may ${studies_may} studies campaign)
 set(peers_may "")
+set(queries_may "")
 foreach(folder IN LISTS folders)
   file(GLOB_RECURSE files "${ROOT}/compare/${folder}/*.[ch]pp")
   foreach(file IN LISTS files)
