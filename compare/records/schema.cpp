@@ -108,7 +108,7 @@ void Schema::prepare(const Json& schema) {
     if (keyword == "not" && !schema.contains("title")) throw std::logic_error("a schema does not say what it asks");
     if (keyword == "not") prepare(value);
     for (const Json& alternative : keyword == "oneOf" ? value : Json::array())
-      if (prepare(alternative); !resolved(alternative).contains("required"))
+      if (prepare(alternative); !resolved(alternative).contains("required") && resolved(alternative)["type"] != "array")
         throw std::logic_error("the alternatives of a schema are told apart by the first key that they require");
     if (keyword == "pattern") patterns_.emplace(value.get<std::string>(), value.get<std::string>());
     if (keyword == "properties" || keyword == "$defs")
@@ -166,8 +166,10 @@ std::optional<std::string> Schema::fault_of_alternatives(const Json& value, cons
   std::vector<std::string> here;
   const Json* chosen = nullptr;
   for (const Json& alternative : alternatives) {
-    keys.push_back(resolved(alternative)["required"][0]);
-    if (!value.contains(keys.back())) continue;
+    const bool is_list = !resolved(alternative).contains("required");
+    if (is_list && value.is_array()) return fault_of(value, alternative);
+    keys.push_back(is_list ? "a list" : resolved(alternative)["required"][0]);
+    if (is_list || !value.contains(keys.back())) continue;
     here.push_back(keys.back());
     chosen = &alternative;
   }

@@ -12,7 +12,7 @@
 namespace paperproof::compare {
 
 /// As much of JSON Schema 2020-12 as the project's schemas use. Of `oneOf` the alternatives are told apart by the first
-/// key that they require; `not` has a `title`, which says what is asked for instead.
+/// key that they require, or one is a list; `not` has a `title`, which says what is asked for instead.
 class Schema {
  public:
   /// @throws std::logic_error for a keyword that is not known here: what it asks would not be asked.

@@ -34,6 +34,10 @@ namespace paperproof::compare {
   return "bottom";
 }
 
+[[nodiscard]] constexpr std::string_view name_of(SensorEvent::Change change) noexcept {
+  return change == SensorEvent::Change::enter ? "enter" : "exit";
+}
+
 /// A tolerance by its name [m], printed with every result.
 struct NamedTolerance {
   std::string name;

@@ -16,9 +16,8 @@ class InvalidTrace : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads JSON Lines as records/paperproof_trace.schema.json describes them: what the schema refuses is refused
-/// (tests/compare/trace_schema_test.py). What it leaves open is checked, too: ids are known and unique, a step has the
-/// motion of every mover, numbers are finite. Not thread-safe.
+/// Reads JSON Lines that hold to records/paperproof_trace.schema.json. What it leaves open is checked, too: ids are
+/// known and unique, a step has the motion of every mover. Not thread-safe.
 class TraceReader {
  public:
   /// A longer line is refused [bytes].

@@ -19,26 +19,35 @@ namespace paperproof::compare {
 /// The stem of the twin that runs in lockstep with a contender.
 [[nodiscard]] std::string twin_stem(const std::string& stem, std::string_view contender);
 
+/// The colliders of a header, as a list.
+[[nodiscard]] std::string colliders_in_json(const TraceHeader& header);
+
 /// The first line of a trace.
 [[nodiscard]] nlohmann::ordered_json trace_header_json(const TraceHeader& header);
 
-/// The further lines of a trace. Numbers are printed so that they read back to the same bits.
+/// The lines of a trace: trace_fields.hpp has what stands in them. Numbers are printed so that they read back to the
+/// same bits.
 class TraceLines {
  public:
   explicit TraceLines(const TraceHeader& header);
-  /// With the end of the line.
+  /// With the end of the line. @param colliders as `colliders_in_json`, or what stands for them.
+  [[nodiscard]] std::string header_line(const TraceHeader& header, std::string_view colliders) const;
   [[nodiscard]] std::string line_of(const TraceStep& step) const;
 
- private:
   struct Moving {
     ColliderIndex collider = 0;
     MoverIndex mover = 0;
   };
+  [[nodiscard]] const std::vector<Moving>& moving() const noexcept { return moving_; }
+  /// Of a collider, as JSON.
+  [[nodiscard]] const std::string& id(ColliderIndex collider) const { return ids_[collider]; }
+  [[nodiscard]] std::size_t characters() const noexcept { return characters_; }
 
+ private:
   std::vector<std::string> ids_;  ///< As JSON strings.
   std::vector<Moving> moving_;
-  bool path_exact_;
-  bool several_;  ///< Characters.
+  std::optional<bool> exact_;  ///< False: paths hold sampled positions.
+  std::size_t characters_;
 };
 
 /// A trace as a file. Not thread-safe.

@@ -16,25 +16,9 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string_view name_of(ReportEvent::Kind kind) {
-  switch (kind) {
-    case ReportEvent::Kind::tunnel:
-      return "tunnel";
-    case ReportEvent::Kind::clipped:
-      return "clipped";
-    case ReportEvent::Kind::inside:
-      return "inside";
-    case ReportEvent::Kind::one_way:
-      return "one-way broken";
-    case ReportEvent::Kind::crush:
-      return "crush";
-    case ReportEvent::Kind::drop:
-      return "drop";
-    case ReportEvent::Kind::sensor:
-      return "sensor";
-    case ReportEvent::Kind::note:
-      break;
-  }
-  return "note";
+  constexpr std::array<std::string_view, 8> names{"tunnel", "clipped", "inside", "one-way broken",
+                                                  "crush",  "drop",    "sensor", "note"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 ordered_json notes_on(const ReportRun& run) {
@@ -103,13 +87,12 @@ std::string replay_lines(const ReportScene& scene, std::size_t most_disagreement
   std::string text = dumped(notes_on(scene, most_disagreements)) + '\n';
   std::vector<std::string> sceneries;
   for (const ReportRun& run : scene.runs) {
-    ordered_json header = trace_header_json(run.header);
-    std::string colliders = dumped(header["colliders"]);
+    std::string colliders = colliders_in_json(run.header);
     const auto known = std::find(sceneries.begin(), sceneries.end(), colliders);
-    header["colliders"] = known - sceneries.begin();
+    const auto number = std::to_string(known - sceneries.begin());
     if (known == sceneries.end()) text += sceneries.emplace_back(std::move(colliders)) + '\n';
-    text += dumped(header) + '\n';
     const TraceLines lines(run.header);
+    text += lines.header_line(run.header, number);
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
       text += lines.line_of(run.steps[i]);
       for (const std::vector<TraceStep>& steps : run.others) text += lines.line_of(steps[i]);

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "near_names.hpp"
+#include "records/collider_json.hpp"
 #include "records/schema.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
@@ -207,26 +208,14 @@ class SceneReader {
   }
 
   void add_collider(const JsonCursor& entry, const std::string& id, MoverIndex mover = no_mover) {
-    ColliderDef collider;
+    ColliderDef collider = collider_of(entry.value());
     collider.mover = mover;
-    entry.take("holes", collider.holes);
-    entry.take("one_way", collider.one_way);
-    entry.take("sensor", collider.sensor);
     take_speed(entry, "surface_speed", collider.surface_speed);
     if (collider.sensor && entry.find("surface_speed"))
       entry.require("surface_speed").refuse("expected only beside what blocks: nothing stands on a sensor");
     const auto circle = entry.find("circle");
     const auto chain = entry.find("chain");
-    const JsonCursor at = circle ? *circle : chain ? *chain : entry.require("polygon");
-    if (circle) {
-      collider.shape = ColliderDef::Shape::circle;
-      collider.points = {at.get<Vec2d>()};
-      collider.radius = at.element(2).number();
-    } else {
-      if (chain) collider.shape = ColliderDef::Shape::chain;
-      collider.points = at.get<std::vector<Vec2d>>();
-    }
-    add(id, std::move(collider), at.where());
+    add(id, std::move(collider), (circle ? *circle : chain ? *chain : entry.require("polygon")).where());
   }
 
   void read_entry(const JsonCursor& entry, const std::string& id) {

@@ -8,6 +8,7 @@ PAPERPROOF is the command that writes the good ones. Every row of SPOILT is a sc
 must be named, with exit status 1.
 """
 import copy
+import json
 import math
 import sys
 import tempfile
@@ -15,6 +16,8 @@ import unittest
 from pathlib import Path
 
 from judging import CHECKER, call, read, traces_of, write
+
+SCHEMA = Path(__file__).parents[2] / "compare/records/paperproof_trace.schema.json"
 
 # A character falls onto a floor, walks through a gate to a wall, comes back, jumps and rests; a lift goes up far away.
 YARD = {
@@ -321,6 +324,40 @@ class Checking(unittest.TestCase):
                 self.assertIn("contacts, 0 violations", said)
                 self.assertEqual(call(COMMAND, "judge", path)[0], 0)
                 self.assertIn(" 0 broken of 21 clauses asked", call(COMMAND, "judge", "--all", path)[1])
+
+    def refused(self, judge, lines):
+        """What one line says of a trace that cannot be read."""
+        path = Path(self.folder.name) / "spoilt.jsonl"
+        write(path, lines)
+        status, out, error = call(*judge, path)
+        self.assertEqual((status, len(error.splitlines())), (2, 1), out + error)
+        return error
+
+    def test_a_record_without_a_key_is_refused(self):
+        header, step = read(self.good["yard"])[:2]
+        parts = json.loads(SCHEMA.read_text(encoding="utf-8"))["$defs"]
+        for key in parts["header"]["required"]:
+            without = {name: value for name, value in header.items() if name != key}
+            for judge in (CHECKER, (COMMAND, "judge")):
+                self.assertIn(key, self.refused(judge, [without, step]))
+        for key in parts["step"]["required"] + parts["step"]["oneOf"][1]["required"]:
+            without = {name: value for name, value in step.items() if name != key}
+            for judge in (CHECKER, (COMMAND, "judge")):
+                self.assertIn(key, self.refused(judge, [header, without]))
+
+    def test_what_breaks_the_schema_is_refused_at_its_place(self):
+        header, step = read(self.good["turning_arm"])[:2]
+        way = step["movers"]["arm"]
+        for change, says in (({"no_such_key": 1}, "/no_such_key: unknown key"), ({"velocity": [0]}, "/velocity: expected 2 entries"),
+                             ({"step": -1}, "/step: expected 0 to"), ({"contacts": [{}]}, "/contacts/0/collider: expected this key"),
+                             ({"movers": {}}, '/movers: expected the motion of "arm"'), ({"movers": {"arm": {}}}, "/movers/arm: expected exactly"),
+                             ({"movers": {"arm": {**way, "k": [0.5, 1]}}}, "/movers/arm/k: expected fractions"),
+                             ({"path": [[0, 0, 2]]}, "/path/0/2: expected a number from 0 to 1"), ({"up": [1, 1]}, "/up: expected a vector"),
+                             ({"start_overlap": ["none"]}, "/start_overlap/0: expected the id"), ({"refused": "no"}, "expected exactly one")):
+            with self.subTest(says):
+                self.assertIn(says, self.refused((COMMAND, "judge"), [header, {**step, **change}]))
+        refused = {"step": 0, "input": {}, "refused": "no length", "dt": 0}
+        self.assertIn("/velocity: unknown key", self.refused((COMMAND, "judge"), [header, {**refused, "velocity": [0, 0]}]))
 
     def test_turns_are_of_all_characters_or_none_and_each_of_one(self):
         for what, spoil in (("one without", lambda _, steps: steps[4].pop("turn")), ("one twice", lambda _, steps: steps[4].update(turn=1)),

@@ -104,7 +104,7 @@ const std::string overlaps =
     ": /character/position: expected a start outside of every solid, but the character overlaps ";
 constexpr std::string_view paper = "[[-4,0],[4,0],[4,0.25],[-4,0.25]]";
 
-/// What the schema says itself is asked for here only now and then: trace_schema_test.py breaks it in each place.
+/// What the schema says itself is asked for here only now and then: schema_test.cpp has its keywords.
 TEST_F(JsonScene, is_refused_in_one_line_with_its_place) {
   expect_refused(
       "room.json", full,

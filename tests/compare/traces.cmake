@@ -58,9 +58,6 @@ paperproof_trace_test(is_judged_as_its_run_was
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/judge_reads_back_test.py" "$<TARGET_FILE:paperproof>")
 paperproof_trace_test(in_a_readme_is_judged_as_it_says
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/judge_in_readmes_test.py" "$<TARGET_FILE:paperproof>" "${PROJECT_SOURCE_DIR}/compare")
-paperproof_trace_test(that_breaks_the_schema_is_refused
-  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/trace_schema_test.py" "$<TARGET_FILE:paperproof>"
-          "${PROJECT_SOURCE_DIR}/compare/records/paperproof_trace.schema.json")
 paperproof_trace_test(that_lies_is_found COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/lies_test.py" "$<TARGET_FILE:paperproof>")
 paperproof_trace_test(checker_finds_and_names_whatever_is_spoilt
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/check_trace_test.py" "$<TARGET_FILE:paperproof>" PROPERTIES COST 60)
