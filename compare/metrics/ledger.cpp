@@ -4,8 +4,29 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace paperproof::compare {
 namespace {
+
+constexpr std::array<std::string_view, cause_count> cause_names{"skin",
+                                                                "travel_cap",
+                                                                "event_latency",
+                                                                "response_law",
+                                                                "solver_iterations",
+                                                                "outline",
+                                                                "sampled_time",
+                                                                "intent",
+                                                                "ghost_collision",
+                                                                "float",
+                                                                "start_inside",
+                                                                "crush",
+                                                                "company",
+                                                                "error_of_box2d",
+                                                                "error_of_ours",
+                                                                "remaining_lockstep",
+                                                                "after_divergence",
+                                                                "unexplained"};
 
 /// Whether a step wants no sideways motion, ends on the ground, and nothing else acts on the character.
 bool rests(const TraceStep& step, const StepJudgement& judged) {
@@ -16,66 +37,12 @@ bool rests(const TraceStep& step, const StepJudgement& judged) {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  switch (kind) {
-    case EventKind::contact:
-      return "contact";
-    case EventKind::side:
-      return "side";
-    case EventKind::time:
-      return "time";
-    case EventKind::crossing:
-      return "crossing";
-    case EventKind::stop:
-      return "stop";
-    case EventKind::toggle_ours:
-      return "toggle_ours";
-    case EventKind::toggle_box2d:
-      return "toggle_box2d";
-  }
-  return "contact";
+  constexpr std::array<std::string_view, 7> names{"contact", "side",        "time",        "crossing",
+                                                  "stop",    "toggle_ours", "toggle_box2d"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(Cause cause) noexcept {
-  switch (cause) {
-    case Cause::skin:
-      return "skin";
-    case Cause::travel_cap:
-      return "travel_cap";
-    case Cause::event_latency:
-      return "event_latency";
-    case Cause::response_law:
-      return "response_law";
-    case Cause::solver_iterations:
-      return "solver_iterations";
-    case Cause::outline:
-      return "outline";
-    case Cause::sampled_time:
-      return "sampled_time";
-    case Cause::intent:
-      return "intent";
-    case Cause::ghost_collision:
-      return "ghost_collision";
-    case Cause::float_rounding:
-      return "float";
-    case Cause::start_inside:
-      return "start_inside";
-    case Cause::crush:
-      return "crush";
-    case Cause::company:
-      return "company";
-    case Cause::error_of_box2d:
-      return "error_of_box2d";
-    case Cause::error_of_ours:
-      return "error_of_ours";
-    case Cause::remaining_lockstep:
-      return "remaining_lockstep";
-    case Cause::after_divergence:
-      return "after_divergence";
-    case Cause::unexplained:
-      return "unexplained";
-  }
-  return "unexplained";
-}
+std::string_view name_of(Cause cause) noexcept { return cause_names[static_cast<std::size_t>(cause)]; }
 
 Ledger::Ledger(const LedgerParty& mine, const LedgerParty& reference, bool lockstep)
     : mine_(mine), reference_(reference), lockstep_(lockstep) {
