@@ -2,6 +2,7 @@
 #pragma once
 
 #include "campaign/shapes.hpp"
+#include "support/random_runs.hpp"
 
 #include <paperproof/controller.hpp>
 
@@ -10,6 +11,10 @@
 namespace paperproof::test {
 
 inline constexpr double frame = 1.0 / 60;
+
+inline Input random_input(Random& random) {
+  return {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};
+}
 
 struct Played {
   explicit Played(const SceneryDef& def, const Vec2d& position = {0, compare::half_height + 0.005}) : level(def) {
