@@ -152,3 +152,7 @@ def distance(point, a, b):
 def size(v):
     """The length of a vector, rounded once."""
     return float(dot(v, v)) ** 0.5
+
+
+def show(point):
+    return f"({float(point[0])}, {float(point[1])})"
