@@ -1,5 +1,7 @@
 /// What a step takes of the wanted motion, and by which law: the part of the ledger about stops.
 #include "metrics/ledger_step.hpp"
+#include "oracle/engine_laws.hpp"
+#include "oracle/response_laws.hpp"
 #include "oracle/up.hpp"
 
 #include <fmt/format.h>

@@ -26,13 +26,13 @@ constexpr double least_loss = 1e-5;
 Side side_along(const Vec2d& normal, const Vec2d& up) {
   constexpr double rounding = 1e-12;
   const auto clean = [](double component) { return std::abs(component) <= rounding ? 0 : component; };
-  return side_of_normal(clean(normal.x() * up.y() - normal.y() * up.x()), clean(normal.dot(up)));
+  return side_of_normal(clean(cross_of(normal, up)), clean(normal.dot(up)));
 }
 
 namespace {
 
 double degrees_between(const Vec2d& a, const Vec2d& b) {
-  return std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)) * 180 / std::numbers::pi;
+  return std::atan2(std::abs(cross_of(a, b)), a.dot(b)) * 180 / std::numbers::pi;
 }
 
 }  // namespace

@@ -23,8 +23,6 @@ constexpr double climb_margin = 1e-6;
 /// Of a product of a normal and a displacement, relative: normals are rounded.
 constexpr double normal_rounding = 1e-12;
 
-double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 }  // namespace
 
 bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
@@ -241,7 +239,7 @@ Vec2d HangingJudge::nearest_free(const Vec2d& wanted, const std::vector<Obstacle
     look(wanted - (a.normal.dot(wanted) - a.bound) * a.normal);
     for (std::size_t j = 0; j < i; ++j) {
       const HalfPlane& b = borders[j];
-      const double over = area_of(a.normal, b.normal);
+      const double over = cross_of(a.normal, b.normal);
       if (std::abs(over) <= normal_rounding) continue;
       look(Vec2d(a.bound * b.normal.y() - b.bound * a.normal.y(), b.bound * a.normal.x() - a.bound * b.normal.x()) /
            over);

@@ -17,25 +17,12 @@
 namespace paperproof::compare {
 namespace {
 
-/// Instants at which the depth of a passing is looked at first.
-constexpr int depth_samples = 32;
-constexpr int depth_refinements = 40;
-/// The shortest straight way out of what a step begins inside of may be longer by this [m]; a way that is to be shorter
-/// ends with as large a gap, and is open as far to both sides.
-constexpr double around_way_out = 1e-6;
-/// It keeps so far from the rims that it passes: an opening as narrow counts as closed [m].
-constexpr double beside_rim = 2 * detail::least_clearance;
 /// A time of impact is told where what that comes to is no more than this along the normal [m].
 constexpr double least_told = 5e-7;
 /// Normals of one face differ by no more than this, by rounding.
 constexpr double same_normal = 1e-6;
 /// A smaller share of the wanted motion is rounding.
 constexpr double rounding_of_loss = 1e-5;
-
-Place between(const Place& from, const Place& to, double share) {
-  return {from.position + share * (to.position - from.position), from.movers,
-          from.fraction + share * (to.fraction - from.fraction)};
-}
 
 /// Takes back what another that is near may have brought about.
 void excuse_beside_another(const TraceStep& step, StepJudgement& judgement) {
@@ -222,18 +209,6 @@ void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const
       judgement.deflected.emplace_back(contact.collider, contact.side);
 }
 
-/// Whether there is a way out of what is overlapped where the step begins, or ends.
-/// @param in_turning something that turns is overlapped there.
-bool Judge::is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning, bool in_turning) {
-  if (!in_turning) return has_way_out(at, turns);
-  const auto accept = [&](const Vec2d& out) {
-    // How far what turns went on in a part is not known: no way is asked for that this may have taken.
-    const double farthest = turning_->has_crushed() ? detail::push_beyond_motion : farthest_out(at);
-    return (out - at.position).norm() <= farthest && !ends_on_another_side(at, out);
-  };
-  return at.fraction == 1 ? turning_->frees_at_end(turning->step, accept) : turning_->frees(turning->step, accept);
-}
-
 /// Corners where nothing moves are left out; a way that ends early waits where it is while the movers go on.
 Judge::Path Judge::path_of(const TraceStep& step) const {
   Path path;
@@ -294,22 +269,6 @@ bool Judge::continues(const TraceStep& step, const Place& start) const {
                     last_end_->movers.end() - bodies, goes_on);
 }
 
-/// From turn to turn other characters are elsewhere.
-void Judge::begin_with_bodies(const Place& start) {
-  std::erase_if(inside_, [this](const auto& stay) { return header_.is_body(stay.first); });
-  for (const ColliderIndex collider : scenery_.overlapped(start))
-    if (header_.is_body(collider))
-      inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
-}
-
-void Judge::begin_episodes(const Place& start) {
-  inside_.clear();
-  asked_way_out_.reset();
-  for (const ColliderIndex collider : scenery_.overlapped(start)) {
-    inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
-  }
-}
-
 /// Whether characters overlap or pass each other is asked of their places: see `CompanyJudge`.
 void Judge::leave_bodies_out(StepJudgement& judgement) const {
   const auto is_body = [this](ColliderIndex collider) { return header_.is_body(collider); };
@@ -319,218 +278,10 @@ void Judge::leave_bodies_out(StepJudgement& judgement) const {
   std::erase_if(judgement.passings, [&](const Passing& passing) { return is_body(passing.collider); });
 }
 
-void Judge::judge_way(const Path& path, const TraceStep& step, const WhatTurns& turns, StepJudgement& judgement) {
-  Touched touched;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, i);
-  }
-  judge_crushes(path, step, touched, turns, judgement);
-  judge_end(path, touched, judgement);
-  for (const auto& [collider, corner] : touched) {
-    if (is_said_as_crush(path.back(), collider, judgement) &&
-        !went_through(path[corner].position, path.back(), collider))
-      continue;
-    if (scenery_.scenery().colliders[collider].one_way) {
-      if (!contains(step.dropped_through, collider)) judgement.one_way_broken.push_back(collider);
-    } else {
-      judge_passing(path, collider, path[corner], path[corner + 1], 0, judgement);
-    }
-  }
-}
-
-/// Where the step leaves the octagon: stays inside solids go on, begin and end. What is left in `touched` was passed
-/// within the step.
-void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgement) {
-  for (const ColliderIndex collider : judgement.end_overlap) {
-    const auto entered = touched.find(collider);
-    const auto [it, is_new] =
-        inside_.try_emplace(collider, Episode{.free_from = Kept(path[entered != touched.end() ? entered->second : 0])});
-    Episode& episode = it->second;
-    const double depth = scenery_.penetration(path.back(), collider);
-    episode.depth = std::max(episode.depth, depth);
-    // Through a paper it is half its width deep on the way, and less where the step ends.
-    if (rim_ > 0 && episode.depth <= rim_) episode.depth = std::max(episode.depth, depth_of(path, collider));
-    const bool crushes = is_said_as_crush(path.back(), collider, judgement);
-    if (!is_new && crushes) {
-      // The octagon left this solid earlier in the step: it is judged from its last free position.
-      const auto free = std::find_if(path.rbegin(), path.rend(),
-                                     [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
-      if (free != path.rend()) episode.free_from.emplace(*free);
-    }
-    episode.pressed = episode.pressed || crushes;
-    const bool was_rounded = episode.rounded;
-    const double rounding = promises_ ? 0 : ulp_at(header_, path.back().position);
-    const double excused = std::max(rounding, allowed(Exempt::drawn, header_));
-    episode.rounded = (is_new || was_rounded) && depth <= excused;
-    if (episode.pressed) {
-      judgement.pressed.push_back(collider);
-    } else if (episode.rounded && depth <= rounding) {
-      judgement.rounded.push_back(collider);
-    } else if (episode.rounded) {
-      judgement.drawn.push_back(collider);
-      judgement.max_penetration = std::max(judgement.max_penetration, depth);
-    } else {
-      if (!header_.is_body(collider)) judgement.max_penetration = std::max(judgement.max_penetration, depth);
-      if (is_new || was_rounded) judgement.entered.push_back(collider);
-    }
-    touched.erase(collider);
-  }
-  std::erase_if(inside_, [&](const auto& stay) {
-    const ColliderIndex collider = stay.first;  // clang 14 captures no structured binding
-    const Episode& episode = stay.second;
-    if (contains(judgement.end_overlap, collider)) return false;
-    const auto left = std::find_if(path.begin(), path.end(),
-                                   [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
-    const auto again = std::adjacent_find(
-        left, path.end(), [&](const Place& from, const Place& to) { return scenery_.meets(from, to, collider); });
-    touched.erase(collider);
-    if (again != path.end()) touched.emplace(collider, again - path.begin());
-    const auto in_sight = [&](const Place& corner) {
-      return !scenery_.meets(episode.free_from->place(), corner, collider);
-    };
-    if (!episode.free_from || std::any_of(left, path.end(), in_sight)) return true;
-    const bool excused = episode.pressed || is_said_as_crush(path.back(), collider, judgement);
-    if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
-      judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
-    }
-    return true;
-  });
-}
-
-/// Whether what it does to the octagon is a matter of the clause `crush`. A mover that is named and had left room
-/// breaks that clause, of who promises it, and no other besides.
-bool Judge::is_said_as_crush(const Place& end, ColliderIndex collider, const StepJudgement& judgement) const {
-  if (contains(judgement.crushed, collider)) return true;
-  const MoverIndex mover = header_.scenery.colliders[collider].mover;
-  return contains(header_.guarantees, Clause::crush) && contains(judgement.crushed_with_room, collider) &&
-         mover != no_mover && end.movers[mover].from != end.movers[mover].to;
-}
-
-/// Whether the octagon itself went through what crushed it, rather than that through the octagon.
-bool Judge::went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const {
-  return scenery_.meets(Place(from, end.movers, end.fraction), end, collider);
-}
-
-/// @param from, to both free of the collider; the straight way between them meets it.
-void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
-                          StepJudgement& judgement) const {
-  if (rim_ > 0) {
-    const double deepest = std::max(depth, depth_of(path, collider));
-    if (deepest <= rim_) return judgement.note_clipped(judgement.clipped, collider, deepest);
-  }
-  judgement.tunnelled.push_back(collider);
-  Passing passing = detail::describe_passing(scenery_, from, to, collider);
-  passing.speed = way_past(path, collider) / dt_;
-  judgement.passings.push_back(passing);
-}
-
-/// Length of the way relative to a collider [m].
-double Judge::way_past(const Path& path, ColliderIndex collider) const {
-  const MoverIndex mover = header_.scenery.colliders[collider].mover;
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
-  }
-  return length;
-}
-
-/// The largest depth on the way: between entry and exit of every leg at equal distances, then closing in on the deepest
-/// (the depth in one convex part has a single peak along a leg).
-double Judge::depth_of(const Path& path, ColliderIndex collider) const {
-  double deepest = 0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const auto in = scenery_.impact_between(path[i], path[i + 1], collider);
-    const auto out = scenery_.impact_between(path[i + 1], path[i], collider);
-    const double first = in ? static_cast<double>(in->fraction) : 0;
-    const double last = out ? 1 - static_cast<double>(out->fraction) : 1;
-    if (!in && !out) continue;
-    const auto depth_at = [&](double t) { return scenery_.penetration(between(path[i], path[i + 1], t), collider); };
-    const double apart = (last - first) / depth_samples;
-    double best = first;
-    double depth = depth_at(first);
-    const auto look = [&](double t) {
-      const double here = depth_at(t);
-      if (here > depth) {
-        depth = here;
-        best = t;
-      }
-    };
-    for (int k = 1; k <= depth_samples; ++k) look(first + k * apart);
-    double reach = apart;
-    for (int k = 0; k < depth_refinements; ++k, reach /= 2) {
-      look(std::max(first, best - reach / 2));
-      look(std::min(last, best + reach / 2));
-    }
-    deepest = std::max(deepest, depth);
-  }
-  return deepest;
-}
-
 const ExactScenery& Judge::scenery_for(double larger) {
   std::unique_ptr<ExactScenery>& scenery = sceneries_->larger[larger];
   if (!scenery) scenery = std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, larger));
   return *scenery;
-}
-
-/// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
-std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) const {
-  std::vector<ColliderIndex> entered = judgement.end_overlap;
-  std::erase_if(entered, [this](ColliderIndex collider) { return inside_.contains(collider); });
-  return entered;
-}
-
-void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const WhatTurns& turns,
-                          StepJudgement& judgement) {
-  const auto goes = [&](ColliderIndex collider) {
-    const MoverIndex mover = header_.scenery.colliders[collider].mover;
-    return mover != no_mover && step.movers[mover].from != step.movers[mover].to;
-  };
-  const auto comes_closer_to = [&](const Place& early, ColliderIndex collider) {
-    const Place late(early.position, step.movers, 1);
-    return scenery_.meets(early, late, collider) ||
-           scenery_.separation(late, collider) < scenery_.separation(early, collider);
-  };
-  // To where it began, or to where it was held: a mover that takes it along to there may go away from the former.
-  std::size_t held = path.size() - 1;
-  while (held > 0 && path[held - 1].position == path.back().position) --held;
-  const auto comes_closer = [&](ColliderIndex collider) {
-    return goes(collider) && (comes_closer_to(path.front(), collider) || comes_closer_to(path[held], collider));
-  };
-  std::vector<ColliderIndex> pressing = step.crushed;
-  const std::vector<ColliderIndex> entered = promises_ ? std::vector<ColliderIndex>{} : newly_inside(judgement);
-  if (!entered.empty()) {
-    // Who promises nothing has no word for it, or not for all: what comes closer and is in reach is asked for.
-    for (const ColliderIndex collider : scenery_.near(path.front(), path.back(), own_reach(header_)))
-      if (!contains(pressing, collider) && comes_closer(collider)) pressing.push_back(collider);
-  }
-  if (pressing.empty()) return;
-  detail::Meetings meetings{touched, {}};
-  for (const auto& [collider, episode] : inside_) {
-    std::optional<Place>& free = meetings.before[collider];
-    if (episode.free_from) free = episode.free_from->place();
-  }
-  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings,
-                                     detail::pushed_by(step), turns);
-  const bool has_room = judgement.room && !judgement.beside_another;
-  // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
-  const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
-  const auto touches = [&](ColliderIndex collider) {
-    return touched.contains(collider) || std::any_of(path.begin(), path.end(), [&](const Place& corner) {
-             return scenery_.separation(corner, collider) <= within;
-           });
-  };
-  const auto presses = [&](ColliderIndex collider) { return comes_closer(collider) && touches(collider); };
-  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), presses);
-  for (const ColliderIndex collider : step.crushed) {
-    const bool moves = pressed && goes(collider) && touches(collider);
-    judgement.excused_crush = judgement.excused_crush || (moves && judgement.room && judgement.beside_another);
-    (moves && !has_room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
-  }
-  if (has_room) return;
-  for (const std::vector<ColliderIndex>& excused : {pressing, entered})
-    for (const ColliderIndex collider : excused)
-      if (!entered.empty() && !contains(judgement.crushed, collider) && !contains(step.crushed, collider))
-        judgement.crushed.push_back(collider);
 }
 
 void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted, bool starts_free,
@@ -569,46 +320,6 @@ void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const 
       judgement.unsure || (turns.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
                                           hanging.hangs(made, detail::exact_reach));
-}
-
-Judge::Leaving Judge::leaving_of(const Path& path, const WhatTurns& turns, bool from_turning) {
-  Leaving leaving{.inside = true, .turning = from_turning};
-  if (path.size() < 2 || path[1].fraction != 0 || from_turning) return leaving;
-  const Place& start = path[0];
-  const Place& out = path[1];
-  std::vector<ColliderIndex> inside;
-  std::vector<std::pair<ColliderIndex, Place>> sides;
-  for (const auto& [collider, episode] : inside_) {
-    inside.push_back(collider);
-    if (episode.free_from) sides.emplace_back(collider, episode.free_from->place());
-  }
-  const auto is_left = [&](ColliderIndex collider) { return !scenery_.overlaps(out, collider); };
-  leaving.at_once = std::any_of(inside.begin(), inside.end(), is_left);
-  leaving.free = std::all_of(inside.begin(), inside.end(), is_left);
-  const Vec2d way = out.position - start.position;
-  leaving.longer = leaving.free && way.norm() > farthest_out(start) + around_way_out;
-  if (leaving.longer || !leaving.free || !(way.norm() > around_way_out)) return leaving;
-  const auto open = [&](const Vec2d& end) {
-    const std::vector<ColliderIndex> met = scenery_.met(start, Place(end, start.movers, 0));
-    return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
-  };
-  // Far beyond a rim that it passes the clearance is much.
-  const ExactScenery& wider = scenery_for(beside_rim);
-  const auto keeps_side = [&](const Vec2d& end) {
-    return std::none_of(sides.begin(), sides.end(), [&](const auto& side) {
-      const ExactScenery& asked = wider.overlaps(side.second, side.first) ? scenery_ : wider;
-      return asked.meets(side.second, Place(end, start.movers, start.fraction), side.first);
-    });
-  };
-  const auto accept = [&](const Vec2d& end) {
-    const Vec2d ahead = (end - start.position).normalized();
-    const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
-    return open(end) && open(end + aside) && open(end - aside) && keeps_side(end) &&
-           (!turns.left_free || turns.left_free(std::vector<PathPoint>{{start.position, 0}, {end, 1}}));
-  };
-  const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};
-  leaving.longer = scenery_.find_free(question, way.norm() - around_way_out, around_way_out, accept).has_value();
-  return leaving;
 }
 
 /// How much too far a step goes that begins inside of what turns [m].
@@ -689,42 +400,6 @@ void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& s
   for (std::size_t corner = 0; corner < end && allowed(Exempt::late_ground, header_) > 0; ++corner)
     judgement.ground_late = judgement.ground_late || hanging.has_support(corner, within);
   judgement.ground_refuted = !judgement.ground_late;
-}
-
-/// Whether a way out of what the octagon is inside of leads past some of it.
-bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
-  return std::any_of(inside_.begin(), inside_.end(), [&](const auto& stay) {
-    const std::optional<Kept>& free = stay.second.free_from;
-    return free && scenery_.meets(free->place(), Place(out, at.movers, at.fraction), stay.first);
-  });
-}
-
-/// The length up to which a way out is asked for [m]. Whom movers crushed goes no farther than they may push.
-double Judge::farthest_out(const Place& at) const {
-  std::optional<double> motion;
-  for (const auto& [collider, episode] : inside_) {
-    const MoverIndex mover = header_.scenery.colliders[collider].mover;
-    if (mover == no_mover || !episode.free_from) continue;
-    motion = std::max(motion.value_or(0), (at.movers[mover].to - at.movers[mover].from).norm());
-  }
-  return motion ? *motion + detail::push_beyond_motion : detail::farthest_way_out;
-}
-
-/// Asked once for each place: it costs much, and whoever is stuck mostly stays.
-bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
-  if (asked_way_out_) {
-    const Kept& asked = asked_way_out_->first;
-    const bool same =
-        asked.position == at.position && asked.fraction == at.fraction && !turns.left_free &&
-        std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
-    if (same) return asked_way_out_->second;
-  }
-  const double farthest = farthest_out(at);
-  const std::optional<Vec2d> out = scenery_.way_out(at, farthest);
-  const bool found = out && (*out - at.position).norm() <= farthest && !ends_on_another_side(at, *out) &&
-                     (!turns.left_free || turns.left_free(std::vector<PathPoint>{{at.position, 0}, {*out, 1}}));
-  asked_way_out_.emplace(Kept(at), found);
-  return found;
 }
 
 void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {

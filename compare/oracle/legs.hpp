@@ -4,6 +4,7 @@
 #include "oracle/crush.hpp"
 #include "oracle/later_parts.hpp"
 #include "oracle/met_surfaces.hpp"
+#include "oracle/response_laws.hpp"
 
 #include <map>
 

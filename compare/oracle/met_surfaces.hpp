@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oracle/exact.hpp"
-#include "oracle/response_laws.hpp"
+#include "oracle/met_surface.hpp"
 #include "records/trace.hpp"
 
 #include <map>

@@ -1,6 +1,7 @@
 #include "oracle/passing.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,13 @@ constexpr double degrees = 180 / 3.14159265358979323846;
 /// a paper is half a width deep, which must not be excused.
 constexpr double rim_of_width = 0.125;
 
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Distances along the line point + s · way at which it crosses the ring.
 void add_crossings(const std::vector<Vec2d>& ring, const Vec2d& point, const Vec2d& way, std::vector<double>& found) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2d a = ring[i] - point;
     const Vec2d b = ring[(i + 1) % ring.size()] - point;
-    const double at_a = cross(way, a);
-    const double at_b = cross(way, b);
+    const double at_a = cross_of(way, a);
+    const double at_b = cross_of(way, b);
     if ((at_a > 0) == (at_b > 0)) continue;
     const Vec2d place = a + at_a / (at_a - at_b) * (b - a);
     found.push_back(place.dot(way));
@@ -65,7 +64,7 @@ double narrowest_width(const std::vector<Vec2d>& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2d edge = ring[(i + 1) % ring.size()] - ring[i];
     double width = 0;
-    for (const Vec2d& corner : ring) width = std::max(width, std::abs(cross(edge, corner - ring[i])) / edge.norm());
+    for (const Vec2d& corner : ring) width = std::max(width, std::abs(cross_of(edge, corner - ring[i])) / edge.norm());
     narrowest = std::min(narrowest, width);
   }
   return narrowest;

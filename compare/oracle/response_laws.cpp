@@ -1,11 +1,10 @@
 #include "oracle/response_laws.hpp"
 
+#include "oracle/surface_velocities.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -14,70 +13,19 @@
 namespace paperproof::compare {
 namespace {
 
-/// A velocity that enters a surface by no more than this share of its length runs along it.
-constexpr double grazing = 1e-9;
-/// Normals whose cross product is smaller are of one direction.
-constexpr double one_direction = 1e-9;
+using namespace surfaces;
+
 /// Velocities of the law of octagon_sweep are the same within this share of the largest one that they are made of: they
 /// are in double.
 constexpr double same_velocity = 1e-9;
-/// Share of a velocity that is rounding in Box2D.
-constexpr double in_float = 1e-5;
 /// Share of a velocity that is rounding where up is slanted.
 constexpr double in_double = 1e-14;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double entering(const Vec2d& v, const MetSurface& at) { return (v - at.velocity).dot(at.normal); }
-
-bool enters(const Vec2d& v, const MetSurface& at) {
-  return entering(v, at) < -grazing * std::max(1.0, (v - at.velocity).norm());
-}
-
-Vec2d slid(const Vec2d& v, const MetSurface& at) { return v - entering(v, at) * at.normal; }
-
-/// The velocity that neither enters nor leaves either of two surfaces.
-std::optional<Vec2d> held_by(const MetSurface& a, const MetSurface& b) {
-  const double determinant = cross(a.normal, b.normal);
-  if (std::abs(determinant) < one_direction) return std::nullopt;
-  const double of_a = a.velocity.dot(a.normal);
-  const double of_b = b.velocity.dot(b.normal);
-  return Vec2d((of_a * b.normal.y() - of_b * a.normal.y()) / determinant,
-               (of_b * a.normal.x() - of_a * b.normal.x()) / determinant);
-}
-
-/// The velocity nearest to `wanted` that enters none of the surfaces, if there is one. What runs along a surface does
-/// not enter it, however it is rounded.
-std::optional<Vec2d> nearest_allowed(const Vec2d& wanted, std::span<const MetSurface> surfaces) {
-  std::optional<Vec2d> best;
-  const auto consider = [&](const Vec2d& v, std::initializer_list<std::size_t> along) {
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-      if (std::find(along.begin(), along.end(), i) == along.end() && enters(v, surfaces[i])) return;
-    if (!best || (v - wanted).squaredNorm() < (*best - wanted).squaredNorm()) best = v;
-  };
-  consider(wanted, {});
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    consider(slid(wanted, surfaces[i]), {i});
-    for (std::size_t k = 0; k < i; ++k)
-      if (const std::optional<Vec2d> held = held_by(surfaces[i], surfaces[k])) consider(*held, {i, k});
-  }
-  return best;
-}
-
-/// The impulses along both normals that make the change, per mass; none where the normals are of one direction.
-std::optional<Vec2d> impulses_of(const Vec2d& change, const MetSurface& a, const MetSurface& b) {
-  const double determinant = cross(a.normal, b.normal);
-  if (std::abs(determinant) < one_direction) return std::nullopt;
-  return Vec2d(cross(change, b.normal) / determinant, cross(a.normal, change) / determinant);
-}
 
 /// Whether a velocity rises under a ceiling: then it slides there.
 bool rises_under(const Vec2d& v, const MetSurface& at) {
   return at.normal.y() < 0 && v.y() - at.velocity.y() > in_double * std::max(1.0, (v - at.velocity).norm());
 }
-
-Vec2d follow(double x, const Vec2d& n) { return {x, -x * n.x() / n.y()}; }
 
 /// A velocity that is wanted, and the part of it that is there without this step's steering [m/s].
 struct Steered {
@@ -197,7 +145,7 @@ bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.ve
 double most_pressed(const Vec2d& came, double steering, std::span<const MetSurface> held) {
   const auto pushes = [](const MetSurface& at) { return at.velocity.dot(at.normal) > 0; };
   const auto is_other = [&](const MetSurface& at) {
-    return std::abs(cross(at.normal, held[0].normal)) > one_direction;
+    return std::abs(cross_of(at.normal, held[0].normal)) > one_direction;
   };
   if (std::none_of(held.begin(), held.end(), pushes) || std::none_of(held.begin(), held.end(), is_other))
     return infinity;
@@ -272,67 +220,6 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   return now.wanted;
 }
 
-std::array<Vec2d, 4> corners_of(const Box2& box) {
-  return {box.lower, box.upper, Vec2d(box.lower.x(), box.upper.y()), Vec2d(box.upper.x(), box.lower.y())};
-}
-
-/// The corners of the box that its velocity is in.
-std::array<Vec2d, 4> velocities_of(const MetSurface& at) { return corners_of(at.velocities()); }
-
-double fastest(const MetSurface& at) { return at.velocity.norm() + std::hypot(at.spread, at.spread_along); }
-
-/// Holds nothing.
-const Box2 no_box{Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
-
-/// Whether some velocity in a box enters a surface.
-bool may_enter(const Box2& box, const MetSurface& at) {
-  if (!(box.lower.x() <= box.upper.x())) return false;
-  const std::array<Vec2d, 4> corners = corners_of(box);
-  const std::array<Vec2d, 4> goes = velocities_of(at);
-  return std::any_of(corners.begin(), corners.end(), [&](const Vec2d& v) {
-    return std::any_of(goes.begin(), goes.end(),
-                       [&](const Vec2d& velocity) { return enters(v, {.normal = at.normal, .velocity = velocity}); });
-  });
-}
-
-/// Whether both may be touched at once.
-bool are_together(const MetSurface& a, const MetSurface& b) {
-  return !a.turning || a.turning != b.turning || a.stands_at == b.stands_at;
-}
-
-/// `controlled_bounds` goes so often over the surfaces. Each time the box holds more that no motion does.
-constexpr std::size_t most_rounds = 2;
-
-/// Adds to a box what one surface that rests can make of a velocity. Ground may be followed that is not entered. A wall
-/// takes what leads across up into it, or a part of that: it turns none of that upwards.
-void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
-  const Vec2d& n = at.normal;
-  const auto add = [&box](const Vec2d& made) { box = box.merged({made, made}); };
-  const auto slide = [&](const Vec2d& w) { add(w - std::min(w.dot(n), 0.0) * n); };
-  if (at.walkable) return add(follow(v.x(), n));
-  if (v.dot(n) >= 0) return;
-  const bool leads_into = v.x() * n.x() < 0;
-  const Vec2d falls(leads_into ? 0 : v.x(), v.y());
-  add(falls);
-  add({falls.x(), std::min(v.y(), 0.0)});
-  slide(falls);
-  if (n.y() >= 0) return;
-  add(Vec2d::Zero());
-  slide(v);
-}
-
-/// Where the speed that a push gives is limited, all of it is slowed, by no more than the push gave.
-Box2 slowed_by_limit(Box2 box, std::span<const MetSurface> surfaces) {
-  double push = 0;
-  for (const MetSurface& at : surfaces)
-    if (surfaces.size() > 1 && at.velocity.dot(at.normal) + at.spread > 0) push = std::max(push, fastest(at));
-  for (const Eigen::Index i : {0, 1}) {
-    box.lower[i] = std::min(box.lower[i], std::max(box.lower[i] - push, 0.0));
-    box.upper[i] = std::max(box.upper[i], std::min(box.upper[i] + push, 0.0));
-  }
-  return box;
-}
-
 /// What the trace leaves open of these surfaces.
 /// @param sides see `ControlledStep`.
 std::vector<Unknown> ways(std::span<const MetSurface> surfaces, std::span<const Vec2d> sides) {
@@ -379,51 +266,6 @@ std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const Met
 
 }  // namespace
 
-std::vector<Vec2d> frictionless_outcomes(const Vec2d& wanted, std::span<const MetSurface> surfaces) {
-  std::vector<Vec2d> outcomes{wanted};
-  const auto meet = [&](const Vec2d& v) {
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      if (enters(v, surfaces[i])) outcomes.push_back(slid(v, surfaces[i]));
-      for (std::size_t k = 0; k < i; ++k)
-        if (const auto both = nearest_allowed(v, std::array{surfaces[i], surfaces[k]})) outcomes.push_back(*both);
-    }
-  };
-  meet(wanted);
-  const std::size_t once = outcomes.size();
-  for (std::size_t k = 1; k < once; ++k) meet(Vec2d(outcomes[k]));
-  return outcomes;
-}
-
-bool is_short_of_limit(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces,
-                       const Vec2d& kept, int rounds) {
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      const std::array both{surfaces[i], surfaces[k]};
-      const std::optional<Vec2d> limit = nearest_allowed(wanted, both);
-      const std::optional<Vec2d> pushes = impulses_of(velocity - wanted, both[0], both[1]);
-      if (!limit || !pushes || pushes->minCoeff() < -in_float * std::max(1.0, pushes->norm())) continue;
-      const double speed = wanted.norm() + impulses_of(kept, both[0], both[1])->lpNorm<1>();
-      const double left = std::pow(std::abs(both[0].normal.dot(both[1].normal)), 2 * rounds - 1);
-      if ((velocity - *limit).norm() <= left * speed + in_float) return true;
-    }
-  return false;
-}
-
-bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces, double tilt) {
-  const Vec2d change = velocity - wanted;
-  const double slack = in_float * std::max(1.0, wanted.norm());
-  if (!(change.norm() > slack)) return false;
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) {
-    // What is left runs along the tilted surface, or there is nothing left.
-    const Vec2d along_it = velocity - at.velocity;
-    const bool ends = !(along_it.norm() > slack);
-    const Vec2d across = ends ? change : Vec2d(-along_it.y(), along_it.x());
-    const Vec2d normal = across.normalized() * (across.dot(at.normal) < 0 ? -1 : 1);
-    return std::abs(cross(normal, at.normal)) <= tilt && std::abs(cross(change, normal)) <= slack &&
-           change.dot(normal) > 0;
-  });
-}
-
 std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces) {
   std::vector<MetSurface> upright(surfaces.begin(), surfaces.end());
   for (MetSurface& at : upright) {
@@ -441,73 +283,6 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
     outcome = in_world(outcome, step.up);
   }
   return outcomes;
-}
-
-Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
-  const Vec2d slower(range.least_steering, 0);
-  const Vec2d faster(range.most_steering, 0);
-  Box2 unsteered = range.unsteered;
-  Box2 wanted{unsteered.lower + slower, unsteered.upper + faster};
-  std::vector<Box2> made_by(surfaces.size(), no_box);
-  // What impulses along the normal leave.
-  const auto slides = [&wanted](const MetSurface& at) {
-    Box2 left = no_box;
-    for (const Vec2d& goes : velocities_of(at))
-      for (const Vec2d& v : corners_of(wanted)) {
-        const MetSurface moving{.normal = at.normal, .velocity = goes};
-        const Vec2d made = slid(v, moving);
-        if (enters(v, moving)) left = left.merged({made, made});
-      }
-    return left;
-  };
-  // What one has made comes to others, and from there back to it.
-  for (std::size_t turn = 0; turn < most_rounds * surfaces.size(); ++turn) {
-    const std::size_t i = turn % surfaces.size();
-    const MetSurface& at = surfaces[i];
-    const auto responses = [&at](const Box2& box) {
-      Box2 all = no_box;
-      // Ground may carry the character.
-      if (at.walkable || at.is_overlapped) all = at.velocities();
-      for (const Vec2d& goes : velocities_of(at))
-        for (const Vec2d& v : corners_of(box)) {
-          Box2 made = no_box;
-          add_responses(v - goes, at, made);
-          all = all.merged({made.lower + goes, made.upper + goes});
-        }
-      return all;
-    };
-    const Box2 before = unsteered;
-    unsteered = unsteered.merged(responses(before));
-    made_by[i] = responses(wanted);
-    wanted = wanted.merged(made_by[i]).merged(unsteered);
-    // What takes steering takes it for once.
-    wanted = wanted.merged({unsteered.lower + slower, unsteered.upper + faster});
-    if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
-    for (std::size_t k = 0; k < i; ++k) {
-      const MetSurface& with = surfaces[k];
-      if (!are_together(at, with)) continue;
-      const Box2 slide = slides(at);
-      const Box2 other_slide = slides(with);
-      const bool enters_with = may_enter(made_by[i].merged(slide), with);
-      const bool enters_at = may_enter(made_by[k].merged(other_slide), at);
-      // At two surfaces with different velocities the nearest motion may be left that enters neither.
-      if (at.velocity != with.velocity && (enters_with || enters_at)) wanted = wanted.merged(slide).merged(other_slide);
-      // Two hold only a motion that goes into each by what the other leaves of it.
-      if (!enters_with || !enters_at) continue;
-      const double most = fastest(at) + fastest(with) + range.squeezed;
-      for (const Vec2d& velocity : velocities_of(at))
-        for (const Vec2d& other : velocities_of(with)) {
-          auto held = held_by({.normal = at.normal, .velocity = velocity}, {.normal = with.normal, .velocity = other});
-          if (!held) continue;
-          const double limited = 2 * std::max(fastest(at), fastest(with));
-          for (const double speed : {most, limited}) {
-            const Vec2d slow = held->norm() > speed ? Vec2d(*held * (speed / held->norm())) : *held;
-            unsteered = unsteered.merged({slow, slow});
-          }
-        }
-    }
-  }
-  return slowed_by_limit(wanted.merged(unsteered), surfaces);
 }
 
 std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,

@@ -1,7 +1,7 @@
-/// What becomes of a velocity that met surfaces, in closed form: by the law of each side.
+/// What becomes of a velocity that met surfaces by the law of octagon_sweep, in closed form.
 #pragma once
 
-#include <paperproof/types.hpp>
+#include "oracle/met_surface.hpp"
 
 #include <limits>
 #include <optional>
@@ -10,59 +10,6 @@
 #include <vector>
 
 namespace paperproof::compare {
-
-/// A surface that a motion met.
-struct MetSurface {
-  Vec2d normal{Vec2d::Zero()};    ///< Unit, towards the character.
-  Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
-  ColliderIndex collider = no_collider;
-  bool walkable = false;       ///< Within the climb limit of the character.
-  bool is_overlapped = false;  ///< For bounds alone: the character is inside of it, and may go along.
-  bool is_side = false;        ///< Touches the left or right side of the character.
-  bool ridden = false;         ///< The step begins on it, and goes along: nobody lands on it.
-  bool climbs = false;         ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
-  double met = 0;              ///< When it was met, as a fraction of the step; 1: only touched where that ends.
-  double left = std::numeric_limits<double>::infinity();  ///< From then on it is touched no more.
-  bool is_beside = false;                                 ///< It is touched corner to corner: it bears nobody.
-  bool past_rim = false;  ///< It is touched still where it is left: the way goes on past its rim.
-  bool returned = false;  ///< It was left, and is touched again.
-  /// Its velocity is known to within this, where it turns [m/s]: for bounds along its normal, else in any direction.
-  double spread = 0;
-  double spread_along = 0;  ///< The same along the face; for bounds alone.
-  /// The mover that turns it. A face of that mover stands so at one fraction of the step only: it presses nobody
-  /// against a face of the same mover at another fraction.
-  std::optional<MoverIndex> turning{};
-  double stands_at = 0;
-
-  /// The smallest box that holds its velocities.
-  [[nodiscard]] Box2 velocities() const {
-    constexpr double any = std::numeric_limits<double>::infinity();
-    if (spread + spread_along == any) return {Vec2d::Constant(-any), Vec2d::Constant(any)};
-    const Vec2d along(-normal.y(), normal.x());
-    const Vec2d unknown = spread * normal.cwiseAbs() + spread_along * along.cwiseAbs();
-    return {velocity - unknown, velocity + unknown};
-  }
-};
-
-/// The velocities that impulses without friction and restitution can make of `wanted` at one or two of the surfaces,
-/// met together or one after another: each time the nearest velocity that enters neither. `wanted` itself is the first.
-/// Source: Moreau, "Unilateral contact and dry friction in finite freedom dynamics" (1988): the impulses project the
-/// velocity onto the cone of velocities that are allowed.
-[[nodiscard]] std::vector<Vec2d> frictionless_outcomes(const Vec2d& wanted, std::span<const MetSurface> surfaces);
-
-/// Whether `velocity` is what some rounds of impulses at two of the surfaces in turn leave of `wanted`, short of the
-/// limit that they go to: the impulses only push, and no more is left than the rounds can leave. A round multiplies
-/// what is left by the square of the cosine between the normals, as alternating projections onto two lines do. Source:
-/// von Neumann, "Functional operators II" (1950); b2ContactSolver is such an iteration (Catto 2005).
-/// @param kept the change of velocity [m/s] that the impulses of the step before made: the solver begins with them.
-/// @param rounds of the solver: 8 by default in Box2D.
-[[nodiscard]] bool is_short_of_limit(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces,
-                                     const Vec2d& kept, int rounds);
-
-/// Whether an impulse along the normal of one surface, tilted by no more than `tilt` (its sine), makes `velocity` of
-/// `wanted`, and leaves nothing of what enters.
-[[nodiscard]] bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces,
-                                     double tilt);
 
 /// What a step of octagon_sweep begins with.
 struct ControlledStep {

@@ -11,6 +11,9 @@
 
 namespace paperproof::compare::detail {
 
+/// What turns, gone on for some steps by the same rigid motion.
+[[nodiscard]] VertexWay gone_on(const VertexWay& way, int steps);
+
 /// The largest distance between two points [m].
 [[nodiscard]] double extent_of(std::span<const Vec2d> points);
 

@@ -2,6 +2,7 @@
 
 #include "oracle/box_tree.hpp"
 #include "oracle/depth.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 
@@ -27,7 +28,6 @@ struct Interval {
 };
 
 Vec2d left_of(const Vec2d& v) { return {-v.y(), v.x()}; }
-double cross_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// What the barrier covers in configuration space, with `clearance` around it. Exact, and rounded once.
 Region covered_by(const Barrier& barrier, std::span<const Vec2d> octagon, double clearance) {

@@ -5,6 +5,7 @@
 #include "oracle/contact_place.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/legs.hpp"
+#include "oracle/response_laws.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/up.hpp"
 #include "records/verdict.hpp"

@@ -1,4 +1,5 @@
 /// What becomes of a velocity that met surfaces: both laws in closed form.
+#include "oracle/engine_laws.hpp"
 #include "oracle/response_laws.hpp"
 
 #include "campaign/random.hpp"
