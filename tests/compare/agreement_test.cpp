@@ -34,31 +34,6 @@ std::vector<std::pair<Moment, Moment>> silence(int steps) {
   return run;
 }
 
-TEST_F(AgreementTest, contacts_in_the_references_skin_are_excused) {
-  std::vector<std::pair<Moment, Moment>> run{{moment(0), moment(0, {contact(0, Side::bottom)})},
-                                             {moment(9, {contact(1, Side::left)}), moment(9)}};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0);
-  run[0].second.judged.dont_care = {0};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0.5);
-  run[0].second.judged.ghosts = {{0, Side::bottom}};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0) << "a ghost is a difference";
-  run[0].second.judged.ghosts.clear();
-  run[1].second.judged.dont_care = {1};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 1);
-  EXPECT_FALSE(compare(run).contact_precision_box2d) << "nothing is left to be counted";
-}
-
-TEST_F(AgreementTest, precision_and_recall_count_sides_within_one_step) {
-  std::vector<std::pair<Moment, Moment>> run = silence(8);
-  run[1].first.step.contacts = {floor};   // matched one step later
-  run[2].second.step.contacts = {floor};  // matched one step before
-  run[5].first.step.contacts = {floor};   // two steps apart: not matched
-  run[7].second.step.contacts = {floor};
-  const Row row = compare(run);
-  EXPECT_EQ(row.contact_precision_box2d, 0.5);
-  EXPECT_EQ(row.contact_recall_box2d, 0.5);
-}
-
 TEST_F(AgreementTest, exact_arithmetic_says_who_is_right) {
   using Right = SideDisagreement::Right;
   const auto one = [&](const Moment& mine, const Moment& reference) {
@@ -73,16 +48,6 @@ TEST_F(AgreementTest, exact_arithmetic_says_who_is_right) {
   EXPECT_EQ(agreement_->disagreements()[0].who_is_right,
             "mine reports no contact where exact arithmetic has bottom, box2d reports top where exact arithmetic has "
             "bottom: neither is right");
-}
-
-TEST_F(AgreementTest, a_report_one_step_early_is_right_once_the_next_step_is_known) {
-  using Right = SideDisagreement::Right;
-  compare({{moment(0, {floor}), moment(0)}});
-  EXPECT_EQ(agreement_->disagreements()[0].right, Right::reference);
-  compare({{moment(0, {floor}), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {floor}, {truth})}});
-  EXPECT_EQ(agreement_->disagreements()[0].right, Right::both);
-  EXPECT_EQ(agreement_->count(Right::both), 1);
-  EXPECT_EQ(agreement_->count(Right::reference), 0);
 }
 
 TEST_F(AgreementTest, a_first_difference_on_which_both_are_right_is_followed_by_the_first_on_which_one_is_not) {

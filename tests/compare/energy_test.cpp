@@ -1,6 +1,5 @@
-/// Energy, events and jitter on made-up traces with known answers.
+/// Energy and jitter on made-up traces with known answers.
 #include "metrics/energy.hpp"
-#include "metrics/events.hpp"
 #include "metrics/jitter.hpp"
 
 #include <gtest/gtest.h>
@@ -14,21 +13,19 @@ namespace {
 constexpr double dt = 1.0 / 64;
 const Vec2d gravity(0, -10);
 
-TraceHeader header(const std::string& contender = "octagon_sweep") {
+TraceHeader header() {
   TraceHeader made;
-  made.contender = contender;
-  made.scalar = contender == "box2d" ? "float" : "double";
-  made.path_exact = contender != "box2d";
+  made.contender = "octagon_sweep";
+  made.scalar = "double";
   made.scenery.colliders.push_back({.points = {{0, 0}, {1, 0}, {1, 1}}});
   made.ids = {"floor"};
-  if (contender == "box2d") made.tolerances = {{"touch_gap", 0.02}};
   return made;
 }
 
 /// What happens to one character, by its positions and velocities.
 class Motion {
  public:
-  explicit Motion(const TraceHeader& of = header()) : energy_(of, gravity) {}
+  Motion() : energy_(header(), gravity) {}
 
   /// As it is wanted without input, unless `wanted` is given.
   Motion& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {},
@@ -38,7 +35,6 @@ class Motion {
     step.requested = wanted.value_or(velocity_ + gravity * dt) * dt;
     step.velocity = velocity;
     step.grounded = grounded;
-    step.start_overlap = inside_;
     for (const Vec2d& normal : touched) step.contacts.emplace_back().normal = normal;
     energy_.add(step, dt);
     position_ = position;
@@ -52,7 +48,6 @@ class Motion {
     }
     return *this;
   }
-  Motion& inside(bool is) { return inside_ = is ? std::vector<ColliderIndex>{0} : std::vector<ColliderIndex>{}, *this; }
   [[nodiscard]] Row row() const {
     Row made;
     energy_.write(made);
@@ -64,7 +59,6 @@ class Motion {
   Energy energy_;
   Vec2d position_{0, 0};
   Vec2d velocity_{0, 0};
-  std::vector<ColliderIndex> inside_;
 };
 
 TEST(EnergyGained, is_none_in_free_flight_which_loses_half_of_g_h_squared_a_step) {
@@ -111,52 +105,6 @@ TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
   EXPECT_DOUBLE_EQ(over({-0.8, 0.6}), (25. - 9) / 2 + 1) << "steeper than 50 degrees";
   // A frictionless slope turns a fall into horizontal speed, and takes energy: no gain.
   EXPECT_EQ(Motion().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
-}
-
-TEST(EnergyGained, counts_no_push_out_of_where_the_scene_put_it_but_one_out_of_what_it_sank_into) {
-  EXPECT_EQ(Motion().inside(true).to({0, 0}, {0, 0}).to({0, 1}, {0, 0}).inside(false).to({0, 1}, {0, 0}).gained(), 0);
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, -1}, {0, 0}).inside(true).to({0, 0}, {0, 0}).gained(), 10);
-}
-
-TEST(EnergyBound, is_reach_times_gravity_and_rounding) {
-  const double exact = *Motion().to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg;
-  EXPECT_NEAR(exact, 10 * 1e-6, 1e-12);
-  const double far = *Motion().to({1e6, 0}, {1e3, 0}).to({1e6, 0}, {1e3, 0}).row().energy_bound_j_kg;
-  constexpr double epsilon = 0x1p-52;
-  EXPECT_NEAR(far, 10 * (1e-6 + 2 * epsilon * 1e6) + 8 * epsilon * 1e6, 1e-12);
-  EXPECT_NEAR(*Motion(header("box2d")).to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg, 10 * 0.02, 1e-4);
-}
-
-TraceStep ended(bool grounded, const std::vector<std::pair<ColliderIndex, Side>>& touches) {
-  TraceStep step;
-  step.grounded = grounded;
-  for (const auto& [collider, side] : touches) step.contacts.push_back({.collider = collider, .side = side});
-  return step;
-}
-
-Row events_of(const std::vector<TraceStep>& steps) {
-  Events events(1);
-  for (const TraceStep& step : steps) events.add(step);
-  Row row;
-  events.write(row);
-  return row;
-}
-
-TEST(EventSequence, is_that_of_changes_whenever_they_come) {
-  const TraceStep air = ended(false, {});
-  const TraceStep floor = ended(true, {{0, Side::bottom}});
-  const TraceStep corner = ended(true, {{0, Side::bottom}, {1, Side::right}});
-  const TraceStep other_order = ended(true, {{1, Side::right}, {0, Side::bottom}, {0, Side::bottom}});
-  const Row one = events_of({air, air, floor, floor, corner});
-  EXPECT_EQ(one.events, 2);
-  EXPECT_EQ(one.event_sequence, events_of({air, floor, floor, floor, other_order}).event_sequence) << "later";
-  for (const auto& [steps, what] : std::vector<std::pair<std::vector<TraceStep>, const char*>>{
-           {{air, floor}, "one is missing"},
-           {{air, floor, air, floor, corner}, "a toggle"},
-           {{air, corner, floor}, "another order"},
-           {{air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}, "another collider"},
-           {{air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}, "another side"}})
-    EXPECT_NE(one.event_sequence, events_of(steps).event_sequence) << what;
 }
 
 template <class Function>
@@ -207,36 +155,6 @@ TEST(LogDimensionlessJerk, of_a_cubic_is_worked_out_by_hand_and_has_no_unit) {
   EXPECT_NEAR(cubic(1, 1), cubic(1, 60), 1e-6);
   EXPECT_FALSE(log_dimensionless_jerk(std::vector<Vec2d>(100, Vec2d(1, 2)), 0.01));
   EXPECT_FALSE(log_dimensionless_jerk(std::vector<Vec2d>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1)) << "evenly";
-}
-
-TraceStep walking(double from, double to, double height) {
-  TraceStep step;
-  step.path = {{{from, height}, 0}, {{to, height}, 1}};
-  step.requested = {0.1, -0.01};
-  step.grounded = true;
-  step.contacts.emplace_back().normal = {0, 1};
-  return step;
-}
-
-TEST(SeamHop, is_the_largest_jump_of_speed_and_height_between_two_steps_on_level_ground) {
-  const auto hops_of = [](const std::vector<TraceStep>& steps) {
-    SceneryDef scenery;
-    scenery.colliders.push_back({.points = {{0, -1}, {9, -1}, {9, 0}, {0, 0}}});
-    Smoothness smoothness(scenery);
-    for (const TraceStep& step : steps) smoothness.add(step, 1.0 / 60);
-    Row row;
-    smoothness.write(row);
-    return row;
-  };
-  std::vector<TraceStep> even;
-  for (int k = 0; k < 20; ++k) even.push_back(walking(0.125 * k, 0.125 * (k + 1), 0.625));
-  EXPECT_EQ(hops_of(even).seam_hop_share, 0);
-  EXPECT_EQ(hops_of(even).seam_hop_m, 0);
-  TraceStep airborne = walking(0.15, 9, 3);
-  airborne.grounded = false;
-  const Row snags = hops_of({walking(0, 0.1, 0.625), walking(0.1, 0.15, 0.635), airborne, walking(9, 9.1, 0.625)});
-  EXPECT_NEAR(snags.seam_hop_share.value(), 0.5, 1e-9);
-  EXPECT_NEAR(snags.seam_hop_m.value(), 0.01, 1e-9);
 }
 
 }  // namespace

@@ -106,15 +106,6 @@ TEST(Metrics, distance_and_motion_lost_are_sums_over_the_run_and_the_loss_to_gho
   EXPECT_EQ(row_of(run).ghost_speed_loss, 0.25);
 }
 
-TEST(Metrics, an_overlap_by_rounding_is_counted_apart) {
-  std::vector<Moment> run = moments(2);
-  run[0].judged.end_overlap = run[1].judged.end_overlap = {0};
-  run[0].judged.rounded = {0};
-  EXPECT_EQ(row_of(run).rounding, 1);
-  EXPECT_EQ(row_of(run).steps_ending_inside, 1);
-  EXPECT_FALSE(row_of(run, promising).rounding);
-}
-
 /// Two characters, each step of each.
 std::vector<Moment> two(int steps) {
   std::vector<Moment> run;
@@ -161,27 +152,6 @@ TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
   EXPECT_EQ(row.contact_recall, 0);
 }
 
-TEST(Metrics, a_contact_matches_in_its_step_or_where_the_path_is_sampled_within_one_with_its_collider_and_side) {
-  for (int late = -3; late <= 3; ++late) {
-    std::vector<Moment> run = moments(9);
-    run[4].judged.contacts = {floor_below};
-    run[static_cast<std::size_t>(4 + late)].step.contacts = {bottom};
-    TraceHeader sampled = header();
-    sampled.path_exact = false;
-    const Row box2d = row_of(run, sampled);
-    const double expected = std::abs(late) <= 1 ? 1 : 0;
-    EXPECT_EQ(box2d.contact_precision, expected) << late;
-    EXPECT_EQ(box2d.contact_recall, expected) << late;
-    EXPECT_EQ(box2d.exempted.contains("late_match"), std::abs(late) == 1) << late;
-    const Row row = row_of(run);
-    EXPECT_EQ(row.contact_precision, late == 0 ? 1 : 0) << late;
-    EXPECT_EQ(row.contact_recall, late == 0 ? 1 : 0) << late;
-    EXPECT_TRUE(row.exempted.empty());
-  }
-  EXPECT_EQ(row_of({moment(0, {contact(0, Side::left)}, {floor_below})}).contact_precision, 0);
-  EXPECT_EQ(row_of({moment(0, {contact(1, Side::bottom)}, {floor_below})}).contact_precision, 0);
-}
-
 TEST(Metrics, a_floor_of_two_tiles_is_one_contact_for_recall_and_two_for_precision) {
   const Row row = row_of({moment(0, {bottom}, {floor_below, exact(1, Side::bottom)})});
   EXPECT_EQ(row.contact_recall, 1);
@@ -206,17 +176,6 @@ TEST(Metrics, contacts_within_the_skin_count_neither_way) {
   run[1].judged.deflected.clear();
   run[0].judged.ghosts = {{0, Side::bottom}};
   EXPECT_EQ(row_of(run).contact_precision, 0) << "a ghost is wrong within the skin too";
-}
-
-TEST(Metrics, the_error_of_impact_times_is_measured_where_they_are_comparable) {
-  std::vector<Moment> run{moment(0, {contact(0, Side::bottom, 0.5)}, {floor_below}),
-                          moment(1, {contact(0, Side::bottom, 0.5)}, {floor_below}),
-                          moment(2, {contact(1, Side::bottom, 0.5)}, {floor_below})};
-  run[0].judged.first_impact = 0.625;
-  run[1].judged.first_impact = 1;
-  run[2].judged.first_impact = 1;
-  run[0].judged.first_impact_comparable = run[2].judged.first_impact_comparable = true;
-  EXPECT_EQ(row_of(run).toi_error_max, 0.125) << "the second is not comparable, the third met something else";
 }
 
 TEST(Metrics, rest_jitter_of_an_oscillation_is_its_closed_form) {
