@@ -62,6 +62,8 @@ class Search {
   /// A motion keeps this many times more from the corners that it passes than what would stop it, which is measured
   /// along axes: no two neighbouring ones are more than a right angle apart.
   static constexpr Real margin = Real(1.5);
+  /// The same where the motion takes time.
+  static constexpr Real margin_in_time = Real(1.25);
   /// Where rounding spoils a place, others beyond it are tried: first this far, then in strides that grow [m].
   static constexpr Real first_stride = 2 * tolerances.hit;
   static constexpr Real stride_growth = 16;
@@ -138,7 +140,7 @@ class Search {
     const BestAxis facing = best(piece, *at);
     if (facing.separation < -slack) return std::nullopt;
     const Real kept = std::clamp(facing.separation, Real(0), tolerances.hit);
-    const Real width = takes_time_ ? kept * Real(least_gap) : kept * margin + 2 * slack;
+    const Real width = takes_time_ ? kept * margin_in_time : kept * margin + 2 * slack;
     return View{*at, std::min(tolerances.hit, facing.separation),
                 tangents_from(space_, piece, *at, space_.normal(piece, facing.axis), width)};
   }
@@ -147,7 +149,7 @@ class Search {
 
   void search_facets(PieceIndex piece) {
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
-      if (!space_.covered(piece, axis))
+      if (!space_.hidden(piece, axis))
         search_line(space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, near(piece)), piece);
     if (space_.is_circle(piece)) search_arcs(piece);
   }

@@ -6,13 +6,18 @@
 
 #include <paperproof/step_context.hpp>
 
+#include <limits>
 #include <optional>
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// The least gap around a free position, as a multiple of `hit`: a little more than that of an opening that counts as
-/// closed. One: far from the origin, where rounding is 4e-9 m, none is found. Large: narrow openings are not found.
-inline constexpr double least_gap = 1.25;
+/// More than rounding does to a separation at a place [m]: 4e-9 of it at 1e6 m.
+[[nodiscard]] inline Real noise_at(const Vec2& p) {
+  return 32 * std::numeric_limits<Real>::epsilon() * p.cwiseAbs().maxCoeff();
+}
+
+/// The least gap around a free position at a place [m]: that of an opening that counts as closed, but for rounding.
+[[nodiscard]] inline Real least_gap(const Vec2& p) { return tolerances.hit + noise_at(p); }
 
 struct FreePositionQuery {
   Vec2 from;                        ///< Where the motion starts [m],

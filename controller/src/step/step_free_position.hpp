@@ -191,7 +191,7 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
   step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   std::optional<Vec2> found;
   std::size_t corner = corners;
-  while (!found && corner-- > 0) found = nearest_free_from(step, corner, tolerances.hit * Real(least_gap), reach);
+  while (!found && corner-- > 0) found = nearest_free_from(step, corner, least_gap(step.position), reach);
   if (found) {
     // Mostly there is also one with the gap that is kept everywhere else.
     if (const auto ample = nearest_free_from(step, corner, tolerances.stop, reach)) found = ample;

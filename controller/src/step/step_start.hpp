@@ -136,7 +136,7 @@ template <class MayPass>
 }
 
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
-/// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
+/// gap that is kept everywhere else, then with that of an opening that counts as closed.
 /// @param farthest it is no farther away [m].
 [[nodiscard]] inline std::optional<Vec2> find_way_out(Step& step, Real farthest) {
   const Real whole = std::min(reach_of_solids_inside(step), farthest);
@@ -144,7 +144,7 @@ template <class MayPass>
   const CharacterState& before = step.request.state;
   if (before.has_last_free) query.last_free = before.last_free;
   do {
-    for (const Real gap : {tolerances.stop, tolerances.hit * Real(least_gap)}) {
+    for (const Real gap : {tolerances.stop, least_gap(step.position)}) {
       query.gap = gap;
       if (const std::optional<Vec2> out = find_way_out(step, query, whole)) return out;
     }
