@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Every built-in scene holds the guarantee, but for what tests/known_and_open.json names; and what that names is still so.
+So do the scenes in tests/regression/.
 The levels of SuperTux hold it, where they are installed: those that broke it once and every sixteenth of the others, or all of
 them with PAPERPROOF_LONG_TESTS=1.
 
@@ -17,7 +18,9 @@ from judging import call, compare, read
 
 LONG = "long_rest"  # a million steps: it is run by the main comparison
 LEVELS = Path("/usr/share/games/supertux2/levels")
-BROKE_ONCE = ("world1/crystal_mine.stl", "world2/lost_village.stl", "bonus4/Spooky_Mansion.stl")
+LEVELS_THAT_BROKE = ("world1/crystal_mine.stl", "world2/lost_village.stl", "bonus4/Spooky_Mansion.stl")
+BROKE_ONCE = (("closing_lift", "--set", "clearance=2.02e-7", "--set", "closing=1"),
+              ("closing_lift", "--set", "clearance=2.2e-7", "--set", "closing=1"))
 NO_LEVEL = "expected a sector with solid tiles and a spawn point"  # what a cut-scene is
 
 
@@ -59,12 +62,19 @@ class KnownAndOpen(unittest.TestCase):
         folder = Path(KNOWN).with_suffix("")
         self.assertEqual(named, {f"{folder.name}/{path.name}" for path in folder.glob("*.json")})
 
+    def test_what_broke_once_holds(self):
+        scenes = sorted(Path(KNOWN).parent.glob("regression/*.json"))
+        self.assertTrue(scenes)
+        for arguments in [*BROKE_ONCE, *((scene,) for scene in scenes)]:
+            with self.subTest(arguments):
+                self.assertEqual(self.broken(*arguments), {})
+
     @unittest.skipUnless(LEVELS.is_dir(), "supertux-data is not installed")
     def test_nothing_is_broken_in_levels_of_supertux(self):
         levels = sorted(LEVELS.rglob("*.stl"))
         if os.environ.get("PAPERPROOF_LONG_TESTS") != "1":
             levels = levels[::16]
-        levels = sorted({*levels, *(LEVELS / level for level in BROKE_ONCE)})
+        levels = sorted({*levels, *(LEVELS / level for level in LEVELS_THAT_BROKE)})
         self.assertGreater(len(levels), 15)
         self.assertEqual(self.broken(*levels, "--keep-going"), {})
 
