@@ -22,6 +22,9 @@ test_packages=(
 # of clang (in older releases it comes with clang itself), the prover of bounds of rounding, and what draws pictures for
 # documents (compare/plots.py).
 optional_test_packages=(chromium libclang-rt-dev gappa python3-matplotlib)
+# Of the engines of compare/peers those that Debian has, and npm for the others.
+peer_packages=(libchipmunk-dev)
+command -v npm >/dev/null || peer_packages+=(nodejs npm)
 # A compiler for Windows, and what runs its programs: for the one test that `tests/run.sh --windows` adds. 170 MB to download, half a minute to install.
 windows_test_packages=(g++-mingw-w64-x86-64-posix wine64)
 
@@ -66,6 +69,16 @@ installable_packages() {
     [[ $(apt-cache policy "$package" 2>/dev/null) =~ Candidate:\ [0-9] ]] && echo "$package"
   done
   return 0
+}
+
+# Installs the engines of compare/peers that npm has, below build/, with the module through which the peers import them.
+install_peers() {
+  cmp --silent compare/peers/package-lock.json build/peers/package-lock.json && [[ -f build/peers/engine.mjs ]] && return
+  mkdir -p build/peers
+  rm -f build/peers/engine.mjs
+  cp compare/peers/package.json compare/peers/package-lock.json build/peers
+  npm ci --prefix build/peers --no-audit --no-fund || return
+  echo 'export const installed = (name) => import(name);' >build/peers/engine.mjs
 }
 
 # For whoever builds everything once: up to 32 sources at a time, which takes half as long. Most of what a source takes to

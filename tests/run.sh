@@ -31,8 +31,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source compare/packages.sh
 
 install_missing "${build_packages[@]}" "${test_packages[@]}" ${windows:+"${windows_test_packages[@]}"}
-mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
+mapfile -t optional < <(installable_packages "${optional_test_packages[@]}" ${target:+"${peer_packages[@]}"})
 (install_missing "${optional[@]}") || echo "going on without ${optional[*]}: tests that need it are skipped"
+[[ -z $target ]] || (install_peers) || echo "going on without the engines of compare/peers that npm has: their test is skipped"
 
 jobs=$(build_jobs)
 {

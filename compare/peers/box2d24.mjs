@@ -6,13 +6,11 @@
  *
  * The calls are Box2D's own (box2d.org/documentation of 2.4); npm's package documents what it adds: tuplesToVec2Array.
  */
-import {createRequire} from "node:module";
-import {outline, serve, standing} from "./peer.mjs";
+import {installed, outline, serve, standing} from "./peer.mjs";
 
 async function load() {
   globalThis.fetch = undefined;  // the package of 2021 takes Node 18's for a browser's, and would fetch a file by its path
-  const require = createRequire(import.meta.url);
-  return {box2d: await require("box2d-wasm")(), clipper: require("clipper-lib")};
+  return {box2d: await (await installed("box2d-wasm")).default(), clipper: (await installed("clipper-lib")).default};
 }
 
 class World {

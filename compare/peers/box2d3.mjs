@@ -9,15 +9,15 @@
  * mover is that of samples/sample_character.cpp. The mover is a capsule: the largest upright one in the octagon. The judge
  * is told, by eight points on its rim, and looks at those.
  */
-import {outline, serve, standing, words} from "./peer.mjs";
+import {installed, outline, serve, standing, words} from "./peer.mjs";
 
 const asMover = words.includes("mover");
 const slop = 0.005;  // b2_linearSlop
 
 async function load() {
   globalThis.navigator ??= {hardwareConcurrency: 1};  // the package's integration test does so for Node before 21
-  const box2d = await (await import("box2d3-wasm")).default();
-  return {box2d, clipper: (await import("clipper-lib")).default};
+  const box2d = await (await installed("box2d3-wasm")).default();
+  return {box2d, clipper: (await installed("clipper-lib")).default};
 }
 
 /** The largest upright capsule in a convex shape around (0, 0): `{radius, half}`, with `half` the length of its axis. */

@@ -7,7 +7,7 @@
  * no continuous collision, and says so. Its lengths are pixels, its velocities pixels in 1/60 s; a metre is 32 of them here,
  * the scenes' own scale. It knows convex polygons alone: others come in triangles, and chains and circles not at all.
  */
-import {convexPieces, serve, standing} from "./peer.mjs";
+import {convexPieces, installed, serve, standing} from "./peer.mjs";
 
 const scale = 32;
 const pixels = ([x, y]) => ({x: x * scale, y: y * scale});
@@ -15,7 +15,7 @@ const pixels = ([x, y]) => ({x: x * scale, y: y * scale});
 const smooth = {friction: 0, frictionStatic: 0, frictionAir: 0, restitution: 0, inertia: Infinity};
 
 async function load() {
-  return {matter: (await import("matter-js")).default, earcut: (await import("earcut")).default};
+  return {matter: (await installed("matter-js")).default, earcut: (await installed("earcut")).default};
 }
 
 class World {

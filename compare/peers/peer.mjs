@@ -8,12 +8,12 @@ import {createInterface} from "node:readline";
 /** The words after the peer's file: `node compare/peers/rapier.mjs body_ccd` has one. */
 export const words = process.argv.slice(2);
 
-/** An installed package: they are beside this file. */
-export const load = (name) => import(name);
-
+/** Where run.sh installs the packages of package.json: not among the sources. */
+const packages = new URL("../../build/peers/", import.meta.url);
+/** An installed package: what `import` of its name has in a module that stands beside the packages. */
+export const installed = async (name) => (await import(new URL("engine.mjs", packages))).installed(name);
 /** The version of an installed package. */
-export const versionOf = (name) =>
-  JSON.parse(readFileSync(new URL(`node_modules/${name}/package.json`, import.meta.url))).version;
+export const versionOf = (name) => JSON.parse(readFileSync(new URL(`node_modules/${name}/package.json`, packages))).version;
 
 /**
  * @param {object} engine `package` (of npm), `greeting` (README.md; its version is the package's where it has none),
@@ -37,7 +37,7 @@ export async function serve(engine) {
       run = heard.run;
       try {
         const loaded = await engine.load().catch((error) => {
-          throw error.code === "ERR_MODULE_NOT_FOUND" ? `npm install in compare/peers first: ${error.message}` : error;
+          throw error.code === "ERR_MODULE_NOT_FOUND" ? `run compare/peers/run.sh first: ${error.message}` : error;
         });
         const bodies = parts(run);
         moving = bodies.filter((part) => part.mover);

@@ -7,10 +7,10 @@
  * Sources: piqnt.com/planck.js/docs, its pages on bodies (bullets, fixed rotation), chains, contacts and the world ("the
  * suggested iteration count is 8 for velocity and 3 for position").
  */
-import {outline, serve, standing, words} from "./peer.mjs";
+import {installed, outline, serve, standing, words} from "./peer.mjs";
 
 async function load() {
-  return {planck: await import("planck"), clipper: (await import("clipper-lib")).default};
+  return {planck: await installed("planck"), clipper: (await installed("clipper-lib")).default};
 }
 
 const smooth = {friction: 0, restitution: 0};

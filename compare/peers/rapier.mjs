@@ -12,7 +12,7 @@
  * Sources: rapier.rs/docs/user_guides/javascript, its pages on the character controller, on rigid-bodies (CCD, locked
  * rotations, kinematic bodies) and on colliders; rapier.rs/javascript2d for each call.
  */
-import {convexPieces, outline, serve, standing, words} from "./peer.mjs";
+import {convexPieces, installed, outline, serve, standing, words} from "./peer.mjs";
 
 const asBody = words.some((word) => word.startsWith("body"));
 const asOutline = words.includes("outline");
@@ -22,9 +22,9 @@ const flat = (points) => new Float32Array(points.flat());
 const vector = ([x, y]) => ({x, y});
 
 async function load() {
-  const rapier = (await import("@dimforge/rapier2d-compat")).default;
+  const rapier = (await installed("@dimforge/rapier2d-compat")).default;
   await rapier.init();
-  return {rapier, earcut: (await import("earcut")).default, clipper: (await import("clipper-lib")).default};
+  return {rapier, earcut: (await installed("earcut")).default, clipper: (await installed("clipper-lib")).default};
 }
 
 class World {

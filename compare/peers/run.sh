@@ -2,8 +2,9 @@
 # Runs the peers of this folder beside octagon_sweep and Box2D's twin, over one scene for each thing that they differ in.
 #   compare/peers/run.sh                     all peers, the scenes below
 #   compare/peers/run.sh SCENE… [OPTION…]    `paperproof compare` with all peers and what you name instead
-# First it installs what is missing: the packages of package.json, Node where there is none, and libchipmunk; and it builds
-# the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is report.html beside them.
+# First it installs what is missing: the packages of package.json into build/peers, Node where there is none, and
+# libchipmunk; and it builds the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is
+# report.html beside them.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -30,14 +31,12 @@ scenes=(
 # And a course of slopes, kerbs, a needle and one-way ledges.
 course=(playground --set steps=1000)
 
-peer_packages=(libchipmunk-dev)
-command -v npm >/dev/null || peer_packages+=(nodejs npm)
 out=build/release/peers
 mkdir -p "$out"
 log=$out/run.log
 {
   install_missing "${build_packages[@]}" "${peer_packages[@]}"
-  [[ -d compare/peers/node_modules ]] || (cd compare/peers && npm ci --no-audit --no-fund)
+  install_peers
   cmake -S . --preset release "${whole_build[@]}"
   cmake --build build/release --target paperproof --parallel "$(build_jobs)"
   g++ -std=c++20 -O2 compare/peers/chipmunk.cpp -lchipmunk -o "$out/chipmunk"

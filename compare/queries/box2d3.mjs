@@ -6,11 +6,11 @@
  *
  * Its sources: a cast stops where two shapes are a slop apart, or a quarter of it more; its slop is 5 mm.
  */
-import {load} from "../peers/peer.mjs";
+import {installed} from "../peers/peer.mjs";
 import {answerAll} from "./answers.mjs";
 
 globalThis.navigator ??= {hardwareConcurrency: 1};  // as the package's own test does for Node before 21
-const box2d = await (await load("box2d3-wasm")).default();
+const box2d = await (await installed("box2d3-wasm")).default();
 const world = box2d.b2CreateWorld(box2d.b2DefaultWorldDef());
 const shapeDef = box2d.b2DefaultShapeDef();
 const filter = box2d.b2DefaultQueryFilter();

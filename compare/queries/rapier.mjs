@@ -5,10 +5,10 @@
  *
  * The target distance is 0: shapes that touch. Its documentation has no tolerance.
  */
-import {load} from "../peers/peer.mjs";
+import {installed} from "../peers/peer.mjs";
 import {answerAll} from "./answers.mjs";
 
-const rapier = (await load("@dimforge/rapier2d-compat")).default;
+const rapier = (await installed("@dimforge/rapier2d-compat")).default;
 await rapier.init();
 const {ColliderDesc} = rapier;
 const world = new rapier.World({x: 0, y: 0});

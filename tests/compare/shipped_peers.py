@@ -11,8 +11,8 @@ import sys
 
 paperproof, source, place = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 peers = source / "compare/peers"
-if not shutil.which("node") or not (peers / "node_modules").is_dir():
-    print("skipped: no node, or no npm install in compare/peers")
+if not shutil.which("node") or not (source / "build/peers/engine.mjs").exists():
+    print("skipped: no node, or no packages in build/peers (compare/peers/run.sh installs them)")
     sys.exit(77)
 shutil.rmtree(place, ignore_errors=True)
 place.mkdir(parents=True)
@@ -55,4 +55,4 @@ for scene in same:
 for file in peers.glob("*.mjs"):
     shutil.copy(file, place)
 missing = compare(["paper_1e-3"], {"planck": f"node {place}/planck.mjs"})["paper_1e-3", "planck"]
-assert missing["verdict"] == "not_applicable" and "npm install in compare/peers first" in missing["reason"], missing
+assert missing["verdict"] == "not_applicable" and "run compare/peers/run.sh first" in missing["reason"], missing
