@@ -1,6 +1,7 @@
 #include "metrics/agreement.hpp"
 
 #include "metrics/rest.hpp"
+#include "oracle/contacts.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,14 +10,16 @@
 namespace paperproof::compare {
 namespace {
 
-/// The sides on which every contact is with a collider that is a don't-care, and no ghost.
+/// The sides on which every contact is with a collider that is a don't-care, and neither exact nor a ghost.
 std::uint8_t only_excused(const std::vector<Contact>& contacts, const StepJudgement& judged) {
   std::uint8_t other = 0;
   for (const Contact& contact : contacts) {
     const bool ghost = std::find(judged.ghosts.begin(), judged.ghosts.end(),
                                  std::pair(contact.collider, contact.side)) != judged.ghosts.end();
     const std::vector<ColliderIndex>& near = judged.dont_care;
-    if (!ghost && std::find(near.begin(), near.end(), contact.collider) != near.end()) continue;
+    if (!ghost && !detail::is_exact(judged, contact) &&
+        std::find(near.begin(), near.end(), contact.collider) != near.end())
+      continue;
     other |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(contact.side));
   }
   return static_cast<std::uint8_t>(sides_of(contacts) & ~other);

@@ -1,6 +1,7 @@
 #include "metrics/ledger_step.hpp"
 
 #include "metrics/rest.hpp"
+#include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +18,6 @@ constexpr double same_face = 0.9;
 constexpr double ulp_of_float = 0x1p-23;
 bool is_touch(const ExactContact& exact, const Contact& touch) {
   return exact.collider == touch.collider && exact.side == touch.side;
-}
-
-bool is_exact(const StepJudgement& judged, const Contact& touch) {
-  return std::any_of(judged.contacts.begin(), judged.contacts.end(),
-                     [&](const ExactContact& exact) { return is_touch(exact, touch); });
 }
 
 /// Met by the motion from the start alone, which something else may have turned before.
@@ -275,9 +271,8 @@ void StepLedger::add_crossings() {
                                    mine_.header->ids[collider], depth)});
   }
   for (const ColliderIndex collider : now_.reference.judged.clipped)
-    events_.push_back(
-        {EventKind::crossing, Cause::skin, false,
-         fmt::format("Box2D clips `{}` no deeper than its skin", mine_.header->ids[collider])});
+    events_.push_back({EventKind::crossing, Cause::skin, false,
+                       fmt::format("Box2D clips `{}` no deeper than its skin", mine_.header->ids[collider])});
 }
 
 /// After settling, one changes the sides of its contacts. Exact arithmetic has a reason where its own sides change too.

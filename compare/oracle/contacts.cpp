@@ -29,6 +29,12 @@ Side side_along(const Vec2d& normal, const Vec2d& up) {
   return side_of_normal(clean(cross_of(normal, up)), clean(normal.dot(up)));
 }
 
+bool is_exact(const StepJudgement& judgement, const Contact& reported) {
+  return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
+    return one.collider == reported.collider && one.side == reported.side;
+  });
+}
+
 namespace {
 
 double degrees_between(const Vec2d& a, const Vec2d& b) {
@@ -151,10 +157,9 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
       promises_ && !step_.contacts.empty() && std::all_of(step_.contacts.begin(), step_.contacts.end(), is_ground);
   // A contact that exact arithmetic has, or that an exact one deflected the motion into, may take it.
   for (const Contact& contact : step_.contacts) {
-    const auto is_it = [&](const auto& one) { return one.collider == contact.collider && one.side == contact.side; };
     const std::pair touch(contact.collider, contact.side);
     const bool confirmed =
-        std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
+        is_exact(judgement, contact) ||
         std::find(judgement.deflected.begin(), judgement.deflected.end(), touch) != judgement.deflected.end();
     if (promises_ && !on_ground_alone && (confirmed || comes_near(contact)) && across(contact.normal) * wanted < 0 &&
         has_face(contact))
@@ -249,7 +254,8 @@ bool ContactJudge::ran_into(const Contact& contact) const {
 void ContactJudge::add_ghosts(StepJudgement& judgement) const {
   for (const Contact& contact : step_.contacts) {
     const bool dont_care = std::binary_search(judgement.dont_care.begin(), judgement.dont_care.end(), contact.collider);
-    if (dont_care && !has_face(contact)) judgement.ghosts.emplace_back(contact.collider, contact.side);
+    if (dont_care && !is_exact(judgement, contact) && !has_face(contact))
+      judgement.ghosts.emplace_back(contact.collider, contact.side);
   }
 }
 
@@ -314,10 +320,6 @@ bool ContactJudge::is_led_into_by_rounding(const Contact& contact, std::span<con
 }
 
 void ContactJudge::add_dont_care(StepJudgement& judgement) const {
-  const auto exact = [&](ColliderIndex collider) {
-    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
-                       [&](const ExactContact& contact) { return contact.collider == collider; });
-  };
   if (!header_.path_exact) {
     const Place start = place(0);
     const Place end = place(step_.path.size() - 1);
@@ -326,14 +328,8 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
       if (gap <= box2d_skin) judgement.dont_care.push_back(collider);
     }
   }
-  // One collider may have an exact contact on one side and deflect the motion into another side of itself: a valley.
-  const auto exact_on_side = [&](const Contact& reported) {
-    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
-      return one.collider == reported.collider && one.side == reported.side;
-    });
-  };
   for (const Contact& contact : step_.contacts) {
-    if (!header_.path_exact || exact_on_side(contact)) continue;
+    if (!header_.path_exact || is_exact(judgement, contact)) continue;
     // Nothing but another contact turns a motion aside; ground is followed.
     const std::vector<ExactContact> others = contacts_besides(contact, judgement);
     const bool turned_aside = !others.empty() || is_walkable(contact.normal, header_, up_);
@@ -341,13 +337,19 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
     if (promises_ && near && has_face(contact)) judgement.contact_band.push_back(contact.collider);
-    if (exact(contact.collider)) continue;
     if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }
   std::sort(judgement.dont_care.begin(), judgement.dont_care.end());
   judgement.dont_care.erase(std::unique(judgement.dont_care.begin(), judgement.dont_care.end()),
                             judgement.dont_care.end());
-  std::erase_if(judgement.dont_care, exact);
+  // A collider that is met on one side may be held, or deflect the motion, on another: a valley.
+  const auto is_met_as_reported = [&](ColliderIndex collider) {
+    const auto is_it = [&](const auto& one) { return one.collider == collider; };
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) &&
+           std::all_of(step_.contacts.begin(), step_.contacts.end(),
+                       [&](const Contact& one) { return !is_it(one) || is_exact(judgement, one); });
+  };
+  std::erase_if(judgement.dont_care, is_met_as_reported);
 }
 
 }  // namespace paperproof::compare::detail

@@ -21,6 +21,9 @@ inline constexpr double least_approach = 1e-3;
 /// Of the character as it stands. What rounding leaves of a component that is zero is none.
 [[nodiscard]] Side side_along(const Vec2d& normal, const Vec2d& up);
 
+/// Whether a reported contact should have been reported, on its side.
+[[nodiscard]] bool is_exact(const StepJudgement& judgement, const Contact& reported);
+
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:
