@@ -43,6 +43,26 @@ TEST(JudgeOfContacts, what_another_contact_keeps_the_motion_from_is_not_demanded
   EXPECT_EQ(demanded(judged(promising(floor), stopped)), (Touches{{2, Side::left}}));
 }
 
+/// In a valley that is one collider, at rest within its skin of both sides: the motion meets the nearer side alone.
+TEST(JudgeOfContacts, within_a_skin_both_sides_of_a_valley_are_held) {
+  ColliderDef valley;
+  valley.points = {{-4, 8}, {-4, -1}, {4, -1}, {4, 8}, {0, 0}};
+  const Vec2d right_side(-lower_left().x(), lower_left().y());
+  const Vec2d rest(1e-3, 0.9375 + 5e-3 * std::sqrt(5.0));
+  for (const bool path_exact : {true, false}) {
+    TraceHeader scene = header({valley}, path_exact);
+    scene.tolerances = {{"touch", 0.01}};
+    TraceStep held = step({rest, rest}, Vec2d(0, -1.0 / 32), {contact(0, lower_left()), contact(0, right_side)});
+    const StepJudgement both = judged(scene, held);
+    EXPECT_EQ(demanded(both), (Touches{{0, Side::right}}));
+    EXPECT_EQ(both.dont_care, Colliders{0});
+    EXPECT_TRUE(both.ghosts.empty());
+    held.contacts = {contact(0, {0, 1})};
+    const StepJudgement none = judged(scene, held);
+    EXPECT_TRUE(none.dont_care.empty() || none.ghosts == (Touches{{0, Side::bottom}})) << "no face is level";
+  }
+}
+
 /// At the mouth of a shaft the exact octagon would fall past both rims, and meet the right wall far below.
 TEST(JudgeOfContacts, no_contact_is_demanded_behind_an_opening_that_counts_as_closed) {
   for (const auto& [aside, open] : {std::pair{2e-9, false}, {8e-7, true}}) {
