@@ -23,7 +23,7 @@ test_packages=(
 # documents (compare/plots.py).
 optional_test_packages=(chromium libclang-rt-dev gappa python3-matplotlib)
 # Of the engines of compare/peers those that Debian has, and npm for the others.
-peer_packages=(libchipmunk-dev)
+peer_packages=(libchipmunk-dev godot3-server)
 command -v npm >/dev/null || peer_packages+=(nodejs npm)
 # A compiler for Windows, and what runs its programs: for the one test that `tests/run.sh --windows` adds. 170 MB to download, half a minute to install.
 windows_test_packages=(g++-mingw-w64-x86-64-posix wine64)

@@ -2,8 +2,8 @@
 # Runs the peers of this folder beside octagon_sweep and Box2D's twin, over one scene for each thing that they differ in.
 #   compare/peers/run.sh                     all peers, the scenes below
 #   compare/peers/run.sh SCENE… [OPTION…]    `paperproof compare` with all peers and what you name instead
-# First it installs what is missing: the packages of package.json into build/peers, Node where there is none, and
-# libchipmunk; and it builds the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is
+# First it installs what is missing: the packages of package.json into build/peers, Node where there is none, libchipmunk and
+# Godot's server; and it builds the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is
 # report.html beside them.
 set -euo pipefail
 
@@ -59,6 +59,8 @@ peers=(
   "planck_bullet=$node/planck.mjs bullet"
   "matter=$node/matter.mjs"
   "chipmunk=$out/chipmunk"
+  "godot=python3 compare/peers/godot.py"
+  "godot_snap=python3 compare/peers/godot.py snap"
 )
 # Times are the peers' own; those of the others, by a clock of another kind, are not measured here.
 options=(--contender octagon_sweep --no-timing)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The peers that ship, on five scenes: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
-in WebAssembly goes where the contender `box2d` goes. Skipped (77) where npm's packages are not installed.
+in WebAssembly goes where the contender `box2d` goes. Skipped (77) where npm's packages are not installed; Godot and Chipmunk
+are left out where Debian's are not.
 
 usage: shipped_peers.py PAPERPROOF SOURCE_DIR EMPTY_DIR"""
 import json
@@ -31,16 +32,22 @@ def compare(scenes, commands, *options):
 
 
 commands = {name: f"node {peers}/{rest}" for name, rest in {**stop_the_bullet, **let_it_pass}.items()}
+if shutil.which("godot3-server"):
+    commands |= {name: f"python3 {peers}/godot.py {rest}" for name, rest in (("godot", ""), ("godot_snap", "snap"))}
+    stop_the_bullet |= dict.fromkeys(("godot", "godot_snap"))
+if subprocess.run(["g++", "-std=c++20", peers / "chipmunk.cpp", "-lchipmunk", "-o", place / "chipmunk"]).returncode == 0:
+    commands["chipmunk"] = str(place / "chipmunk")
+    let_it_pass["chipmunk"] = ""
 scenes = ["article_bullet", "paper_1e-3", "flush_tiles", "lift_sideways", "one_way_drop"]
 rows = compare(scenes, {**commands, "straight": f"python3 {peers}/straight.py"})
 for (scene, contender), row in rows.items():
     assert row["verdict"] != "failed", row
-    assert row["verdict"] != "not_applicable" or (scene, contender) == ("one_way_drop", "matter"), row
+    assert row["verdict"] != "not_applicable" or scene == "one_way_drop" and contender in ("matter", "chipmunk"), row
 for name in [*let_it_pass, "straight"]:
     assert rows["article_bullet", name]["verdict"] == "tunnels", name
 for name in stop_the_bullet:
     assert rows["article_bullet", name]["tunnels"] == 0 == rows["paper_1e-3", name]["tunnels"], name
-for name in ("box2d3", "planck", "box2d24"):  # chains have no seams, and what stands is carried
+for name in {"box2d3", "planck", "box2d24", "godot", "godot_snap"} & commands.keys():  # no seams, and what stands is carried
     assert {rows[scene, name]["verdict"] for scene in scenes[2:]} == {"holds"}, name
 assert "answer_ok" not in rows["paper_1e-3", "box2d3_mover"]  # it is a capsule, and said so
 
