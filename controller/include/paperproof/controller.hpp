@@ -110,7 +110,8 @@ class Controller {
   /// The first contact of a straight displacement, if there is one: where the character would touch, with the exact
   /// normal and the time of impact as a fraction of the displacement. Movers move at the same time, as in a step; for
   /// movers that stand, each motion must end where it begins. What the character overlaps at the start counts, with
-  /// fraction 0, if the displacement leads deeper.
+  /// fraction 0, if the displacement leads deeper. A displacement that ends before a surface by less than the gap at
+  /// which motions stop (`Tolerances::stop` along the normal) touches it, at fraction 1.
   /// @param position,displacement [m]
   [[nodiscard]] std::optional<Contact> cast(const Vec2d& position, const Vec2d& displacement,
                                             const StepContext& context, Scratch& scratch) const noexcept;
