@@ -44,18 +44,6 @@ class Search {
     return best_;
   }
 
-  /// Whether a position is free, and the straight motion to it.
-  [[nodiscard]] bool reaches(const Vec2& q) const {
-    if (!(q.cwiseAbs().maxCoeff() <= tolerances.range)) return false;
-    for (std::size_t index = 0; index < pieces_.size(); ++index) {
-      const PieceIndex piece = pieces_[index];
-      if (solid(piece) && best(piece, seen_at_end(piece, q)).separation < tolerances.hit) return false;
-      if (!(is_passable(index) ? keeps_side(piece, q) : clear(piece, query_.from, q))) return false;
-      if (query_.last_free && !clear(piece, *query_.last_free, q)) return false;
-    }
-    return true;
-  }
-
  private:
   /// Rounding stays below this: a position this little inside a region counts as outside [m].
   static constexpr Real slack = tolerances.certain;
@@ -331,6 +319,18 @@ class Search {
 
   // The checks of a position.
 
+  /// Whether a position is free, and the straight motion to it.
+  [[nodiscard]] bool reaches(const Vec2& q) const {
+    if (!(q.cwiseAbs().maxCoeff() <= tolerances.range)) return false;
+    for (std::size_t index = 0; index < pieces_.size(); ++index) {
+      const PieceIndex piece = pieces_[index];
+      if (solid(piece) && best(piece, seen_at_end(piece, q)).separation < tolerances.hit) return false;
+      if (!(is_passable(index) ? keeps_side(piece, q) : clear(piece, query_.from, q))) return false;
+      if (query_.last_free && !clear(piece, *query_.last_free, q)) return false;
+    }
+    return true;
+  }
+
   /// @return true where the search along this line ends: a position was taken, or all others on it are further away.
   bool consider(const Vec2& w) {
     const Vec2 q = query_.near + w;
@@ -386,11 +386,6 @@ class Search {
 std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
                                  const FreePositionQuery& query) {
   return Search{space, pieces, query}.find();
-}
-
-bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces, const FreePositionQuery& query,
-             const Vec2& q) {
-  return Search{space, pieces, query}.reaches(q);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

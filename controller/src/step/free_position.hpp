@@ -47,8 +47,4 @@ struct FreePositionQuery {
 [[nodiscard]] std::optional<Vec2> nearest_free(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
                                                const FreePositionQuery& query);
 
-/// Whether `q` is such a position, at any distance.
-[[nodiscard]] bool reaches(const ConfigurationSpace& space, std::span<const PieceIndex> pieces,
-                           const FreePositionQuery& query, const Vec2& q);
-
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -82,8 +82,7 @@ struct MoverState {
   std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
   bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2> last_free{};        ///< The last free position before the step, if there was one.
-  std::size_t corners_before_crush = 0;   ///< Of the path, when the first mover crushed; and
-  StepStatus status_before_crush = StepStatus::moved;  ///< the status until then.
+  Real stopped = 0;                       ///< When surfaces last left no motion, as a fraction of the step.
 };
 
 /// All that a step knows.
@@ -219,7 +218,17 @@ inline void halt(Step& step) { step.velocity = Vec2::Zero(); }
 
 /// Stores for the last corner of the path how many contacts are reported, and the latest impact among them.
 inline void note_reported(Step& step) {
-  step.memory.reported_at[step.result.path.size() - 1] = {step.result.contacts.size(), step.latest_impact};
+  Reported& now = step.memory.reported_at[step.result.path.size() - 1];
+  now.contacts = step.result.contacts.size();
+  now.impact = step.latest_impact;
+}
+
+/// Stores for the last corner of the path how the motion goes on, where movers may take it back to there.
+inline void note_velocity(Step& step, const Desired& velocity) {
+  if (!step.movers.active) return;
+  Reported& now = step.memory.reported_at[step.result.path.size() - 1];
+  now.velocity = {velocity.wanted, step.steered != 0 ? velocity.unsteered : velocity.wanted};
+  now.steered = step.steered;
 }
 
 PAPERPROOF_INLINE void push_corner(Step& step, Real fraction) {

@@ -15,94 +15,11 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// The longest way that a surface which is touched goes in the step [m].
-[[nodiscard]] inline Real longest_way(const Step& step) {
-  Real way = 0;
-  for (const TouchedSurface& surface : step.memory.surfaces)
-    way = std::max(way, length_of(step.movers.displacement(surface.mover)));
-  return way;
-}
-
-/// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
-/// yet. After a crush `undo_crushes` does that at the end of the step.
-[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
-  if (!step.result.crushed.empty()) return false;
-  if (!move_to_free_position(step, push_left(step, longest_way(step)), step.result.path.size())) return false;
-  step.memory.surfaces.clear();
-  return true;
-}
-
-/// Whether the touched surfaces are not all of one direction.
-[[nodiscard]] inline bool are_a_wedge(const Step& step) {
-  const Vec2 first = step.memory.surfaces[0].normal;
-  return std::ranges::any_of(step.memory.surfaces, [&](const TouchedSurface& surface) {
-    return length_of(Vec2(surface.normal - first)) > same_plane;
-  });
-}
-
-/// How fast a surface goes [m/s]: ground that may carry as a whole, with its belt; any other along its normal.
-[[nodiscard]] inline Real speed_of(const Step& step, const TouchedSurface& surface) {
-  const Vec2 velocity = step.movers.velocity(surface.mover);
-  if (!walkable(step, surface.normal)) return std::abs(dot(velocity, surface.normal));
-  return length_of(velocity) + std::abs(surface_speed(step, surface.piece));
-}
-
-/// A mover and another surface squeeze the character out as a wedge does: the blunter it is, the farther and the
-/// faster.
-///
-/// - In the step it goes no farther than it wanted to, and they go, and `Tolerances::push`.
-/// - It gets no faster than twice the fastest of them: so fast a wall pushes up a slope of 60 degrees. What it had it
-///   keeps; of a walk that is its speed along the ground.
-///
-/// @param wants its velocity before the response. @param allowed by the response.
-/// @return false if they would push it too far: then it goes to a free position, or is crushed.
-[[nodiscard]] PAPERPROOF_NOT_INLINE inline bool limit_push(const Step& step, const Vec2& wants,
-                                                           DesiredMotion& allowed) {
-  const std::vector<TouchedSurface>& surfaces = step.memory.surfaces;
-  const auto pushes = [&](const TouchedSurface& surface) { return moves_in(step, surface); };
-  if (!are_a_wedge(step) || std::ranges::none_of(surfaces, pushes)) return true;
-  Real own = length_of(wants);
-  Real speed = 0;
-  for (const TouchedSurface& surface : surfaces) {
-    if (walkable(step, surface.normal))
-      own = std::max<Real>(own, std::abs(step.up.across_of(wants)) / step.up.up_of(surface.normal));
-    speed = std::max(speed, speed_of(step, surface));
-  }
-  const Vec2 whole = step.position + allowed.displacement.wanted - step.start;
-  const Real farthest = length_of(step.wanted) + longest_way(step) + static_cast<Real>(step.request.around.limits.push);
-  if (length_of(whole) > farthest) return false;
-  const Real most = std::max(own, 2 * speed) + std::abs(step.steered);
-  const Real share = std::min(Real(1), most / length_of(allowed.velocity.wanted));
-  allowed.velocity = {allowed.velocity.wanted * share, allowed.velocity.unsteered * share};
-  return true;
-}
-
-/// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
-/// movers that crushed, no farther away than they may push; then nothing was crushed.
-PAPERPROOF_COLD inline void undo_crushes(Step& step) {
-  step.moving.ignored &= static_cast<std::uint8_t>(~crushes);
-  Real way = 0;
-  for (const ColliderIndex collider : step.result.crushed)
-    way = std::max(way, length_of(displacement_of(step, collider)));
-  step.memory.surfaces.clear();
-  if (move_to_free_position(step, push_left(step, way), step.moving.corners_before_crush)) {
-    for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
-    step.result.crushed.clear();
-    step.result.status =
-        step.moving.status_before_crush == StepStatus::dropped ? StepStatus::dropped : StepStatus::moved;
-  }
-  step.moving.ignored = passes_through;
-}
-
 /// Notes that the mover of a piece crushes the character.
 /// @param since the character was free of the mover at this fraction of the step.
 inline void crush(Step& step, PieceIndex piece, Real since) {
   const MoverIndex mover = mover_of(step, piece);
   if (ignored(step, piece) || mover == no_mover) return;
-  if (step.result.crushed.empty()) {
-    step.moving.corners_before_crush = step.result.path.size();
-    step.moving.status_before_crush = step.result.status;
-  }
   const ColliderIndex collider = collider_of(step, piece);
   step.memory.mark(collider, crushes);
   step.result.crushed.push_back(collider);
@@ -153,10 +70,7 @@ PAPERPROOF_COLD inline void wait(Step& step, bool may_move) {
   // Each round makes a touched surface of one more piece at least, and a touched one stops no sweep.
   for (sweep_along(step, Vec2::Zero()); step.found.hit; sweep_along(step, Vec2::Zero())) {
     update_surfaces(step);
-    if (may_move && goes_to_free_position(step)) {
-      step.moving.waits = false;
-      return;
-    }
+    if (may_move && goes_to_free_position(step)) return;
     note_crushers(step);
   }
   step.moving.waits = false;
@@ -168,6 +82,23 @@ PAPERPROOF_COLD inline void wait(Step& step, bool may_move) {
     if (overlaps(step, piece, step.position)) crush(step, piece, since);
   });
   push_corner(step, step.time);
+}
+
+/// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
+/// present motion, with the motion of a touched surface, or at a free position.
+PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) {
+  if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
+  if (!step.movers.active) return;
+  const auto goes = [&](const Vec2& last) {
+    sweep_along(step, last);
+    return !step.found.hit && advance(step, 1);
+  };
+  if (goes(displacement)) return;
+  if (!is_passed_through(step)) {
+    for (const TouchedSurface& surface : step.memory.surfaces)
+      if (goes(remaining_of(step, surface))) return;
+  }
+  wait(step, true);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -1,8 +1,8 @@
 /// Memory of a step. The scenery sizes it, so that no fixed number decides what a step does or reports.
 #pragma once
 
-#include "step/half_planes.hpp"
 #include "step/narrow_phase.hpp"
+#include "step/response.hpp"
 
 #include <paperproof/report.hpp>
 #include <paperproof/scenery.hpp>
@@ -52,10 +52,13 @@ inline constexpr std::uint8_t passes_through = overlaps_since_start | crushes;
 /// Stairs that a walker climbs in one step, at most.
 inline constexpr int most_stairs = 4;
 
-/// What the contacts of a step were at a corner of its path.
+/// What a step had reported at a corner of its path, and how it went on from there.
 struct Reported {
   std::size_t contacts = 0;  ///< How many.
   Real impact = 0;           ///< The latest time of impact among them: no later motion meets anything before it.
+  // Where movers are near:
+  Desired velocity{Vec2::Zero(), Vec2::Zero()};  ///< [m/s]
+  Real steered = 0;                              ///< See `Step`; of that.
 };
 
 /// One per thread; a step leaves nothing in it that the next one uses.
@@ -81,6 +84,7 @@ struct StepMemory final : OwnMemory, PieceUser {
   /// Makes room for as many surfaces as a report has contacts without growing, and for all that may crush.
   void reserve() {
     surfaces.reserve(MoveResult::max_contacts);
+    pressing.reserve(MoveResult::max_contacts);
     planes.reserve(MoveResult::max_contacts);
     marked.reserve(roles.size());
     crushers.reserve(space.scenery().counts().moving_pieces);
@@ -91,6 +95,7 @@ struct StepMemory final : OwnMemory, PieceUser {
     for (const ColliderIndex collider : marked) roles[Scenery::slot_of(collider)] = 0;
     marked.clear();
     surfaces.clear();
+    pressing.clear();
     crushers.clear();
   }
   /// Without effect where nothing moves: then a ride in the state comes from another scenery.
@@ -114,6 +119,7 @@ struct StepMemory final : OwnMemory, PieceUser {
   std::vector<std::uint8_t> roles;       ///< Of each collider, where anything moves: bits of `Role`.
   std::vector<ColliderIndex> marked;     ///< Colliders with a role, in the order in which they got one.
   std::vector<TouchedSurface> surfaces;  ///< Those that are touched now, one per piece.
+  std::vector<TouchedSurface> pressing;  ///< Those that left no motion, on the way to a free position.
   std::vector<HalfPlane> planes;         ///< What the touched surfaces allow.
   /// Movers that crushed, now or before, with their displacement at the end of the step.
   std::vector<Crusher> crushers;

@@ -5,7 +5,6 @@
 #include "step/half_planes.hpp"
 #include "step/response.hpp"
 #include "step/step.hpp"
-#include "step/step_crush.hpp"
 #include "step/step_ground.hpp"
 #include "step/step_ride.hpp"
 #include "step/step_sweep.hpp"
@@ -189,23 +188,6 @@ PAPERPROOF_COLD inline void note_wedge(Step& step, const TouchedSurface& ground)
   }
   step.after_walk = step.after_walk || on_ground;
   return possible;
-}
-
-/// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
-/// present motion, with the motion of a touched surface, or at a free position.
-PAPERPROOF_COLD inline void last_resort(Step& step, const Vec2& displacement) {
-  if (step.result.status == StepStatus::moved) step.result.status = StepStatus::dropped;
-  if (!step.movers.active) return;
-  const auto goes = [&](const Vec2& last) {
-    sweep_along(step, last);
-    return !step.found.hit && advance(step, 1);
-  };
-  if (goes(displacement)) return;
-  if (!is_passed_through(step)) {
-    for (const TouchedSurface& surface : step.memory.surfaces)
-      if (goes(remaining_of(step, surface))) return;
-  }
-  wait(step, true);
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL

@@ -6,6 +6,7 @@
 #include "step/step.hpp"
 #include "step/step_crush.hpp"
 #include "step/step_ground.hpp"
+#include "step/step_push.hpp"
 #include "step/step_response.hpp"
 #include "step/step_ride.hpp"
 #include "step/step_stairs.hpp"
@@ -99,6 +100,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion desired = desired_motion(step);
   step.fall = step.up.up_of(desired.velocity.unsteered);
+  note_velocity(step, desired.velocity);
   Vec2 displacement = step.motion.displacement;  // of the next sweep: it may also restore the gap to a surface
   bool may_aim = true;
   int impacts = 0;
@@ -116,6 +118,7 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
     if (!step.found.hit) return;
     const Stop first = step.found.stops[0];  // the response may sweep again
     report(step, begin);
+    note_velocity(step, desired.velocity);
     if (step.found.stop * step.motion.length > tolerances.touch)
       step.fall = step.up.up_of(step.steered != 0 ? desired.velocity.unsteered : desired.velocity.wanted);
     update_surfaces(step);
@@ -129,15 +132,15 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());
       step.steered = 0;
     }
-    const Vec2 wants = desired.velocity.wanted;
     const bool is_answered = !is_passed_through(step) && respond_to_surfaces(step, desired);
-    if (!is_answered || (step.movers.active && !limit_push(step, wants, desired))) {
+    if (!is_answered || (step.movers.active && !limit_push(step, desired))) {
       if (goes_to_free_position(step)) return;
       if (!note_crushers(step)) return wait(step, true);
       desired = DesiredMotion::plain(Vec2::Zero(), Vec2::Zero());
       step.steered = 0;
     }
     step.velocity = desired.velocity.wanted;
+    note_velocity(step, desired.velocity);
     displacement = may_aim ? with_gap_restored(step, desired.displacement.wanted, first) : desired.displacement.wanted;
   }
   last_resort(step, displacement);
@@ -223,7 +226,6 @@ inline void solve(Step& step) {
     if (step.movers.active) {
       note_colliders_left(step);
       wait(step, false);
-      if (!step.result.crushed.empty()) undo_crushes(step);
     }
   } else {
     if (step.movers.active) {
@@ -238,7 +240,6 @@ inline void solve(Step& step) {
     if (near) sweep_along(step, wanted);
     if (request.state.grounded && !step.found.hit) stop_at_touched_ground(step);
     travel(step);
-    if (!step.result.crushed.empty()) undo_crushes(step);
     find_ground(step);
     if (step.result.grounded && !step.met_ground && !step.wedged) land(step, wanted);
     if (step.settings.step_height > 0) climb_stairs(step, wanted, walk);

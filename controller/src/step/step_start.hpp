@@ -4,6 +4,7 @@
 #include "inlining.hpp"
 #include "step/certificate.hpp"
 #include "step/step.hpp"
+#include "step/step_push.hpp"
 #include "step/step_sweep.hpp"
 
 #include <utility>
@@ -152,21 +153,6 @@ template <class MayPass>
   return std::nullopt;
 }
 
-/// How much farther movers that go so far may push the character [m].
-[[nodiscard]] inline Real push_left(const Step& step, Real way) {
-  const Real pushed = length_of(Vec2(step.position - step.start)) - length_of(step.wanted);
-  return way + static_cast<Real>(step.request.around.limits.push) - std::max(Real(0), pushed);
-}
-
-/// How far the character may leave what overlaps it, if some of that crushed it [m].
-[[nodiscard]] inline Real most_left(const Step& step) {
-  if (step.memory.crushers.empty()) return static_cast<Real>(step.request.around.limits.out);
-  Real way = 0;
-  for (const Crusher& crusher : step.memory.crushers)
-    way = std::max(way, length_of(displacement_of(step, crusher.collider)));
-  return push_left(step, way);
-}
-
 /// Leaves what overlaps the character. False if there is no way out.
 /// @param farthest the way out is no longer [m].
 [[nodiscard]] inline bool leave(Step& step, Real farthest) {
@@ -248,18 +234,20 @@ inline void restore_gaps_to_movers(Step& step) {
 /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
 [[nodiscard]] PAPERPROOF_COLD inline bool prepare_start(Step& step) {
   const CharacterState& state = step.request.state;
+  const auto any_way = static_cast<Real>(step.request.around.limits.out);
   if (state.has_last_free) step.moving.last_free = state.last_free;
   if (state.crushed && ignore_overlapping_movers(step) && !step.moving.side_lost) {
     // They are left as any solid, to the side from which the character came, but no farther than they may push.
     step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
-    const bool is_out = leave(step, most_left(step));
+    const std::vector<Crusher>& crushers = step.memory.crushers;
+    const bool is_out = leave(step, crushers.empty() ? any_way : push_left(step, crushers, step.position));
     step.moving.ignored = passes_through;
     if (is_out) return true;
   }
   while (overlaps(step, step.position)) {  // each round ignores one more collider that moves
     // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!step.memory.crushers.empty()) return false;
-    if (leave(step, static_cast<Real>(step.request.around.limits.out))) return true;
+    if (leave(step, any_way)) return true;
     // There is no free position beside the movers. Without those that overlap there may be one.
     if (!ignore_overlapping_movers(step)) return false;
   }
