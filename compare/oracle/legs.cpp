@@ -203,15 +203,24 @@ std::map<ColliderIndex, double> LegJudge::pushes() const {
   return ways;
 }
 
-/// How much farther than the law of pushing says something pushes it out of what holds it [m].
-double LegJudge::pushed_out_too_far(std::size_t first) const {
+/// How far the law of pushing lets it be pushed that wants nothing [m].
+double LegJudge::most_pushed() const {
   std::map<ColliderIndex, double> ways = pushes();
   for (const ColliderIndex inside : step_.start_overlap) ways.erase(inside);
   double longest = 0;
   for (const auto& [collider, way] : ways) longest = std::max(longest, way);
+  return longest > 0 ? longest + push_beyond_motion : 0;
+}
+
+/// How much farther than the law of pushing says something pushes it [m]. @param wanted it goes so far itself [m].
+double LegJudge::pushed_too_far(std::size_t first, double wanted) const {
   const double way = (step_.path.back().position - step_.path[first].position).norm();
-  const double most = longest > 0 ? longest + push_beyond_motion : 0;
-  return std::max(0.0, way - most - rounding());
+  return std::max(0.0, way - wanted - most_pushed() - rounding());
+}
+
+/// Whether what touches it leaves it no motion that is short enough.
+bool LegJudge::must_evade() const {
+  return leave_no_motion(surfaces_, (wanted_.displacement.norm() + most_pushed()) / dt_);
 }
 
 double LegJudge::rounding() const {
@@ -272,7 +281,8 @@ bool LegJudge::knows_speeds() const {
 double LegJudge::way_gained(std::size_t first) const {
   const double gained = farther(first, speeds_, {});
   if (!(gained > 0) || !is_pushed()) return gained;
-  if (held_) return pushed_out_too_far(first);
+  if (held_) return pushed_too_far(first, 0);
+  if (must_evade()) return pushed_too_far(first, wanted_.displacement.norm());
   // Pushed at once, it goes on as if all rested: each motion counts once.
   const Box2 pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
   double way = 0;
@@ -379,19 +389,20 @@ double LegJudge::end_error() const {
   const Vec2d way = to.position - from.position;
   const double time = (to.fraction - from.fraction) * dt_;
   double off = (way - step_.velocity * time).norm();
-  // Two surfaces that press it out take it farther than the speed that they give it, or to a place where it rests.
-  const bool is_limited = is_pushed() && surfaces_.size() > 1 && way.norm() > step_.velocity.norm() * time;
+  // Two surfaces that press it out take it farther than the speed that they give it.
+  const bool is_limited =
+      is_pushed() && surfaces_.size() > 1 && !step_.velocity.isZero(0) && way.norm() > step_.velocity.norm() * time;
   if (is_limited) off = std::abs(way.dot(right_of(step_.velocity.normalized())));
   double unsure = 0;
   for (const MetSurface& at : surfaces_) unsure = std::max(unsure, std::hypot(at.spread, at.spread_along));
   const double room = unsure * time + room_at(surfaces_.size());
-  return off <= room ? 0 : off;
+  return off <= room || must_evade() ? 0 : off;
 }
 
 double LegJudge::leg_error() const {
   if (!goes_by_law()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
-  ControlledStep law{.wanted = first_.displacement / dt_, .up = up_, .most_pressed_out = push_beyond_motion / dt_};
+  ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
   law.sides = sides_of(header_, up_);
   const SolidsInStep solids(header_, scenery_, step_);

@@ -37,7 +37,8 @@ inline constexpr double most_of_depth = 4;
 /// - Ground that hardly bends is followed by 2.8e-6 m, straight down. A walk follows ground by `snap`.
 /// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
 /// - What moves and touches the character pushes it as far as the law of response has it pushed that wants nothing;
-///   where two surfaces hold it, at most `push_beyond_motion` farther than they go.
+///   where two surfaces hold it, at most `push_beyond_motion` farther than they go. Where they leave it no motion it
+///   goes as far to any free place, and not where its velocity leads.
 ///
 /// **Direction.** While nothing near comes against it, or turns, each leg leads along the wanted motion, or what the
 /// law of response makes of it at the contacts that the way has come to by then: what is steered into a wall goes
@@ -77,7 +78,9 @@ class LegJudge {
   [[nodiscard]] double farther(std::size_t first, const Box2& speeds, const Box2& push) const;
   [[nodiscard]] Vec2d own_carrier() const;
   [[nodiscard]] std::map<ColliderIndex, double> pushes() const;
-  [[nodiscard]] double pushed_out_too_far(std::size_t first) const;
+  [[nodiscard]] double most_pushed() const;
+  [[nodiscard]] double pushed_too_far(std::size_t first, double wanted) const;
+  [[nodiscard]] bool must_evade() const;
   [[nodiscard]] bool is_moved_at_once() const;
   [[nodiscard]] bool goes_by_law() const;
   [[nodiscard]] double room_at(std::size_t surfaces) const;

@@ -140,21 +140,24 @@ bool is_at_end(const MetSurface& at) { return at.met >= 1; }
 bool is_ground_beside(const MetSurface& at) { return at.walkable && at.is_beside; }
 bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.velocity != Vec2d::Zero(); }
 
-/// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, which is along
-/// its ground if it walks, or twice that of the fastest of them. So fast a wall pushes up a slope of 60 degrees.
-double most_pressed(const Vec2d& came, double steering, std::span<const MetSurface> held) {
+/// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, with or without
+/// steering, which is along its ground if it walks; or twice that of the fastest of them. So fast a wall pushes up a
+/// slope of 60 degrees.
+double most_pressed(const Steered& came, std::span<const MetSurface> held) {
   const auto pushes = [](const MetSurface& at) { return at.velocity.dot(at.normal) > 0; };
   const auto is_other = [&](const MetSurface& at) {
     return std::abs(cross_of(at.normal, held[0].normal)) > one_direction;
   };
   if (std::none_of(held.begin(), held.end(), pushes) || std::none_of(held.begin(), held.end(), is_other))
     return infinity;
-  double most = came.norm();
-  for (const MetSurface& at : held) {
-    if (at.walkable) most = std::max(most, std::abs(came.x()) / at.normal.y());
-    most = std::max(most, 2 * at.velocity.norm());
+  double most = 0;
+  for (const Vec2d& velocity : {came.wanted, came.unsteered}) {
+    most = std::max(most, velocity.norm());
+    for (const MetSurface& at : held)
+      if (at.walkable) most = std::max(most, std::abs(velocity.x()) / at.normal.y());
   }
-  return most + std::abs(steering);
+  for (const MetSurface& at : held) most = std::max(most, 2 * at.velocity.norm());
+  return most;
 }
 
 /// Whether surfaces on both sides that nobody walks on, and that go almost alike, leave hardly anything of a fall; or
@@ -175,9 +178,7 @@ bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall)
 }
 
 /// As an upright character sees it. Surfaces that are met at one moment are answered together with all that still hold.
-/// @param fastest set to the speed at which surfaces press it out, where that is larger [m/s].
-Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown,
-                 double& fastest) {
+Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
   Steered now = velocity;
   double steering = (velocity.wanted - velocity.unsteered).x();
   double fall = velocity.unsteered.y();
@@ -195,9 +196,9 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     } while (k < surfaces.size() && surfaces[k].met == at.met && !unknown.one_by_one);
     if (held.empty()) continue;
     if (goes_on) fall = now.unsteered.y();
-    const Vec2d came = now.wanted;
-    if (unknown.carried && may_carry(held.back()) && enters(came, held.back()) &&
-        std::abs(came.x()) <= grazing * came.norm()) {
+    const Steered came = now;
+    if (unknown.carried && may_carry(held.back()) && enters(came.wanted, held.back()) &&
+        std::abs(came.wanted.x()) <= grazing * came.wanted.norm()) {
       now = {held.back().velocity, held.back().velocity};
       steering = 0;
     }
@@ -212,9 +213,7 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
       const Vec2d falls = unknown.falls_along * (unknown.falls_along.y() * fall);
       now = {falls, falls};
     }
-    const double most = most_pressed(came, steering, held);
-    fastest = std::max(fastest, most < infinity ? now.wanted.norm() : 0);
-    const double share = std::min(1.0, most / now.wanted.norm());
+    const double share = std::min(1.0, most_pressed(came, held) / now.wanted.norm());
     now = {now.wanted * share, now.unsteered * share};
   }
   return now.wanted;
@@ -249,14 +248,12 @@ std::vector<Unknown> ways(std::span<const MetSurface> surfaces, std::span<const 
 }
 
 /// All that the law can make, as an upright character sees it.
-/// @param most_pressed_out see `ControlledStep`. @param sides the same.
+/// @param sides see `ControlledStep`.
 std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces,
-                                    double most_pressed_out, std::span<const Vec2d> sides) {
+                                    std::span<const Vec2d> sides) {
   std::vector<Vec2d> outcomes;
   for (const Unknown& unknown : ways(surfaces, sides)) {
-    double fastest = 0;
-    const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, unknown, fastest));
-    if (fastest > most_pressed_out) outcomes.emplace_back(0, 0);
+    const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, unknown));
     for (const MetSurface& at : surfaces)
       if (at.walkable && (is_at_end(at) || at.returned))
         outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
@@ -276,13 +273,32 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
                          std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
   std::vector<Vec2d> sides = step.sides;
   for (Vec2d& side : sides) side = seen(side, step.up);
-  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright,
-                                                 step.most_pressed_out, sides);
+  std::vector<Vec2d> outcomes =
+      upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright, sides);
   for (Vec2d& outcome : outcomes) {
     if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
     outcome = in_world(outcome, step.up);
   }
   return outcomes;
+}
+
+bool leave_no_motion(std::span<const MetSurface> surfaces, double most) {
+  const auto comes_against = [](const MetSurface& at) { return entering(Vec2d::Zero(), at) < 0; };
+  const auto leaves_none = [&](const std::vector<MetSurface>& touched) {
+    if (std::none_of(touched.begin(), touched.end(), comes_against)) return false;
+    const std::optional<Vec2d> left = nearest_allowed(Vec2d::Zero(), touched);
+    return !left || left->norm() > most;
+  };
+  // In the plane three leave none where any number of them does.
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      for (std::size_t j = 0; j <= k; ++j) {
+        const MetSurface& a = surfaces[i];
+        const MetSurface& b = surfaces[k];
+        const MetSurface& c = surfaces[j];
+        if (are_together(a, b) && are_together(b, c) && are_together(a, c) && leaves_none({a, b, c})) return true;
+      }
+  return false;
 }
 
 std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,

@@ -17,8 +17,6 @@ struct ControlledStep {
   Vec2d unsteered{Vec2d::Zero()};   ///< The part of it that is there without this step's steering [m/s].
   Vec2d up{Vec2d::UnitY()};         ///< Unit vector.
   bool side_hit_ends_rise = false;  ///< See `CharacterDef::side_hit_ends_rise`.
-  /// A character that two surfaces press out faster may go to a free place instead, and rest there [m/s].
-  double most_pressed_out = std::numeric_limits<double>::infinity();
   /// Along the sides of the character, and of its box; none where up is along an axis: unit vectors. A fall between
   /// rims may go along one of them.
   std::vector<Vec2d> sides{};
@@ -54,6 +52,10 @@ struct ControlledRange {
 /// as `MetSurface::spread` says. Where walls leave no motion it is a crush, and the box need not hold its end.
 /// @param surfaces as an upright character sees them.
 [[nodiscard]] Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
+
+/// Whether some of the surfaces, touched together, come against a character and leave it no velocity up to so much
+/// [m/s]: then it goes to a free place, or is crushed.
+[[nodiscard]] bool leave_no_motion(std::span<const MetSurface> surfaces, double most);
 
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and
 /// `MetSurface::spread` go. Nothing where it is one. The law knows the surfaces alone. It is not that of a step that

@@ -113,7 +113,6 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * right_of(up);
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   step.sides = sides_of(header_, up);
-  step.most_pressed_out = detail::push_beyond_motion / length_of(record, header_);
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks, wanted.stays_on());
   // What turns has no one normal in a step, nor has the ground that is left one velocity: there only its size is
