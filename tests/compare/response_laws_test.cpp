@@ -168,6 +168,24 @@ TEST(ControlledBounds, hold_nobody_between_a_face_and_itself_at_another_time) {
   EXPECT_LT(controlled_bounds(falls, floor).upper.x(), 0.1);
 }
 
+TEST(LeaveNoMotion, holds_of_what_closes_or_presses_out_too_fast) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const auto leave_none = [](const Surfaces& surfaces, double most) { return leave_no_motion(surfaces, most); };
+  MetSurface press{.normal = {1, 0}, .velocity = {1, 0}};
+  MetSurface wall{.normal = {-1, 0}};
+  EXPECT_TRUE(leave_none({press, wall}, any));
+  EXPECT_FALSE(leave_none({press}, any)) << "it goes along";
+  EXPECT_FALSE(leave_none({wall, {.normal = {1, 0}, .velocity = {-1, 0}}}, any)) << "they part";
+  const MetSurface slope{.normal = {-std::sin(60 * degree), std::cos(60 * degree)}};
+  EXPECT_TRUE(leave_none({press, slope}, 1.99));
+  EXPECT_FALSE(leave_none({press, slope}, 2.01)) << "up the slope, at twice the speed of the press";
+  const MetSurface ceiling{.normal = {0, -1}};
+  EXPECT_TRUE(leave_none({press, slope, ceiling}, any));
+  press.turning = wall.turning = 0;
+  wall.stands_at = 1;
+  EXPECT_FALSE(leave_none({press, wall}, any)) << "one mover, at two times";
+}
+
 /// Of an upright character whose climb limit is 50 degrees, at surfaces that rest.
 class RandomLaw : public testing::Test {
  protected:
