@@ -142,4 +142,23 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
   return slowed_by_limit(wanted.merged(unsteered), surfaces);
 }
 
+bool leave_no_motion(std::span<const MetSurface> surfaces, double most) {
+  const auto comes_against = [](const MetSurface& at) { return entering(Vec2d::Zero(), at) < 0; };
+  const auto leaves_none = [&](const std::vector<MetSurface>& touched) {
+    if (std::none_of(touched.begin(), touched.end(), comes_against)) return false;
+    const std::optional<Vec2d> left = nearest_allowed(Vec2d::Zero(), touched);
+    return !left || left->norm() > most;
+  };
+  // In the plane three leave none where any number of them does.
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      for (std::size_t j = 0; j <= k; ++j) {
+        const MetSurface& a = surfaces[i];
+        const MetSurface& b = surfaces[k];
+        const MetSurface& c = surfaces[j];
+        if (are_together(a, b) && are_together(b, c) && are_together(a, c) && leaves_none({a, b, c})) return true;
+      }
+  return false;
+}
+
 }  // namespace paperproof::compare
