@@ -2,6 +2,7 @@
 # Runs the peers of this folder beside octagon_sweep and Box2D's twin, over one scene for each thing that they differ in.
 #   compare/peers/run.sh                     all peers, the scenes below
 #   compare/peers/run.sh SCENE… [OPTION…]    `paperproof compare` with all peers and what you name instead
+#   compare/peers/run.sh holes               where each of them has a hole, as a table (holes.py)
 # First it installs what is missing: the packages of package.json into build/peers, Node where there is none, libchipmunk and
 # Godot's server; and it builds the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is
 # report.html beside them.
@@ -65,6 +66,7 @@ peers=(
 # Times are the peers' own; those of the others, by a clock of another kind, are not measured here.
 options=(--contender octagon_sweep --no-timing)
 for peer in "${peers[@]}"; do options+=(--peer "$peer"); done
+[[ ${1-} != holes ]] || exec python3 compare/peers/holes.py build/release/bin/paperproof "${peers[@]}"
 paperproof=build/release/bin/paperproof
 if (($#)); then
   "$paperproof" compare "$@" "${options[@]}" --rows "$out/rows.jsonl" --report "$out/report.html"
