@@ -9,7 +9,7 @@
  * mover is that of samples/sample_character.cpp. The mover is a capsule: the largest upright one in the octagon. The judge
  * is told, by eight points on its rim, and looks at those.
  */
-import {installed, outline, serve, standing, words} from "./peer.mjs";
+import {installed, nearest, outline, serve, standing, words} from "./peer.mjs";
 
 const asMover = words.includes("mover");
 const slop = 0.005;  // b2_linearSlop
@@ -191,6 +191,23 @@ class World {
     this.moved = {way, velocity: [left.x, left.y], pushing: planes.filter(({plane}) => plane.push > 0)};
   }
 
+  /** b2World_OverlapShape, of the octagon less half a millimetre (so much does it count as overlap) or the capsule without the slop. */
+  overlaps(position) {
+    const {box2d} = this;
+    const proxy = new box2d.b2ShapeProxy();
+    const points = asMover ? [[0, -this.capsule.half], [0, this.capsule.half]] :
+      this.run.points.map((point) => point.map((value) => 0.9984 * value));
+    points.forEach(([x, y], i) => proxy.setPoint(i, this.vector([position[0] + x, position[1] + y])));
+    proxy.count = points.length;
+    proxy.radius = asMover ? this.capsule.radius - 1.01 * slop : 0;
+    const found = [];
+    box2d.b2World_OverlapShape(this.world, proxy, box2d.b2DefaultQueryFilter(), ({shapeId: shape}) => {
+      if (!this.body || box2d.b2Shape_GetBody(shape).index1 !== this.body.index1) found.push(nearest(this.#partOf(shape), position));
+      return true;
+    });
+    return found;
+  }
+
   answer() {
     return asMover ? this.#answerOfMover() : this.#answerOfBody();
   }
@@ -240,7 +257,7 @@ class World {
 await serve({
   package: "box2d3-wasm",
   greeting: {
-    name: `Box2D 3 ${asMover ? "mover" : "body"} in WebAssembly, box2d3-wasm`, skin: slop, scalar: "float",
+    name: `Box2D 3 ${asMover ? "mover" : "body"} in WebAssembly, box2d3-wasm`, skin: slop, scalar: "float", machine: "webassembly",
     can: ["movers", "turning", "one_way", "circles", "conveyors"],
   },
   sink: asMover ? 1e-3 : 0.05,  // soft contacts sink in by centimetres

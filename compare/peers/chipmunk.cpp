@@ -58,8 +58,8 @@ class World {
     cpBodySetVelocityUpdateFunc(body_, [](cpBody* body, cpVect, cpFloat, cpFloat) {
       cpBodySetVelocity(body, static_cast<World*>(cpBodyGetUserData(body))->wanted_);
     });
-    const std::vector<cpVect> hull = pixels_of(run["points"]);
-    add(cpPolyShapeNewRaw(body_, static_cast<int>(hull.size()), hull.data(), radius * scale), "");
+    hull_ = pixels_of(run["points"]);
+    add(cpPolyShapeNewRaw(body_, static_cast<int>(hull_.size()), hull_.data(), radius * scale), "");
   }
 
   json step(const json& step) {
@@ -85,6 +85,27 @@ class World {
     cpBodyEachArbiter(
         body_, [](cpBody*, cpArbiter* touch, void* self) { static_cast<World*>(self)->read(*touch); }, this);
     return {{"characters", {answer}}, {"ns", took.count()}};
+  }
+
+  /// By cpShapesCollide, of the octagon without its radius: cpSpaceShapeQuery has the radius in it. Touching is none.
+  json overlaps(const json& question) {
+    for (const auto& [id, body] : movers_) cpBodySetPosition(body, pixels(question["movers"][id]["to"]));
+    cpSpaceReindexStatic(space_);
+    cpBody* there = cpBodyNewKinematic();
+    cpBodySetPosition(there, pixels(question["overlap"]));
+    cpShape* octagon = cpPolyShapeNewRaw(there, static_cast<int>(hull_.size()), hull_.data(), 0);
+    cpShapeCacheBB(octagon);
+    json found = json::array();
+    for (const auto& [shape, id] : names_) {
+      if (id.empty()) continue;
+      cpShapeCacheBB(shape);
+      const cpContactPointSet set = cpShapesCollide(octagon, shape);
+      const auto is_deep = [](const auto& point) { return point.distance < 0; };
+      if (std::any_of(set.points, set.points + set.count, is_deep)) found.push_back(id);
+    }
+    cpShapeFree(octagon);
+    cpBodyFree(there);
+    return {{"overlaps", found}};
   }
 
  private:
@@ -150,6 +171,7 @@ class World {
   cpVect wanted_ = cpvzero;
   cpBody* body_ = nullptr;
   json* answer_ = nullptr;
+  std::vector<cpVect> hull_;
   std::map<std::string, cpBody*> movers_;
   std::map<cpShape*, std::string> names_;
 };
@@ -175,8 +197,13 @@ int main() try {
   say({{"name", "Chipmunk"},
        {"version", cpVersionString},
        {"can", {"movers", "circles", "conveyors"}},
-       {"skin", radius}});
-  while (std::getline(std::cin, line)) say(world.step(json::parse(line)));
+       {"skin", radius},
+       {"machine", "native"},
+       {"overlap", true}});
+  while (std::getline(std::cin, line)) {
+    const json heard = json::parse(line);
+    say(heard.contains("overlap") ? world.overlaps(heard) : world.step(heard));
+  }
 } catch (const std::runtime_error& reason) {
   say({{"refuses", reason.what()}});
 }

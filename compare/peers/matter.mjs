@@ -7,7 +7,7 @@
  * no continuous collision, and says so. Its lengths are pixels, its velocities pixels in 1/60 s; a metre is 32 of them here,
  * the scenes' own scale. It knows convex polygons alone: others come in triangles, and chains and circles not at all.
  */
-import {convexPieces, installed, serve, standing} from "./peer.mjs";
+import {convexPieces, installed, nearest, serve, standing} from "./peer.mjs";
 
 const scale = 32;
 const pixels = ([x, y]) => ({x: x * scale, y: y * scale});
@@ -62,6 +62,16 @@ class World {
     this.matter.Engine.update(this.engine, dt * 1000);
   }
 
+  /** Collision.collides, as Query.collides has it: it has to say how deep, or they touch alone. */
+  overlaps(position) {
+    const {Body, Collision} = this.matter;
+    const home = {...this.body.position};
+    Body.setPosition(this.body, pixels(position));
+    const found = this.bodies.flat().filter(({body}) => (Collision.collides(this.body, body)?.depth ?? 0) > 0);
+    Body.setPosition(this.body, home);
+    return found.map(({body}) => nearest(this.partOf.get(body), position));
+  }
+
   answer() {
     const touching = [];
     for (const pair of this.engine.pairs.list.filter(({isActive}) => isActive)) {
@@ -82,7 +92,8 @@ class World {
 
 await serve({
   package: "matter-js",
-  greeting: {name: "Matter.js", can: ["movers", "conveyors"], scalar: "double"},
+  greeting: {name: "Matter.js", can: ["movers", "conveyors"], skin: 0.0016, scalar: "double",
+    machine: "javascript"},  // its slop is 0.05 px: so deep it rests
   load,
   open: (loaded, run, parts) => new World(loaded, run, parts),
 });

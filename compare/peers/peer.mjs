@@ -23,7 +23,8 @@ export const versionOf = (name) => JSON.parse(readFileSync(new URL(`node_modules
  *   - `ask(wanted, dt)`: the wanted velocity of the step;
  *   - `advance(dt)`: the engine's own work. It alone is timed;
  *   - `gate(gate, holds)`, where it has one-way chains: whether a segment of them (`part.gates`) holds in this step;
- *   - `answer()`: what the schema calls a character.
+ *   - `answer()`: what the schema calls a character;
+ *   - `overlaps(position)`, where its engine has a query of overlap: the ids of what the character overlaps there.
  *   `sink` is how deep its character may stand in the ground [m]; none where it does not say.
  *   `own(run)`, where there is one, has what else is to be greeted with, as `points`.
  *   Where `open` or `load` throws a string, the scene is refused for this reason.
@@ -46,12 +47,16 @@ export async function serve(engine) {
         world = engine.open(loaded, run, bodies);
         const own = engine.own?.(run);
         points = own?.points ?? run.points;
-        say({version: versionOf(engine.package), ...engine.greeting, ...own});
+        say({version: versionOf(engine.package), ...(world.overlaps && {overlap: true}), ...engine.greeting, ...own});
       } catch (reason) {
         if (typeof reason !== "string") throw reason;
         say({refuses: reason});
         process.exit(0);
       }
+      continue;
+    }
+    if (heard.overlap) {
+      say({overlaps: overlapped(world, heard, moving, run.dt)});
       continue;
     }
     const {wanted, put, drop} = heard.characters[0];
@@ -74,6 +79,12 @@ export async function serve(engine) {
     say({characters: [answer], ns});
   }
   process.exit(0);  // engines with threads would wait
+}
+
+/** What the engine's own query has at a place, where movers are at the end of their ways. */
+function overlapped(world, {overlap, movers}, moving, dt) {
+  for (const part of moving) world.drive(part, movers[part.mover], dt);
+  return [...new Set(world.overlaps(overlap))];
 }
 
 /** Compilers of JavaScript and WebAssembly start slowly; what is timed is a warm engine. This world is not used again. */

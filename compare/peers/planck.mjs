@@ -7,7 +7,7 @@
  * Sources: piqnt.com/planck.js/docs, its pages on bodies (bullets, fixed rotation), chains, contacts and the world ("the
  * suggested iteration count is 8 for velocity and 3 for position").
  */
-import {installed, outline, serve, standing, words} from "./peer.mjs";
+import {installed, nearest, outline, serve, standing, words} from "./peer.mjs";
 
 async function load() {
   return {planck: await installed("planck"), clipper: (await installed("clipper-lib")).default};
@@ -70,6 +70,26 @@ class World {
     this.world.step(dt, 8, 3);
   }
 
+  /** Distance of the shapes as they are: testOverlap counts their radii of 10 mm each. */
+  overlaps(position) {
+    const {Distance, Transform} = this.planck;
+    const input = new Distance.Input();
+    const output = new Distance.Output();
+    const octagon = this.body.getFixtureList().getShape();
+    input.proxyA.set(octagon, 0);
+    input.transformA = new Transform(vector(position), 0);
+    return this.parts.filter(({index}) => {
+      input.transformB = this.bodies[index].getTransform();
+      for (let fixture = this.bodies[index].getFixtureList(); fixture; fixture = fixture.getNext())
+        for (let child = 0; child < fixture.getShape().getChildCount(); ++child) {
+          input.proxyB.set(fixture.getShape(), child);
+          Distance(output, new Distance.Cache(), input);
+          if (output.distance === 0) return true;
+        }
+      return false;
+    }).map((part) => nearest(part, position));
+  }
+
   answer() {
     const touching = [];
     for (let edge = this.body.getContactList(); edge; edge = edge.next) {
@@ -91,7 +111,8 @@ class World {
 
 await serve({
   package: "planck",
-  greeting: {name: "Planck", can: ["movers", "turning", "one_way", "circles", "conveyors"], skin: 0.02, scalar: "double"},
+  greeting: {name: "Planck", can: ["movers", "turning", "one_way", "circles", "conveyors"], skin: 0.02, scalar: "double",
+    machine: "javascript"},
   load,
   open: (loaded, run, parts) => new World(loaded, run, parts),
 });

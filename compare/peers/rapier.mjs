@@ -12,7 +12,7 @@
  * Sources: rapier.rs/docs/user_guides/javascript, its pages on the character controller, on rigid-bodies (CCD, locked
  * rotations, kinematic bodies) and on colliders; rapier.rs/javascript2d for each call.
  */
-import {convexPieces, installed, outline, serve, standing, words} from "./peer.mjs";
+import {convexPieces, installed, nearest, outline, serve, standing, words} from "./peer.mjs";
 
 const asBody = words.some((word) => word.startsWith("body"));
 const asOutline = words.includes("outline");
@@ -110,6 +110,14 @@ class World {
     this.world.step();
   }
 
+  /** Collider.intersectsShape, of each collider. */
+  overlaps(position) {
+    this.world.propagateModifiedBodyPositionsToColliders();
+    return [...this.owner].filter(([handle]) =>
+      this.world.getCollider(handle).intersectsShape(this.character.shape, vector(position), 0))
+      .map(([, {part, collider}]) => collider ?? nearest(part, position));
+  }
+
   answer() {
     const at = this.body.translation();
     return this.controller ? this.#answerOfController(at) : this.#answerOfBody(at);
@@ -165,7 +173,7 @@ const smooth = (shape) => shape.setFriction(0).setRestitution(0);
 await serve({
   package: "@dimforge/rapier2d-compat",
   greeting: {
-    name: `Rapier ${asBody ? "body" : "character controller"}`, skin: gap, scalar: "float",
+    name: `Rapier ${asBody ? "body" : "character controller"}`, skin: gap, scalar: "float", machine: "webassembly",
     can: ["movers", "turning", "one_way", "circles", "conveyors"],
   },
   sink: asBody ? 0.05 : 1e-3,  // a body that lands sinks in by centimetres

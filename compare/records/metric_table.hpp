@@ -25,6 +25,10 @@ METRIC(flag, energy_ok, study, one, "No energy gained", "",
        "ones times 20 mm")
 METRIC(flag, hanging_ok, study, one, "No hanging", "",
        "Whether no step that could fall hangs, and none is stuck beside a way out")
+METRIC(measure, badness, study, most, "Badness", "",
+       "How bad the worst is that it does, for an order: 0 nothing; below 1 it clips, hops or is off its way; from 1 on "
+       "it hangs, from 2 on it ends inside something, from 3 on it passes a solid, from 4 on it fails")
+METRIC(measure, skin_m, study, most, "Skin", "m", "Gap that a peer says it keeps, 20 mm at most")
 METRIC(flag, events_ok, study, one, "Same events", "",
        "Whether it has the sequence of events of the case that it is a replica of: the same contacts and supports in "
        "order")

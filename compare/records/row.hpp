@@ -96,6 +96,7 @@ struct Row {
   std::string mode = "free";
   std::string knob;    ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
   std::string engine;  ///< Name and version, as a peer says.
+  std::string machine;  ///< What its engine runs on, as a peer says: native, webassembly, javascript or script.
   int steps = 0;       ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
@@ -123,6 +124,7 @@ struct Row {
   std::string answer;              ///< The answer that is missed most, in words; empty where all are met.
   std::string first_difference_box2d;  ///< The first difference to the twin in words, and which side is right.
   std::string event_sequence;          ///< Which events there were: see metrics/events.hpp.
+  std::string worst;                   ///< That it does, in words: see `studies/field.hpp`.
   std::string curve;                   ///< Key of the parameter that a curve of several runs is over.
   std::vector<std::string> findings;   ///< Sentences: where the run began, what was not compared.
 };

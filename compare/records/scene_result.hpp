@@ -12,7 +12,7 @@ namespace paperproof::compare {
 
 /// A step that a reader may want to jump to. The first contact needs none: the page finds it in the steps.
 struct ReportEvent {
-  enum class Kind : std::uint8_t { tunnel, clipped, inside, one_way, crush, drop, sensor, note };
+  enum class Kind : std::uint8_t { tunnel, clipped, inside, one_way, hanging, crush, drop, sensor, note };
   int step = 0;
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
@@ -57,7 +57,8 @@ struct ReportScene {
 void thin_for_replay(ReportRun& run, int max_steps);
 
 /// Leaves the step that matters, and so many before and after it: the first passage of a solid, else of a one-way
-/// chain, else the first that ends inside something, else the first crush, else the first contact, else the first step.
-void cut_to_excerpt(ReportRun& run, int around);
+/// chain, else the first that ends inside something, else the first that hangs, else the first crush, else the first
+/// contact, else the first step. @param middle the step that matters, where it is known.
+void cut_to_excerpt(ReportRun& run, int around, std::optional<int> middle = {});
 
 }  // namespace paperproof::compare

@@ -20,7 +20,7 @@ std::vector<int> telling_steps(const ReportRun& run) {
 
 int step_that_matters(const ReportRun& run) {
   using Kind = ReportEvent::Kind;
-  for (const Kind kind : {Kind::tunnel, Kind::one_way, Kind::inside, Kind::crush})
+  for (const Kind kind : {Kind::tunnel, Kind::one_way, Kind::inside, Kind::hanging, Kind::crush})
     for (const ReportEvent& event : run.events)
       if (event.kind == kind) return event.step;
   for (const TraceStep& step : run.steps)
@@ -69,10 +69,10 @@ void thin_for_replay(ReportRun& run, int max_steps) {
   run.every *= static_cast<int>(stride);
 }
 
-void cut_to_excerpt(ReportRun& run, int around) {
+void cut_to_excerpt(ReportRun& run, int around, std::optional<int> middle) {
   if (run.steps.empty()) return;
-  const int middle = step_that_matters(run);
-  const auto is_near = [&](int step) { return std::abs(step - middle) <= around; };
+  const int matters = middle.value_or(step_that_matters(run));
+  const auto is_near = [&](int step) { return std::abs(step - matters) <= around; };
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < run.steps.size(); ++i)
     if (is_near(run.steps[i].step)) kept.push_back(i);

@@ -16,8 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string_view name_of(ReportEvent::Kind kind) {
-  constexpr std::array<std::string_view, 8> names{"tunnel", "clipped", "inside", "one-way broken",
-                                                  "crush",  "drop",    "sensor", "note"};
+  constexpr std::array<std::string_view, 9> names{"tunnel", "clipped", "inside", "one-way broken", "hanging", "crush",
+                                                  "drop",   "sensor",  "note"};
   return names[static_cast<std::size_t>(kind)];
 }
 

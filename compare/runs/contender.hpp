@@ -53,6 +53,8 @@ struct StepInput {
 struct PeerNotes {
   std::string engine;                   ///< Name and version.
   std::optional<double> ns_per_step{};  ///< By its own clock, the mean of the steps that it timed [ns].
+  std::string machine{};                ///< What its engine runs on; empty where it does not say.
+  double skin = 0;                      ///< [m]
 };
 
 class Contender {
@@ -75,6 +77,12 @@ class Contender {
   virtual void launch(const Vec2d& velocity, std::size_t character);
   /// Of a peer alone.
   [[nodiscard]] virtual std::optional<PeerNotes> peer_notes() const { return std::nullopt; }
+  /// What a character would overlap at a place, as the engine's own query has it: ids. Nothing where it has no query.
+  /// @param movers where each is: its `to`.
+  [[nodiscard]] virtual std::optional<std::vector<std::string>> overlapped_at(
+      const Vec2d& /*place*/, std::span<const MoverMotion> /*movers*/) {
+    return std::nullopt;
+  }
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };

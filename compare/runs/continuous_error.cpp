@@ -1,6 +1,7 @@
 #include "runs/continuous_error.hpp"
 
 #include "runs/contender.hpp"
+#include "runs/peers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,27 +40,35 @@ ContinuousCourses::ContinuousCourses(const Scene& scene, const std::vector<Input
   frictionless_ = courses_of(run, input, continuous::Law::frictionless);
 }
 
-const Courses& ContinuousCourses::of(std::string_view contender) const {
-  return is_reference(contender) ? frictionless_ : walking_;
+std::vector<const Courses*> ContinuousCourses::of(std::string_view contender) const {
+  if (find_peer(contender) != nullptr) return {&walking_, &frictionless_};
+  return {is_reference(contender) ? &frictionless_ : &walking_};
+}
+
+ContinuousError::ContinuousError(const std::vector<const Courses*>& courses) {
+  for (const Courses* one : courses) beside_.push_back({one});
 }
 
 void ContinuousError::add(const Vec2d& position, double time) {
-  if (courses_ == nullptr) return;
   ++count_;
   const auto from = [&](const continuous::Course<double>& course) { return (position - course.at(time)).norm(); };
-  if (courses_->steps) largest_of_law_ = std::max(largest_of_law_, from(*courses_->steps));
-  if (!courses_->motion) return;
-  const double error = from(*courses_->motion);
-  largest_ = std::max(largest_, error);
-  squares_ += error * error;
+  for (Beside& one : beside_) {
+    if (one.courses->steps) one.largest_of_law = std::max(one.largest_of_law, from(*one.courses->steps));
+    if (!one.courses->motion) continue;
+    const double error = from(*one.courses->motion);
+    one.largest = std::max(one.largest, error);
+    one.squares += error * error;
+  }
 }
 
 void ContinuousError::write(Row& row) const {
-  if (count_ == 0) return;
-  if (courses_->steps) row.error_law_max_m = largest_of_law_;
-  if (!courses_->motion) return;
-  row.error_max_m = largest_;
-  row.error_rms_m = std::sqrt(squares_ / count_);
+  const auto nearest = std::min_element(beside_.begin(), beside_.end(),
+                                        [](const Beside& a, const Beside& b) { return a.off() < b.off(); });
+  if (count_ == 0 || nearest == beside_.end()) return;
+  if (nearest->courses->steps) row.error_law_max_m = nearest->largest_of_law;
+  if (!nearest->courses->motion) return;
+  row.error_max_m = nearest->largest;
+  row.error_rms_m = std::sqrt(nearest->squares / count_);
 }
 
 }  // namespace paperproof::compare

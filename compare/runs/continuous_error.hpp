@@ -23,9 +23,9 @@ class ContinuousCourses {
   /// @param input of the scene's only character. @param steps that run.
   ContinuousCourses(const Scene& scene, const std::vector<InputEvent>& input, int steps);
 
-  /// That which a contender's motion comes to as its steps become short: Box2D has a law of its own, all others have
-  /// that of design §4.
-  [[nodiscard]] const Courses& of(std::string_view contender) const;
+  /// Those that a contender's motion may come to as its steps become short: Box2D has a law of its own, all others have
+  /// that of design §4; of a peer either is right.
+  [[nodiscard]] std::vector<const Courses*> of(std::string_view contender) const;
   /// When a step ends [s].
   [[nodiscard]] double end(int step) const { return times_.end(step); }
 
@@ -38,8 +38,8 @@ class ContinuousCourses {
 /// Of one run.
 class ContinuousError {
  public:
-  /// @param courses null: nothing is written.
-  explicit ContinuousError(const Courses* courses = nullptr) : courses_(courses) {}
+  /// @param courses of them the one counts that the run stays nearest to; none: nothing is written.
+  explicit ContinuousError(const std::vector<const Courses*>& courses = {});
 
   /// @param position at the end of a step, at a time [s].
   void add(const Vec2d& position, double time);
@@ -47,10 +47,16 @@ class ContinuousError {
   void write(Row& row) const;
 
  private:
-  const Courses* courses_;
-  double largest_ = 0;
-  double largest_of_law_ = 0;
-  double squares_ = 0;
+  struct Beside {
+    const Courses* courses;
+    double largest = 0;
+    double largest_of_law = 0;
+    double squares = 0;
+    /// From the law of steps, or from the motion where there is none.
+    [[nodiscard]] double off() const { return courses->steps ? largest_of_law : largest; }
+  };
+
+  std::vector<Beside> beside_;
   int count_ = 0;
 };
 

@@ -34,6 +34,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     records_.resize(header().characters);
     placed_.resize(records_.size(), true);
     placed_in_.resize(records_.size());
+    hung_.resize(records_.size());
     judge_ = std::make_unique<RunJudge>(header_as_run(), metrics_for(scene, planning).measured);
     if (is_reference(row_.contender)) bodies_ = std::make_unique<BodyJudge>(scene, header());
     if (bodies_ && !bodies_->any()) bodies_.reset();
@@ -214,6 +215,8 @@ void Lane::note_events(std::size_t character) {
          header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
   note(ReportEvent::Kind::inside, judged.entered, "ends inside");
   note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");
+  if (judged.hangs && !hung_[character]) tell(ReportEvent::Kind::hanging, "hangs in the air");
+  hung_[character] = judged.hangs;
 }
 
 void Lane::write_metrics() {
@@ -222,6 +225,8 @@ void Lane::write_metrics() {
   if (const std::optional<PeerNotes> peer = contender_->peer_notes()) {
     row_.engine = peer->engine;
     row_.ns_per_step_own_clock = peer->ns_per_step;
+    row_.machine = peer->machine;
+    row_.skin_m = peer->skin;
     row_.sensor_errors.reset();  // it is not asked
     row_.broken.erase(std::string(name_of(Clause::sensor)));
   }

@@ -90,6 +90,7 @@ class Lane {
   std::vector<TraceStep> records_;
   std::vector<bool> placed_;           ///< Since the last step.
   std::vector<TraceState> placed_in_;  ///< With this state.
+  std::vector<bool> hung_;             ///< In the step before.
   std::vector<Respawn> respawns_;
 };
 

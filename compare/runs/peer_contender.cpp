@@ -128,8 +128,18 @@ class PeerContender final : public Contender {
     places_[character] = {pose.position, true};
   }
 
+  [[nodiscard]] std::optional<std::vector<std::string>> overlapped_at(const Vec2d& place,
+                                                                      std::span<const MoverMotion> movers) override {
+    if (!has_query_ || !header_.turning.empty()) return std::nullopt;
+    std::vector<MoverMotion> there(movers.begin(), movers.end());
+    for (MoverMotion& mover : there) mover.from = mover.to;
+    Json question{{"overlap", point_json(place)}};
+    if (const Json ways = ways_json(there, {}); !ways.is_null()) question["movers"] = ways;
+    return ask(question, "overlaps", patience)["overlaps"].get<std::vector<std::string>>();
+  }
+
   [[nodiscard]] std::optional<PeerNotes> peer_notes() const override {
-    PeerNotes notes{engine_, {}};
+    PeerNotes notes{engine_, {}, machine_, header_.tolerances.front().metres};
     if (timed_ > 0) notes.ns_per_step = ns_ / timed_;
     return notes;
   }
@@ -148,6 +158,8 @@ class PeerContender final : public Contender {
     for (const Feature& feature : features)
       if (feature.needed(scene) && std::find(can.begin(), can.end(), feature.name) == can.end())
         throw NotApplicable(fmt::format("{} does not say that it can: {}", engine_, feature.name));
+    machine_ = greeting.value("machine", "");
+    has_query_ = greeting.value("overlap", false);
     header_.scalar = greeting.value("scalar", header_.scalar);
     header_.path_exact = greeting.value("path_exact", false);
     if (greeting.contains("points")) header_.points = shape_said(greeting["points"]);
@@ -183,15 +195,24 @@ class PeerContender final : public Contender {
   }
   Json answer_to(const Json& question) { return ask(question, "characters", patience); }
 
-  Json question_of(const StepInput& input, std::span<const Vec2d> wanted) {
-    Json question{{"dt", input.dt}};
+  /// Of each collider that moves, by its id. @param turns empty: nothing turns.
+  [[nodiscard]] Json ways_json(std::span<const MoverMotion> movers, std::span<const TurnMotion> turns) const {
+    Json ways;
     for (ColliderIndex i = 0; i < header_.ids.size(); ++i) {
       const MoverIndex mover = header_.scenery.colliders[i].mover;
       if (mover == no_mover) continue;
-      Json& way = question["movers"][header_.ids[i]];
-      way = {{"from", point_json(input.movers[mover].from)}, {"to", point_json(input.movers[mover].to)}};
-      if (!header_.turning.empty()) way["angle"] = {input.turns[mover].from, input.turns[mover].to};
+      Json& way = ways[header_.ids[i]];
+      way = {{"from", point_json(movers[mover].from)}, {"to", point_json(movers[mover].to)}};
+      if (!turns.empty()) way["angle"] = {turns[mover].from, turns[mover].to};
     }
+    return ways;
+  }
+
+  Json question_of(const StepInput& input, std::span<const Vec2d> wanted) {
+    Json question{{"dt", input.dt}};
+    const bool turns = !header_.turning.empty();
+    if (const Json ways = ways_json(input.movers, turns ? input.turns : std::span<const TurnMotion>{}); !ways.is_null())
+      question["movers"] = ways;
     for (std::size_t k = 0; k < characters_.size(); ++k) {
       Json one{{"wanted", point_json(wanted[k])}};
       if (input.players[k].drop) one["drop"] = true;
@@ -247,6 +268,8 @@ class PeerContender final : public Contender {
 
   PeerProcess process_;
   std::string engine_;
+  std::string machine_;
+  bool has_query_ = false;  ///< It answers what a character would overlap.
   TraceHeader header_;
   EngineIntent intent_{header_};
   std::vector<EngineCharacter> characters_;

@@ -136,7 +136,7 @@ class SceneRun {
     if (!options_.continuous || options_.mode == Mode::lockstep || script_.size() != 1) return;
     courses_.emplace(scene_, script_.front(), steps_);
     for (std::size_t i = 0; i < lanes_.size(); ++i)
-      errors_[i] = ContinuousError(&courses_->of(lanes_[i]->contender_name()));
+      errors_[i] = ContinuousError(courses_->of(lanes_[i]->contender_name()));
   }
 
   void respawn_if_lost(Lane& lane, int step) const {

@@ -37,14 +37,23 @@ RunOptions options_of(const Case& one) {
   return options;
 }
 
-ReportScene run_alone(const Case& one, bool record) {
+/// What is wanted of a run besides its row.
+struct Extras {
+  bool recorded = false;
+  bool beside_motion = false;
+  bool timed = false;
+};
+
+ReportScene run_alone(const Case& one, const Extras& extras) {
   ReportScene result;
   try {
     if (one.mode != "free" || one.reference) throw std::invalid_argument("a Case runs free and by itself");
     if (!one.peer.empty() && find_peer(one.contender) == nullptr) add_peer({one.contender, one.peer});
-    const Scene scene = load_scene(one.scene, settings_of(one));
+    const Scene scene = scene_of(one);
     RunOptions options = options_of(one);
-    if (record) options.max_replay_steps = one.steps.value_or(scene.steps);
+    options.continuous = extras.beside_motion;
+    options.measure_cost = extras.timed;
+    if (extras.recorded) options.max_replay_steps = one.steps.value_or(scene.steps);
     if (options.max_replay_steps > most_recorded_steps) throw std::length_error("too many steps to record");
     result = run_scene(scene, options);
     put_case(one, result.rows.front());
@@ -56,13 +65,19 @@ ReportScene run_alone(const Case& one, bool record) {
 
 }  // namespace
 
-Row run_case(const Case& one) { return run_alone(one, false).rows.front(); }
+Scene scene_of(const Case& one) { return load_scene(one.scene, settings_of(one)); }
 
-ReportScene excerpt_of(const Case& one, int around) {
-  ReportScene result = run_alone(one, true);
+Row run_case(const Case& one) { return run_alone(one, {}).rows.front(); }
+
+Row run_case_beside_motion(const Case& one, bool timed) {
+  return run_alone(one, {.beside_motion = true, .timed = timed}).rows.front();
+}
+
+ReportScene excerpt_of(const Case& one, int around, std::optional<int> middle) {
+  ReportScene result = run_alone(one, {.recorded = true});
   std::size_t told = 0;  // steps up to the last that is left
   for (ReportRun& run : result.runs) {
-    cut_to_excerpt(run, around);
+    cut_to_excerpt(run, around, middle);
     if (!run.steps.empty()) told = std::max(told, static_cast<std::size_t>(run.steps.back().step) + 1);
   }
   if (told < result.dt_list.size()) result.dt_list.resize(told);

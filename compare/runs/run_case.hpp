@@ -12,13 +12,20 @@
 
 namespace paperproof::compare {
 
+/// That a Case runs in. @throws InputError
+[[nodiscard]] Scene scene_of(const Case& one);
+
 /// A pure function of the Case, which is to be free and without the twin, and of the files it names. What goes wrong is
 /// a row that says so. Costs are not measured.
 [[nodiscard]] Row run_case(const Case& one);
 
+/// The same with how far it is from the exact motion. @param timed with its cost, too; a peer times itself.
+[[nodiscard]] Row run_case_beside_motion(const Case& one, bool timed);
+
 /// The same with its steps recorded, so many before and after the one that matters: see `cut_to_excerpt`. One row; no
 /// run where it could not be made to its end, or takes more than 100,000 steps.
-[[nodiscard]] ReportScene excerpt_of(const Case& one, int around);
+/// @param middle the step that matters; absent: what the run itself has.
+[[nodiscard]] ReportScene excerpt_of(const Case& one, int around, std::optional<int> middle = {});
 
 /// The Case of a row that `run_scene` gave.
 /// @param scene as it was typed. @param settings parameters of the scene that were turned.

@@ -95,8 +95,8 @@ std::vector<Row> points_of(const Motion& motion, const Runs& runs) {
 Row law_point(const Motion& motion, double dt) {
   const Scene scene = scene_of(motion, dt);
   const ContinuousCourses courses(scene, scene.input, scene.steps);
-  const Courses& both = courses.of("octagon_sweep");
-  ContinuousError error(&both);
+  const Courses& both = *courses.of("octagon_sweep").front();
+  ContinuousError error({&both});
   for (int step = 0; step < scene.steps; ++step) error.add(both.steps.value().at(courses.end(step)), courses.end(step));
   Row row;
   row.scene = motion.name;

@@ -2,7 +2,7 @@
 // box that the character and what it met fill.
 
 /// Events that are worth the first look, the worst one first; before them all is the first contact.
-const WORST_FIRST = ['tunnel', 'one-way broken', 'inside', 'crush'];
+const WORST_FIRST = ['tunnel', 'one-way broken', 'inside', 'hanging', 'crush'];
 /// What is up to so many times as thick as the character is shown with both of its faces.
 const WHOLE_UP_TO = 6;
 
