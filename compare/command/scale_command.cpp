@@ -67,7 +67,7 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
     chart.series.push_back(std::move(series));
   }
   const Table table = table_of(points);
-  page.table = {table.heading, table.lines};
+  page.table = {"", table.heading, table.lines};
   page.environment = environment();
   return page;
 }

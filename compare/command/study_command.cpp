@@ -1,6 +1,7 @@
 #include "command/study_command.hpp"
 
 #include "command/compare_command.hpp"
+#include "command/field_view.hpp"
 #include "command/study_view.hpp"
 #include "runs/contender.hpp"
 #include "runs/knobs.hpp"
@@ -52,9 +53,8 @@ void apply(const CaseArguments& arguments, std::vector<StudyPart>& parts) {
   }
 }
 
-int run_study(const RunArguments& arguments, const PreparedStudy& study, const std::vector<StudyPart>& parts,
-              const StudyCases& cases) {
-  StudyView view(study, parts);
+template <class View>
+int run_study(const RunArguments& arguments, View view, const std::vector<StudyPart>& parts, const StudyCases& cases) {
   StudyRun run(arguments, cases,
                [&](std::size_t index, const Row& row) { view.add(parts[part_case(parts, index).part], row); });
   run.run();
@@ -74,7 +74,7 @@ int sweep_command(const SweepArguments& arguments) {
   study.paragraphs = {
       "Each case is judged step by step by exact arithmetic. The table lists the cases that do not hold, each with the "
       "command that runs it alone."};
-  return run_study(arguments.run, study, parts, cases_of(parts));
+  return run_study(arguments.run, StudyView(study, parts), parts, cases_of(parts));
 }
 
 int study_command(const PreparedStudy& study, const StudyArguments& arguments) {
@@ -86,7 +86,8 @@ int study_command(const PreparedStudy& study, const StudyArguments& arguments) {
   apply(arguments.cases, parts);
   StudyCases cases = cases_of(parts);
   cases.limit_s = size == GridSize::full ? day : hour;
-  return run_study(arguments.run, study, parts, cases);
+  if (study.in_one_table) return run_study(arguments.run, FieldView(study, parts, arguments.run.jobs), parts, cases);
+  return run_study(arguments.run, StudyView(study, parts), parts, cases);
 }
 
 }  // namespace paperproof::compare

@@ -172,7 +172,7 @@ ChartPage StudyView::page() const {
       page.grids.push_back(std::move(grid));
   if (!page.grids.empty()) page.paragraphs.emplace_back(how_to_read_maps);
   page.paragraphs.insert(page.paragraphs.end(), study_.paragraphs.begin(), study_.paragraphs.end());
-  if (!lines.empty()) page.table = {table.heading, table.lines};
+  if (!lines.empty()) page.table = {"", table.heading, table.lines};
   page.environment = environment();
   return page;
 }

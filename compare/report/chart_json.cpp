@@ -36,6 +36,22 @@ ordered_json json_of(const ChartGrid::Cell& cell) {
   return json;
 }
 
+/// Of a grid that is a table: [label, gravity] of each cell. Gravity is 0 for none, 1 for what is bad, 2 for what is
+/// unsafe.
+ordered_json labels_of(const ChartGrid& grid) {
+  ordered_json labels = ordered_json::array();
+  for (const auto& line : grid.cells) {
+    ordered_json cells = ordered_json::array();
+    for (const ChartGrid::Cell& cell : line) cells.push_back({cell.label, cell.grave ? 2 : cell.bad > 0 ? 1 : 0});
+    labels.push_back(std::move(cells));
+  }
+  return labels;
+}
+
+ordered_json json_of(const ChartTable& table) {
+  return {{"title", table.title}, {"heading", table.heading}, {"rows", table.rows}};
+}
+
 ordered_json json_of(const ChartGrid& grid) {
   ordered_json json{{"title", grid.title}, {"bad_words", grid.bad_words},
                     {"x", grid.x_label},   {"y", grid.y_label},
@@ -46,6 +62,7 @@ ordered_json json_of(const ChartGrid& grid) {
     for (const ChartGrid::Cell& cell : line) cells.push_back(json_of(cell));
     json["cells"].push_back(std::move(cells));
   }
+  if (!grid.beside.empty()) json["labels"] = labels_of(grid);
   return json;
 }
 
@@ -59,12 +76,13 @@ ordered_json list_in_json(const std::vector<Item>& items) {
 }  // namespace
 
 std::string chart_page_json(const ChartPage& page) {
-  const ordered_json data{{"title", page.title},
-                          {"paragraphs", page.paragraphs},
-                          {"charts", list_in_json(page.charts)},
-                          {"grids", list_in_json(page.grids)},
-                          {"heading", page.table.heading},
-                          {"rows", page.table.rows}};
+  ordered_json data{{"title", page.title},
+                    {"paragraphs", page.paragraphs},
+                    {"charts", list_in_json(page.charts)},
+                    {"grids", list_in_json(page.grids)},
+                    {"heading", page.table.heading},
+                    {"rows", page.table.rows}};
+  if (!page.more_tables.empty()) data["tables"] = list_in_json(page.more_tables);
   return script_safe(dumped(data));
 }
 

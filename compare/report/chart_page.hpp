@@ -42,6 +42,8 @@ struct ChartGrid {
     std::string command{};                ///< That runs it alone.
     bool through = false;                 ///< It passed a solid.
     std::optional<std::size_t> replay{};  ///< Position in `ChartPage::replays`; none: there is no replay of it.
+    std::string label{};                  ///< Of a cell that is read, and not only seen.
+    bool grave = false;                   ///< With a label: something unsafe is bad in it.
   };
   std::string title;  ///< Who is tried, and in what.
   std::string x_label;
@@ -50,9 +52,11 @@ struct ChartGrid {
   std::vector<std::string> ys;
   std::vector<std::vector<Cell>> cells;   ///< By y, then by x.
   std::string bad_words = "do not hold";  ///< What bad cases do.
+  std::string beside{};  ///< A contender who runs each replayed case as well. With it the grid is a table of labels.
 };
 
 struct ChartTable {
+  std::string title{};  ///< Where a page has several.
   std::vector<std::string> heading;
   std::vector<std::vector<std::string>> rows;
 };
@@ -63,6 +67,7 @@ struct ChartPage {
   std::vector<Chart> charts{};
   std::vector<ChartGrid> grids{};
   ChartTable table{};
+  std::vector<ChartTable> more_tables{};
   std::vector<std::string> replays{};  ///< Of cells; one JSON object each: see `cell_replay_json`.
   std::vector<std::pair<std::string, std::string>> environment{};  ///< (name, value), as in every report.
 };

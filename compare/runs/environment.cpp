@@ -22,6 +22,8 @@ std::string processor() {
 
 }  // namespace
 
+int core_lines() { return PAPERPROOF_CORE_LINES; }
+
 Environment environment() {
   return {{"paperproof", PAPERPROOF_VERSION},
           {"box2d", box2d::box2d_version()},

@@ -2,6 +2,7 @@
 
 #include "runs/contender.hpp"
 #include "studies/bullet.hpp"
+#include "studies/field.hpp"
 #include "studies/stability.hpp"
 
 #include <algorithm>
@@ -113,6 +114,12 @@ const std::vector<PreparedStudy>& prepared_studies() {
        .help = "Shafts that fit, walls and lifts that close in: who gets stuck, inside or through",
        .parts = squeeze_parts,
        .title = "study squeeze"},
+      {.name = "field",
+       .help = "Movers of any engine in one table: bullets, seams, slopes, lifts, rest, play; the worst that each does",
+       .parts = field_parts,
+       .title = "The field in one table",
+       .paragraphs = field_paragraphs(),
+       .in_one_table = true},
       {.name = "stability",
        .help = "Stiff and extreme cases: where each side holds, and where not",
        .parts = stability_parts,

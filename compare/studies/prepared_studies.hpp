@@ -23,12 +23,13 @@ struct PreparedStudy {
   std::string title{};                    ///< Of its page.
   std::vector<std::string> paragraphs{};  ///< Of its page, below how to read its maps.
   const char* grid = "quick";             ///< Where none is named.
+  bool in_one_table = false;              ///< Contenders by groups, and no maps: see `FieldView`.
   /// What theory says of a border, in a word; none: nothing is said. @param who ran, with its knobs. @param at value of
   /// the first axis.
   std::string (*theory)(const std::string& who, double at) = nullptr;
 };
 
-/// bullet, corner, seam, squeeze, stability.
+/// bullet, corner, seam, squeeze, field, stability.
 [[nodiscard]] const std::vector<PreparedStudy>& prepared_studies();
 
 /// All contenders, and some more with knobs of their own.

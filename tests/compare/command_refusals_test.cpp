@@ -321,7 +321,7 @@ TEST_F(CommandRefuses, names_of_nothing_and_says_which_are_near) {
            {"", commands},
            {"frobnicate", commands},
            {"study bullets",
-            "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof "
+            "paperproof study: expected one of scale, bullet, corner, seam, squeeze, field, disagreement; see paperproof "
             "study --help\n"},
            {"list scene",
             "paperproof: WHAT: expected scenes, contenders, families, knobs, metrics, parameters or schema, not scene; "

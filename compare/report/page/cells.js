@@ -19,7 +19,7 @@ function cellNodes({study, grid, at, bad, all, words, command}, parameters) {
       el('p', {}, back,
          el('span', {class: 'quiet'}, ` of \u201c${study.title}\u201d`, el('span', {class: 'key-hint'}, ' (Escape)'))),
       el('h2', {}, `${grid.title} at ${placeInWords(grid, at)}`),
-      el('p', {class: 'sentence'}, `${counted}. This is the first ${bad > 0 ? 'of those' : 'case'}: ${words}.`)
+      el('p', {class: 'sentence'}, `${counted}. This is the ${grid.labels ? 'worst' : 'first'} ${bad > 0 ? 'of those' : 'case'}: ${words}.`)
     ],
     below: [
       el('h3', {}, 'This case'), pairs(parameters),

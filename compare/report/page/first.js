@@ -173,15 +173,15 @@ function tunnelSentence(scene) {
       (through.length ? `: ${through.map(rowLabel).join(', ')}.` : '.');
 }
 
-/// The table of a study, and what it says in words.
-function studyTable(study) {
-  if (study.rows.length === 0) return [];
+/// The table of a study, and what it says in words; or one of several, with a title of its own and open.
+function studyTable(study, {title, heading, rows: lines} = study, open = study.charts.length + study.grids.length === 0) {
+  if (lines.length === 0) return [];
   const isNumber = (text) => text !== '' && !Number.isNaN(Number(text));
-  const rows = study.rows.map(
+  const rows = lines.map(
       (cells) => el('tr', {}, cells.map((text) => el('td', {class: isNumber(text) ? 'number' : null}, text))));
-  const head = study.heading.map((words) => el('th', {scope: 'col'}, words));
-  return [el('details', {open: study.charts.length + study.grids.length === 0}, el('summary', {}, 'In numbers'),
-             tableBox(study.title, [el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)]))];
+  const head = heading.map((words) => el('th', {scope: 'col'}, words));
+  return [el('details', {open}, el('summary', {}, title === study.title ? 'In numbers' : title),
+             tableBox(title, [el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)]))];
 }
 
 function studySection(study) {
@@ -191,7 +191,7 @@ function studySection(study) {
     nodes: [
       el('h3', {}, study.title), reading ? el('p', {class: 'quiet'}, reading) : null, charts ? charts.root : null,
       ...maps.nodes, more.length ? el('ul', {class: 'findings'}, more.map((words) => el('li', {}, words))) : null,
-      ...studyTable(study)
+      ...(study.tables || []).flatMap((table) => studyTable(study, table, true)), ...studyTable(study)
     ].filter(Boolean),
     draw: () => {
       if (charts) charts.draw();

@@ -30,6 +30,7 @@ function cellIn(grid, wanted, as) {
 }
 
 function placeInWords(grid, {column, row}) {
+  if (grid.labels) return `${grid.ys[row]}, ${grid.xs[column]}`;
   return `${grid.x} = ${grid.xs[column]}${grid.y ? `, ${grid.y} = ${grid.ys[row]}` : ''}`;
 }
 
@@ -181,10 +182,25 @@ class HeatMap {
   }
 }
 
+/// A grid whose cells are read: a table, each cell with its words. A cell leads to its replay.
+function labelTable(study, grid) {
+  const kinds = ['holds', 'flagged', 'tunnels'];
+  const cell = ([label, gravity], row, column) => {
+    const [bad, all, words, command, replay] = grid.cells[row][column], kind = all === 0 ? 'not-applicable' : kinds[gravity];
+    const about = all === 0 ? words : `${grid.ys[row]}, ${grid.xs[column]}: ${bad} of ${all} ${grid.bad_words}. ${words}. ${command}`;
+    const link = {href: addressOfCell(study, grid, {column, row}) + '&layout=side', title: about};
+    return el('td', {class: `cell ${kind}`}, el(replay === undefined ? 'span' : 'a', replay === undefined ? {title: about} : link, label));
+  };
+  const head = [grid.y, ...grid.xs].map((words) => el('th', {scope: 'col'}, words));
+  const rows = grid.labels.map(
+      (cells, row) => el('tr', {}, el('th', {scope: 'row'}, grid.ys[row]), cells.map((one, column) => cell(one, row, column))));
+  return tableBox(grid.title, [el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)], 'matrix labels');
+}
+
 /// All heat maps of a study, and one line that tells about the cell that is pointed at.
 function heatMaps(study) {
-  const {grids} = study;
-  if (grids.length === 0) return {nodes: [], draw: () => {}, show: () => {}};
+  const grids = study.grids.filter((grid) => !grid.labels), tables = study.grids.filter((grid) => grid.labels);
+  if (grids.length === 0) return {nodes: tables.map((grid) => labelTable(study, grid)), draw: () => {}, show: () => {}};
   const told = el('p', {class: 'told', role: 'status'}, 'Point at a cell to read about it.');
   const maps = grids.map((grid) => new HeatMap(study, grid, (words) => told.replaceChildren(...words)));
   const up = grids[0].y ? el('p', {class: 'quiet'}, `Upwards: ${grids[0].y}. Across: ${grids[0].x}.`) : null;

@@ -1,0 +1,177 @@
+#include "studies/field.hpp"
+
+#include "oracle/exemptions.hpp"
+#include "runs/contender.hpp"
+#include "runs/peers.hpp"
+#include "runs/run_case.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+namespace paperproof::compare {
+namespace {
+
+/// Bounds, each with its reason.
+constexpr double visible = 1e-4;    ///< A motion of what should rest [m]: a 300th of a pixel at 32 pixels per metre.
+constexpr double most_lost = 0.01;  ///< Share of the wanted motion: less is lost where a float ends.
+constexpr double most_off = 0.1;    ///< From the exact way [m]: five of the largest skins.
+
+using Axes = std::array<const char*, 3>;
+
+struct FieldScene {
+  std::string scene;
+  Axes axes{"", "", ""};       ///< For each size of the grid; "" as the scene is.
+  std::array<int, 3> steps{};  ///< The same; 0: the scene's.
+};
+
+struct Group {
+  const char* name;
+  const char* question;
+  std::vector<FieldScene> scenes;
+};
+
+constexpr const char* seams = "seams";
+constexpr Axes minute_hour_day{"steps=3600", "steps=216000", "steps=5184000"};
+
+/// A map of SuperTux, or a course in its place.
+FieldScene map(const std::string& level, const char* seed) {
+  const std::string path = "/usr/share/games/supertux2/levels/" + level + ".stl";
+  if (std::filesystem::exists(path)) return {path, {}, {300, 3600, 3600}};
+  return {"playground", {seed, seed, seed}, {300, 3600, 3600}};
+}
+
+std::vector<Group> groups() {
+  return {
+      {"bullets",
+       "A fall onto paper, at five speeds and more.",
+       {{"paper",
+         {"speed=10,20,40,80,160 thickness=0.001,0.1", "speed=5:640:log15 thickness=0,0.001,0.01,0.1 phase=0,0.25,0.5",
+          "speed=5:640:log36 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3 phase=0:0.9:lin10"}}}},
+      {seams,
+       "A walk over flush tiles of a metre.",
+       {{"tiles", {"speed=1.7,7.3,11.3", "speed=0.5:12:lin24", "speed=0.12:12:lin100"}}}},
+      {"slopes",
+       "Up a slope of the climb limit; down into a valley; over a hill.",
+       {{"climb45_3m"}, {"skier_no_snap"}, {"slope_joints_no_snap"}}},
+      {"steps",
+       "Against kerbs of 1 mm and 10 cm and a step of 30 cm, which are walls where nobody climbs steps.",
+       {{"kerb_1mm"}, {"kerb_10cm"}, {"low_step"}}},
+      {"edges", "Off a ledge, over a gap, into a gap.", {{"ledge_corner"}, {"gap_crossed"}, {"gap_fallen"}}},
+      {"wedges",
+       "A fall into a V.",
+       {{"wedge",
+         {"angle=60,30,5", "angle=1:60:log12", "angle=1:120:log60 dt=0.004166666666666667,0.016666666666666666"}}}},
+      {"lifts", "Up, down and to the side, and back.", {{"lift_up"}, {"lift_down"}, {"lift_sideways"}}},
+      {"closing walls",
+       "Between walls that leave 10 cm of room; before a paper that comes at 20 m/s.",
+       {{"closing_walls",
+         {"closing=1,10 clearance=0.1", "closing=0.5:50:log12 clearance=0.02,0.1",
+          "closing=0.5:1000:log30 clearance=0.02,0.1"}},
+        {"sweeping_paper"}}},
+      {"rest", "A minute of rest; with --grid standard an hour, with full a day.", {{"rest", minute_hour_day}}},
+      {"play",
+       "Walks and jumps at random through three maps.",
+       {map("bonus1/abednego-level4", "seed=1"), map("bonus2/level16", "seed=2"),
+        map("bonus3/crystalfields", "seed=3")}},
+  };
+}
+
+template <class Number>
+std::optional<double> beyond(const std::optional<Number>& size, double bound) {
+  return size && *size > bound ? std::optional<double>(*size) : std::nullopt;
+}
+
+/// One thing that a run may do wrong.
+struct Fault {
+  double rank;                                                   ///< See `Row::badness`.
+  const char* words;                                             ///< With a place for its size.
+  double unit;                                                   ///< In which the size is told.
+  std::optional<double> (*size)(const Row& row, bool on_seams);  ///< Nothing: it does not.
+};
+
+/// The worst one first.
+constexpr std::array faults{
+    Fault{4, "fails", 1,
+          [](const Row& row, bool) { return row.verdict == Verdict::failed ? std::optional(0.0) : std::nullopt; }},
+    Fault{3, "through at {} m/s", 1,
+          [](const Row& row, bool) {
+            if (row.tunnels.value_or(0) == 0) return std::optional<double>{};
+            return std::optional(row.first_tunnel ? row.first_tunnel->speed_m_s : 0);
+          }},
+    Fault{2, "inside {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.max_penetration_m, skin_of(row)); }},
+    Fault{1, "hangs {} of its steps", 1, [](const Row& row, bool) { return beyond(row.hanging_steps, 0); }},
+    Fault{0.8, "clips {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.clipped_depth_max_m, 0); }},
+    Fault{0.6, "restless {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.rest_peak_to_peak_m, visible); }},
+    Fault{0.4, "hops {} mm", 1e-3,
+          [](const Row& row, bool on_seams) { return on_seams ? beyond(row.seam_hop_m, visible) : std::nullopt; }},
+    Fault{0.2, "loses {} %", 0.01, [](const Row& row, bool) { return beyond(row.wanted_motion_lost, most_lost); }},
+    Fault{0.1, "off {} m", 1, [](const Row& row, bool) { return beyond(row.error_law_max_m, most_off); }},
+};
+
+}  // namespace
+
+std::string in_short(double number) { return fmt::format(fmt::runtime(number >= 10 ? "{:.0f}" : "{:.2g}"), number); }
+
+double skin_of(const Row& row) { return row.skin_m.value_or(is_reference(row.contender) ? box2d_skin : 0); }
+
+void judge_field(Row& row, bool on_seams) {
+  if (row.verdict == Verdict::not_applicable) return;
+  row.worst = "holds";
+  row.badness = 0;
+  for (const Fault& fault : faults)
+    if (const std::optional<double> size = fault.size(row, on_seams)) {
+      row.worst = fmt::format(fmt::runtime(fault.words), in_short(*size / fault.unit));
+      // Of two alike the larger one is worse; of two passages the slower one.
+      const double share = *size / (1 + *size);
+      row.badness = fault.rank + 0.1 * (fault.rank == 3 ? 1 - share : share);
+      return;
+    }
+}
+
+std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>& contenders) {
+  std::vector<NamedContender> who;
+  for (const std::string& name : contenders) who.push_back({name});
+  if (contenders.empty()) {
+    who = {{"octagon_sweep"}, {"box2d"}};
+    for (const Peer& peer : peers()) who.push_back({peer.name});
+  }
+  const auto of_size = static_cast<std::size_t>(size);
+  std::vector<StudyPart> parts;
+  for (const Group& group : groups())
+    for (const FieldScene& one : group.scenes) {
+      StudyPart part{field_title + std::string(group.name), {}, {}, Bad::does_not_hold, group.question};
+      part.sweep.scene = one.scene;
+      if (one.axes[of_size] != nullptr && *one.axes[of_size] != '\0') part.sweep.axes = parse_axes(one.axes[of_size]);
+      if (one.steps[of_size] > 0) part.sweep.steps = one.steps[of_size];
+      part.sweep.contenders = who;
+      part.run = [on_seams = group.name == seams](const Sweep& sweep, std::size_t index) {
+        const Case one_case = sweep.at(index);
+        // Costs are those of the walk over tiles, which everybody can make.
+        Row row = run_case_beside_motion(one_case, on_seams && one_case.peer.empty());
+        judge_field(row, on_seams);
+        return row;
+      };
+      parts.push_back(std::move(part));
+    }
+  return parts;
+}
+
+std::vector<std::string> field_paragraphs() {
+  std::vector<std::string> all{
+      "How to read this: a line for each contender, a column for each kind of trouble. A cell has the worst that its "
+      "runs do, and of how many runs how many do anything wrong, judged step by step by exact arithmetic. Choose a "
+      "cell to see the run beside that of octagon_sweep, step by step.",
+      "From bad to less: fails; through, at the slowest speed, also over an edge that it sinks into by more "
+      "than 20 mm; inside something by more than its skin; hangs in the air; clips a corner; restless, where it should "
+      "rest, or hops at seams, by more than 0.1 mm; loses more than "
+      "1 % of the wanted motion to nothing; off the exact way by more than 0.1 m. A peer's way is held against the law "
+      "of octagon_sweep and that of a body without friction, and the nearer one counts. Box2D 2.4 goes 2 m a step "
+      "at most, and comes late where more is wanted. What a law of response does by design is no fault, and the "
+      "scenes' own answers are not asked."};
+  for (const Group& group : groups()) all.push_back(fmt::format("{}: {}", group.name, group.question));
+  return all;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,32 @@
+/// The field: movers of any engine before the same scenes, a few for each kind of trouble, and the worst that each
+/// does.
+#pragma once
+
+#include "studies/prepared_studies.hpp"
+
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Stands before the name of a group in the titles of its parts.
+inline constexpr const char* field_title = "field: ";
+
+/// A part for each scene of a group. Where nobody is named they are octagon_sweep, Box2D and all peers. Maps of
+/// SuperTux are in it where Debian has installed them; in the place of one that is not here is the playground.
+[[nodiscard]] std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>& contenders);
+
+/// What is asked, and what counts as what.
+[[nodiscard]] std::vector<std::string> field_paragraphs();
+
+/// A number as tables of the field have it: two digits, or all before the point.
+[[nodiscard]] std::string in_short(double number);
+
+/// The skin of whoever ran: up to this depth it may be inside [m].
+[[nodiscard]] double skin_of(const Row& row);
+
+/// Says of a run the worst that it does: `worst`, in a word and a figure, and `badness`.
+/// @param on_seams its ground is level: what hops hops at seams.
+void judge_field(Row& row, bool on_seams);
+
+}  // namespace paperproof::compare

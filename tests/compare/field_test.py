@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""`study field` with two peers of these tests, on every eleventh case: what it says of them, and what they say of themselves.
+
+usage: field_test.py PAPERPROOF SOURCE_DIR EMPTY_DIR"""
+import base64
+import gzip
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+paperproof, source, place = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+shutil.rmtree(place, ignore_errors=True)
+place.mkdir(parents=True)
+ghost = f"python3 {source}/tests/compare/ghost.py"
+done = subprocess.run([paperproof, "study", "field", "--peer", f"ghost={ghost}", "--peer", f"liar={ghost} lies", "--shard", "1/11",
+                       "--rows", "r.jsonl", "--report", "p.html"], cwd=place, capture_output=True, text=True, check=True)
+rows = [json.loads(line) for line in (place / "r.jsonl").read_text().splitlines()[1:]]
+assert {row["contender"] for row in rows} == {"octagon_sweep", "box2d", "ghost", "liar"}
+for row in rows:
+    unsafe = row["badness"] >= 1
+    assert unsafe == bool(row["tunnels"] or row["max_penetration_m"] > row.get("skin_m", 0.02) or row["hanging_steps"]), row
+    assert (row["badness"] >= 3) == (row["tunnels"] > 0) == row["worst"].startswith("through at"), row
+    assert row["contender"] != "octagon_sweep" or (row["worst"], row["badness"]) == ("holds", 0), row
+slowest = {}  # the slowest passage is the worst
+for row in rows:
+    if row["tunnels"]:
+        speed = float(re.match(r"through at (\S+) m/s", row["worst"])[1])
+        assert abs(speed - row["first_tunnel"]["speed_m_s"]) <= 0.005 * speed
+        slowest[row["contender"], speed] = row["badness"]
+assert [bad for _, bad in sorted(slowest.items())] == sorted((bad for bad in slowest.values()), reverse=True) or len(
+    {who for who, _ in slowest}) > 1
+
+page = (place / "p.html").read_text()
+element = lambda name: json.loads(re.search(rf'id="{name}"[^>]*>(.*?)</script>', page, re.S)[1])
+study, = element("index")["studies"]
+grid, replays = study["grids"][0], element("cells-0")
+assert len(grid["ys"]) == 4 and len(grid["labels"]) == 4
+by_place = {}
+for row in rows:
+    by_place.setdefault((row["contender"], row["swept"]["question"].removeprefix("field: ")), []).append(row)
+for y, who in enumerate(grid["ys"]):
+    for x, group in enumerate(grid["xs"]):
+        some, (label, gravity) = by_place.get((who, group)), grid["labels"][y][x]
+        if not some:
+            assert label == "-"
+            continue
+        worst = max(some, key=lambda row: row["badness"])
+        bad = sum(row["badness"] > 0 for row in some)
+        assert label.startswith(worst["worst"]) and gravity == (2 if worst["badness"] >= 1 else bad > 0), label
+        assert grid["cells"][y][x][:2] == [bad, len(some)]
+        shown = gzip.decompress(base64.b64decode(replays[grid["cells"][y][x][4]]["replay"])).decode()
+        ran = set(re.findall(r'"contender":"(\w+)"', shown))
+        assert ran == {who, "octagon_sweep"}, (who, group, ran)
+tables = {table["title"]: table for table in study["tables"]}
+costs = tables["The cost of the guarantee"]
+ours = dict(zip(costs["heading"], costs["rows"][0]))
+assert int(ours["lines of code"]) > 1000 and ours["contender"] == "octagon_sweep"
+assert "ns, script" not in costs["heading"] or "700" in [cell for line in costs["rows"] for cell in line]
+checks = tables["What the engines' own queries say of it, at the recorded places"]
+for who, word in (("ghost", "yes"), ("liar", "no")):
+    own = [dict(zip(checks["heading"], line)) for line in checks["rows"] if line[0] == who]
+    assert len(own) == 3 and {check["confirmed"] for check in own} == {word}, own
+assert "through at" in done.stdout and "not stated" in done.stdout
