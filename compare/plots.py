@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Pictures of rows, for documents.
 
-    plots.py ROWS... --out DIR
+    plots.py ROWS... --out DIR [--keep FILE.json]
 
 ROWS are files of rows (.json, .jsonl) that `paperproof` wrote, and figures that `benchmarks/table.py --json` wrote. Rows of
 a sweep or a study give a picture for each question, with a heat map for each contender over the first two axes. Rows of
-`work-precision` give one for each motion: error against run time. Figures give their ratios as bars.
+`work-precision` give one for each motion: error against run time. Rows of `study field` give one table; --keep writes of them
+what it is drawn from. Figures give their ratios as bars.
 
 Each picture is NAME.svg, which follows the reader's colours, light or dark, and NAME.png and NAME-dark.png. It takes Python's
 matplotlib (Debian, Ubuntu: python3-matplotlib). The same rows give the same bytes with the same matplotlib."""
@@ -58,7 +59,7 @@ def lines_of(path):
 def who_ran(row, varied=()):
     """The contender with its knobs, but those that an axis shows, and its number type where it could be another."""
     knobs = [knob for knob in row.get("knob", "").split() if knob.split("=")[0] not in varied]
-    is_float = row.get("scalar") == "float" and not row["contender"].startswith("box2d")
+    is_float = row.get("scalar") == "float" and "engine" not in row and not row["contender"].startswith("box2d")
     return " ".join([row["contender"], *knobs]) + (" in float" if is_float else "")
 
 
@@ -247,6 +248,52 @@ def draw_curves(scene, rows, theme):
     return figure
 
 
+FIELD, FIELD_KEYS = "field: ", ("contender", "knob", "scalar", "engine", "verdict", "worst", "badness")
+
+
+def field_rows(rows):
+    """Of rows of `study field` what a table needs."""
+    return [{**{key: row[key] for key in FIELD_KEYS if key in row}, "swept": {"question": row["swept"]["question"]}} for row in rows]
+
+
+def field_cells(rows):
+    """By contender and group: the worst row, how many runs do anything wrong, and how many ran."""
+    cells = {}
+    for row in rows:
+        cell = cells.setdefault((who_ran(row), row["swept"]["question"].removeprefix(FIELD)), [None, 0, 0])
+        if "badness" in row:
+            cell[1] += row["badness"] > 0
+            cell[2] += 1
+            if cell[0] is None or row["badness"] > cell[0]["badness"]:
+                cell[0] = row
+    return cells
+
+
+def draw_field(rows, theme):
+    """Contenders by kinds of trouble: the worst that each does, and in how many runs it does anything wrong."""
+    cells = field_cells(rows)
+    names, groups = (list(dict.fromkeys(place[k] for place in cells)) for k in (0, 1))
+    figure = Figure(figsize=(1.12 * len(groups) + 1.3, 0.36 * len(names) + 1.2), layout="constrained")
+    figure.suptitle("Movers of many engines before one exact judge: the worst that each does", x=0.01, ha="left", weight="bold")
+    axes = figure.subplots()
+    for (who, group), (worst, bad, ran) in cells.items():
+        x, y = groups.index(group), names.index(who)
+        state = "" if worst is None else "none" if worst["badness"] == 0 else "some" if worst["badness"] < 1 else "all"
+        if state:
+            axes.add_patch(PathPatch(Outline([(x - .49, y - .47), (x + .49, y - .47), (x + .49, y + .47), (x - .49, y + .47), (0, 0)],
+                                             closed=True), facecolor=theme[state], linewidth=0))
+        words = "cannot run" if worst is None else worst["worst"] + (f"\n{bad} of {ran} runs" if bad else "")
+        axes.text(x, y, words, ha="center", va="center", fontsize=7, color=theme["on_all" if state == "all" else "text"])
+    axes.set(xlim=(-0.5, len(groups) - 0.5), ylim=(len(names) - 0.5, -0.5))
+    axes.set_xticks(range(len(groups)), groups)
+    axes.set_yticks(range(len(names)), names)
+    axes.tick_params(left=False, bottom=False, top=False, labeltop=True, labelbottom=False)
+    axes.spines[:].set_visible(False)
+    figure.supxlabel("red: passes a solid, ends inside one by more than its skin, or hangs in the air; orange: anything else",
+                     x=0.01, ha="left", fontsize=9)
+    return figure
+
+
 def draw_ratios(figures, theme):
     """How many times Box2D's figure is the controller's, as bars along a logarithmic axis; to the left where Box2D's is the
     smaller one."""
@@ -276,7 +323,7 @@ def draw_ratios(figures, theme):
 
 def pictures_of(paths):
     """Pairs of the title and a function that draws the picture in a theme."""
-    questions, motions, figures = {}, {}, []
+    questions, motions, figures, field = {}, {}, [], []
     for path in paths:
         rows, own_figures = content_of(path)
         if own_figures:
@@ -285,6 +332,8 @@ def pictures_of(paths):
             swept = row.get("swept")
             if row.get("mode") == "work_precision":
                 motions.setdefault(row["scene"], []).append(row)
+            elif swept and swept["question"].startswith(FIELD):
+                field += field_rows([row])
             elif swept and swept["axes"] and "border" not in row:
                 key = (swept.get("question"), row["scene"], *swept["axes"])
                 if key not in questions:
@@ -295,6 +344,8 @@ def pictures_of(paths):
             yield maps.title, lambda theme, maps=maps: draw_maps(maps, theme)
     for scene, rows in motions.items():
         yield scene, lambda theme, scene=scene, rows=rows: draw_curves(scene, rows, theme)
+    if field:
+        yield "field", lambda theme: draw_field(field, theme)
     for one in figures:
         yield "table", lambda theme, one=one: draw_ratios(one, theme)
 
@@ -338,10 +389,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("rows", nargs="+", metavar="ROWS")
     parser.add_argument("--out", required=True, metavar="DIR")
+    parser.add_argument("--keep", metavar="FILE.json")
     options = parser.parse_args()
     try:
         Path(options.out).mkdir(parents=True, exist_ok=True)
         pictures = list(pictures_of(options.rows))
+        if options.keep:
+            kept = [json.dumps(row) for path in options.rows for row in field_rows(content_of(path)[0])]
+            Path(options.keep).write_text('{"paperproof_rows": 1, "rows": [\n' + ",\n".join(kept) + "\n]}\n", encoding="utf-8")
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f"plots.py: expected files of rows and a folder: {error!r}")
     if not pictures:

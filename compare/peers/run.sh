@@ -1,36 +1,17 @@
 #!/usr/bin/env bash
-# Runs the peers of this folder beside octagon_sweep and Box2D's twin, over one scene for each thing that they differ in.
-#   compare/peers/run.sh                     all peers, the scenes below
+# Runs the peers of this folder beside octagon_sweep and Box2D's twin: `paperproof study field`, one table of them all.
+#   compare/peers/run.sh                     all peers, the study
 #   compare/peers/run.sh SCENE… [OPTION…]    `paperproof compare` with all peers and what you name instead
 #   compare/peers/run.sh holes               where each of them has a hole, as a table (holes.py)
 # First it installs what is missing: the packages of package.json into build/peers, Node where there is none, libchipmunk and
-# Godot's server; and it builds the command. Three to four minutes. The rows are in build/release/peers/rows.jsonl, the page is
-# report.html beside them.
+# Godot's server; and it builds the command. Its maps are those of Debian's supertux-data, where that is installed. The rows are
+# in build/release/peers/rows.jsonl, the page is report.html beside them.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=compare/packages.sh
 source "$here/compare/packages.sh"
 cd "$here"
-
-scenes=(
-  article_bullet        # the article's: who is continuous, and who is not
-  paper_1e-3            # paper of a millimetre at 40 m/s
-  zero_thickness_paper  # and of none
-  flush_tiles           # who snags at seams
-  skier_no_snap         # a valley of two slopes
-  climb45_3m            # a slope of the limit, and the edge at its top
-  low_step              # a step of 30 cm is a wall
-  ledge_corner          # the corner of a ledge
-  wedge_60              # two slopes at once
-  lift_up               # who is carried, up and down again
-  lift_sideways         # and to the side
-  sweeping_paper        # paper that moves at 20 m/s
-  rest                  # a drop, and rest
-  oneway_hill           # a one-way hill: who is held by each of its segments
-)
-# And a course of slopes, kerbs, a needle and one-way ledges.
-course=(playground --set steps=1000)
 
 out=build/release/peers
 mkdir -p "$out"
@@ -63,16 +44,13 @@ peers=(
   "godot=python3 compare/peers/godot.py"
   "godot_snap=python3 compare/peers/godot.py snap"
 )
-# Times are the peers' own; those of the others, by a clock of another kind, are not measured here.
-options=(--contender octagon_sweep --no-timing)
+options=(--rows "$out/rows.jsonl" --report "$out/report.html")
 for peer in "${peers[@]}"; do options+=(--peer "$peer"); done
 [[ ${1-} != holes ]] || exec python3 compare/peers/holes.py build/release/bin/paperproof "${peers[@]}"
 paperproof=build/release/bin/paperproof
 if (($#)); then
-  "$paperproof" compare "$@" "${options[@]}" --rows "$out/rows.jsonl" --report "$out/report.html"
-  exit
+  # Times are the peers' own; those of the others, by a clock of another kind, are not measured here.
+  "$paperproof" compare "$@" --contender octagon_sweep --no-timing "${options[@]}"
+else
+  "$paperproof" study field "${options[@]}"
 fi
-"$paperproof" compare "${scenes[@]}" "${options[@]}" --rows "$out/scenes.jsonl" --report "$out/scenes.html"
-"$paperproof" compare "${course[@]}" "${options[@]}" --rows "$out/course.jsonl" --report "$out/course.html"
-"$paperproof" merge "$out/scenes.jsonl" "$out/course.jsonl" --rows "$out/rows.jsonl"
-"$paperproof" report "$out/report.html" "$out/scenes.html" "$out/course.html"

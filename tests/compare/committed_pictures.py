@@ -55,7 +55,7 @@ def main(command, repository, folder):
         print("skipped: there is no matplotlib here, which draws the other pictures")
         sys.exit(77)
     pictures = {**OF_ROWS, **(LONG if os.environ.get("PAPERPROOF_LONG_TESTS") == "1" else {})}
-    sources = {"table": benchmarks / "table.json"}
+    sources = {"table": benchmarks / "table.json", "field": Path(repository, "compare/peers/field.json")}
     for name, arguments in pictures.items():
         sources[name] = folder / f"{name}.jsonl"
         subprocess.run([command, *shlex.split(arguments), "--quiet", "--rows", sources[name]], check=True)

@@ -97,6 +97,24 @@ class Curves(unittest.TestCase):
                          ["mask", "mask: 1 failed", "grid: 2 failed", plots.LAW], "what has no cost is a line across")
 
 
+class Field(unittest.TestCase):
+    @staticmethod
+    def run_of(contender, group, worst, badness, **more):
+        return {"contender": contender, "verdict": "holds", "worst": worst, "badness": badness,
+                "swept": {"question": f"field: {group}", "axes": ["speed_m_s"], "bad": "does_not_hold"}, **more}
+
+    def test_a_cell_has_the_worst_and_counts_the_runs_that_do_anything_wrong(self):
+        refused = {**self.run_of("rapier", "play", "", 0), "verdict": "not_applicable"}
+        del refused["worst"], refused["badness"]
+        rows = [self.run_of("octagon_sweep", "seams", "holds", 0), self.run_of("rapier", "seams", "loses 12 %", 0.21, scalar="float", engine="R 1"),
+                self.run_of("rapier", "seams", "inside 3 mm", 2.01, engine="R 1"), self.run_of("rapier", "seams", "holds", 0, engine="R 1"), refused]
+        with plots.matplotlib.rc_context(plots.settings(plots.LIGHT)):
+            axes = plots.draw_field(rows, plots.LIGHT).axes[0]
+        self.assertEqual([text.get_text() for text in axes.texts], ["holds", "inside 3 mm\n2 of 3 runs", "cannot run"])
+        self.assertEqual([plots.matplotlib.colors.to_hex(patch.get_facecolor()) for patch in axes.patches], [plots.LIGHT["none"], plots.LIGHT["all"]])
+        self.assertEqual([text.get_text() for text in axes.get_yticklabels()], ["octagon_sweep", "rapier"], "a peer in float is no other one")
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
