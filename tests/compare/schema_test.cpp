@@ -105,7 +105,9 @@ TEST(RowsJson, a_row_that_is_read_back_is_written_alike) {
   row.mode = "lockstep";
   row.steps = 7;
   row.verdict = Verdict::not_applicable;
-  row.reason = row.knob = row.engine = row.border = row.curve = row.source = row.command = row.commit = "text";
+  row.reason = row.knob = row.engine = row.border = row.curve = row.source = row.command = row.commit = row.worst =
+      "text";
+  row.machine = "native";
   row.case_id = row.event_sequence = "0123456789abcdef";
   row.swept = {"question", {"speed_m_s"}, Bad::tunnels};
   row.parameters = {{"speed_m_s", 0.1}, {"dt_s", 1e-3}};
