@@ -36,12 +36,17 @@ func _init():
 	build(run)
 	var called = "Godot KinematicBody2D" + (" with snap" if snaps else "")
 	var greeting = {"name": called, "version": Engine.get_version_info()["string"], "scalar": "float"}
+	greeting["machine"] = "script"
+	greeting["overlap"] = true
 	greeting["skin"] = character.get_safe_margin() / SCALE
 	greeting["can"] = ["movers", "turning", "one_way", "circles", "conveyors"]
 	link.put_utf8_string(to_json(greeting))
 	while true:
 		var step = hear()
 		yield(drive(step.get("movers", {})), "completed")
+		if step.has("overlap"):
+			link.put_utf8_string(to_json({"overlaps": overlaps(step["overlap"])}))
+			continue
 		link.put_utf8_string(answer(step["characters"][0], step["dt"]))
 
 
@@ -139,6 +144,19 @@ func drive(movers):
 		bodies[id].position = pixels(movers[id]["to"])
 		bodies[id].rotation = -movers[id].get("angle", [0, 0])[1]
 	yield(self, "physics_frame")
+
+
+# What intersect_shape has there, without the safe margin.
+func overlaps(place):
+	var query = Physics2DShapeQueryParameters.new()
+	query.set_shape(character.get_child(0).shape)
+	query.transform = Transform2D(0, pixels(place))
+	query.exclude = [character]
+	var found = []
+	for hit in root.find_world_2d().direct_space_state.intersect_shape(query):
+		if not hit.collider.get_meta("id") in found:
+			found.append(hit.collider.get_meta("id"))
+	return found
 
 
 func answer(asked, dt):
