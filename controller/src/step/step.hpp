@@ -83,6 +83,8 @@ struct MoverState {
   bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2> last_free{};        ///< The last free position before the step, if there was one.
   Real stopped = 0;                       ///< When surfaces last left no motion, as a fraction of the step.
+  std::size_t corners_before_crush = 0;   ///< Of the path, when the first mover crushed; and
+  StepStatus status_before_crush = StepStatus::moved;  ///< the status until then.
 };
 
 /// All that a step knows.

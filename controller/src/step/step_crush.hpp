@@ -15,11 +15,37 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
+/// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
+/// yet. After a crush `undo_crushes` does that at the end of the step.
+[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
+  const Real reach = push_left(step, step.memory.surfaces, step.position);
+  return step.result.crushed.empty() && move_to_free_position(step, reach, step.result.path.size());
+}
+
+/// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
+/// movers that crushed, no farther away than they may push; then nothing was crushed.
+PAPERPROOF_COLD inline void undo_crushes(Step& step) {
+  step.moving.ignored &= static_cast<std::uint8_t>(~crushes);
+  step.memory.surfaces.clear();
+  const Real reach = push_left(step, step.result.crushed, step.position);
+  if (move_to_free_position(step, reach, step.moving.corners_before_crush)) {
+    for (const ColliderIndex collider : step.result.crushed) step.memory.unmark(collider, crushes);
+    step.result.crushed.clear();
+    step.result.status =
+        step.moving.status_before_crush == StepStatus::dropped ? StepStatus::dropped : StepStatus::moved;
+  }
+  step.moving.ignored = passes_through;
+}
+
 /// Notes that the mover of a piece crushes the character.
 /// @param since the character was free of the mover at this fraction of the step.
 inline void crush(Step& step, PieceIndex piece, Real since) {
   const MoverIndex mover = mover_of(step, piece);
   if (ignored(step, piece) || mover == no_mover) return;
+  if (step.result.crushed.empty()) {
+    step.moving.corners_before_crush = step.result.path.size();
+    step.moving.status_before_crush = step.result.status;
+  }
   const ColliderIndex collider = collider_of(step, piece);
   step.memory.mark(collider, crushes);
   step.result.crushed.push_back(collider);

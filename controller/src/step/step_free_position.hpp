@@ -181,17 +181,17 @@ inline void go_to_free_position(Step& step, std::size_t corner, const Vec2& end)
 }
 
 /// Moves to the nearest free position that is reached from the last corner from which any is: until there the motion is
-/// that of every other step. False if there is none, or something has crushed the character: then nothing has changed.
-[[nodiscard]] PAPERPROOF_COLD inline bool goes_to_free_position(Step& step) {
-  if (step.moving.side_lost || !step.result.crushed.empty()) return false;
-  const Real reach = push_left(step, step.memory.surfaces, step.position);
+/// that of every other step. False if there is none: then nothing has changed.
+/// @param reach how far away it may be [m]. @param corners of the path at which it may begin: so many, the first ones.
+[[nodiscard]] PAPERPROOF_COLD inline bool move_to_free_position(Step& step, Real reach, std::size_t corners) {
+  if (step.moving.side_lost) return false;
   step.moving.stopped = step.time;
   step.memory.pressing = step.memory.surfaces;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = step.moving.ignored;
   step.moving.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   std::optional<Vec2> found;
-  std::size_t corner = step.result.path.size();
+  std::size_t corner = corners;
   while (!found && corner-- > 0) found = nearest_free_from(step, corner, least_gap(step.position), reach);
   // Mostly there is also one with the gap that is kept everywhere else.
   if (found) found = nearest_free_from(step, corner, tolerances.stop, reach).value_or(*found);

@@ -14,15 +14,14 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-[[nodiscard]] inline Vec2 way_of(const Step& step, const Crusher& crusher) {
-  return displacement_of(step, crusher.collider);
-}
+[[nodiscard]] inline Vec2 way_of(const Step& step, ColliderIndex collider) { return displacement_of(step, collider); }
+[[nodiscard]] inline Vec2 way_of(const Step& step, const Crusher& crusher) { return way_of(step, crusher.collider); }
 [[nodiscard]] inline Vec2 way_of(const Step& step, const TouchedSurface& surface) {
   return step.movers.displacement(surface.mover);
 }
 
 /// How much farther some of these may push a character that is at `p`; negative where it is too far already [m].
-/// @param pushing surfaces or crushers.
+/// @param pushing surfaces, colliders or crushers.
 template <class Pushing>
 [[nodiscard]] Real push_left(const Step& step, const Pushing& pushing, const Vec2& p) {
   Real way = 0;
@@ -41,11 +40,11 @@ template <class Pushing>
 /// Whether one of the touched surfaces comes against the character, and they are not all of one direction.
 [[nodiscard]] inline bool squeeze(const Step& step) {
   const std::vector<TouchedSurface>& all = step.memory.surfaces;
-  return std::ranges::any_of(
-             all,
-             [&](const TouchedSurface& one) { return length_of(Vec2(one.normal - all[0].normal)) > same_plane; }) &&
-         std::ranges::any_of(
-             all, [&](const TouchedSurface& one) { return dot(way_of(step, one), one.normal) > tolerances.certain; });
+  const auto is_another = [&](const TouchedSurface& one) {
+    return length_of(Vec2(one.normal - all[0].normal)) > same_plane;
+  };
+  const auto comes = [&](const TouchedSurface& one) { return dot(way_of(step, one), one.normal) > tolerances.certain; };
+  return std::ranges::any_of(all, is_another) && std::ranges::any_of(all, comes);
 }
 
 /// Holds a velocity to the law where the touched surfaces squeeze the character out: as a wedge does, the blunter the

@@ -100,7 +100,6 @@ PAPERPROOF_FLATTEN inline void travel(Step& step) {
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion desired = desired_motion(step);
   step.fall = step.up.up_of(desired.velocity.unsteered);
-  note_velocity(step, desired.velocity);
   Vec2 displacement = step.motion.displacement;  // of the next sweep: it may also restore the gap to a surface
   bool may_aim = true;
   int impacts = 0;
@@ -226,6 +225,7 @@ inline void solve(Step& step) {
     if (step.movers.active) {
       note_colliders_left(step);
       wait(step, false);
+      if (!step.result.crushed.empty()) undo_crushes(step);
     }
   } else {
     if (step.movers.active) {
@@ -236,10 +236,12 @@ inline void solve(Step& step) {
         step.steered = 0;
         step.moving.anchored = false;
       }
+      note_velocity(step, desired_motion(step).velocity);
     }
     if (near) sweep_along(step, wanted);
     if (request.state.grounded && !step.found.hit) stop_at_touched_ground(step);
     travel(step);
+    if (!step.result.crushed.empty()) undo_crushes(step);
     find_ground(step);
     if (step.result.grounded && !step.met_ground && !step.wedged) land(step, wanted);
     if (step.settings.step_height > 0) climb_stairs(step, wanted, walk);

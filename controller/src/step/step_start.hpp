@@ -143,7 +143,8 @@ template <class MayPass>
   const Real whole = std::min(reach_of_solids_inside(step), farthest);
   FreePositionQuery query = query_here(step);
   const CharacterState& before = step.request.state;
-  if (before.has_last_free) query.last_free = before.last_free;
+  // What crushed it may have done so after it had moved on from there: of each the side is known.
+  if (before.has_last_free) (step.memory.crushers.empty() ? query.last_free : query.entered_from) = before.last_free;
   do {
     for (const Real gap : {tolerances.stop, least_gap(step.position)}) {
       query.gap = gap;
