@@ -64,23 +64,22 @@ struct Member {
   Box2 reach;                ///< What its step may touch [m].
   bool is_in_group = false;  ///< In this one, or in one that has gone.
   bool has_gone = false;
-  bool waits = false;                 ///< Its turn has begun: it waits for those in its way.
-  bool follows = false;               ///< It waits for its carrier to go.
-  bool is_late = false;               ///< It was crushed beside one that went sooner, and might have given way.
-  bool went_elsewhere = false;        ///< Than those foresaw that it carries.
-  bool has_velocity = false;          ///< That of its carrier is in its own.
-  std::size_t began = 0;              ///< How many turns had begun before its own.
-  std::size_t carrier = nobody;       ///< Whom it rides on.
-  std::vector<std::size_t> near;      ///< The others that it may meet.
-  std::vector<std::size_t> in_way;    ///< Those that have not gone, and are in its way.
-  std::vector<std::size_t> yielding;  ///< Of these the ones that let it go as if they were not there.
-  std::vector<std::size_t> carried;   ///< Those that ride on it, and have gone first by the way that it would go.
+  bool waits = false;                    ///< Its turn has begun: it waits for those in its way.
+  bool follows = false;                  ///< It waits for its carrier to go.
+  bool is_late = false;                  ///< It was crushed beside one that went sooner, and might have given way.
+  bool has_velocity = false;             ///< That of its carrier is in its own.
+  std::size_t began = 0;                 ///< How many turns had begun before its own.
+  std::size_t carrier = nobody;          ///< Whom it rides on.
+  std::vector<std::size_t> near;         ///< The others that it may meet.
+  std::vector<TurnTaker::Other> moving;  ///< Of these the ones that went in its turn.
+  std::vector<std::size_t> in_way;       ///< Those that have not gone, and are in its way.
+  std::vector<std::size_t> yielding;     ///< Of these the ones that let it go as if they were not there.
+  std::vector<std::size_t> carried;      ///< Those that ride on it, and have gone first by the way that it would go.
   // While it waits: how far it would go without those that yield [m],
   std::optional<Vec2d> carries;  ///< for those that ride on it, and
   std::optional<Vec2d> pushes;   ///< as movers alone take it, for others.
-  // By which those that it carries went first, and how far it then went [m]:
-  Vec2d foreseen{};
-  std::optional<Vec2d> known;  ///< in the round before, where that was another way.
+  Vec2d foreseen{};              ///< By which those went that it carries [m].
+  std::optional<Vec2d> known;    ///< How far it went in the round before, where those foresaw another way [m].
 
   [[nodiscard]] const Vec2d& from() const { return before.position; }
 };
@@ -163,6 +162,7 @@ struct TogetherScratch::Turns {
       member.known.reset();
       member.carrier = nobody;
       member.near.clear();
+      member.moving.clear();
     }
     find_near();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -178,7 +178,8 @@ struct TogetherScratch::Turns {
     }
   }
 
-  std::vector<std::size_t> turn_of;    ///< Of each, its place in the order.
+  std::vector<std::size_t> turn_of;  ///< Of each, its place in the order.
+  std::vector<Member> members;
   std::vector<Companion*> companions;  ///< By the ids of their bodies.
   std::vector<OfController> takers;
   std::vector<TurnTaker*> pointers;
@@ -217,14 +218,16 @@ struct TogetherScratch::Turns {
     return axes.emplace_back(hull(i), hull(other));
   }
 
-  /// Whether one that has gone came no nearer to where another begins, and did not fly past it.
+  /// Whether one that has gone came no nearer to where another begins, along a direction in which it began farthest.
   [[nodiscard]] bool recedes(std::size_t other, std::size_t i) {
     constexpr double noise = 1e-12;
-    const Vec2d before = members[i].from() - members[other].from();
-    const Vec2d now = members[i].from() - members[other].to;
+    const Vec2d at = members[i].from() - members[other].from();
+    const Vec2d way = members[other].to - members[other].from();
     const Axes& between = axes_between(i, other);
-    return !time_near(between, before, now, Tolerances{}.certain).any() &&
-           gap(between, now) >= gap(between, before) - noise;
+    const double farthest = gap(between, at) - noise;
+    return std::ranges::any_of(between.all, [&](const Axis& axis) {
+      return axis.apart + dot(at, axis.normal) >= farthest && dot(way, axis.normal) <= noise;
+    });
   }
 
   /// How another goes while one takes its turn.
@@ -317,10 +320,15 @@ struct TogetherScratch::Turns {
   /// How far one went in its last attempt. Over the edge of a stair it goes higher than it ends: as high as that.
   [[nodiscard]] Vec2d highest_way(std::size_t i) const {
     const Vec2d way = all[i]->state().position - members[i].from();
-    double peak = 0;
+    double peak = std::max(dot(way, up), 0.0);
     for (const PathPoint& corner : report_of(i).move.path)
-      peak = std::max(peak, dot(Vec2d(corner.position - members[i].from() - way), up));
-    return way + up * peak;
+      peak = std::max(peak, dot(Vec2d(corner.position - members[i].from()), up));
+    return way + up * (peak - std::max(dot(way, up), 0.0));
+  }
+
+  /// Whether its last attempt went so far [m].
+  [[nodiscard]] bool is_as_foreseen(std::size_t i, const Vec2d& way) const {
+    return (highest_way(i) - way).norm() <= Tolerances{}.touch;
   }
 
   /// Lets those go first that are in the way of one.
@@ -332,7 +340,7 @@ struct TogetherScratch::Turns {
       me.yielding = in_way;
       const Vec2d way = attempt(i, Try::taken_without_those);
       std::erase_if(me.yielding, [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.hit); });
-      if (!me.yielding.empty()) me.pushes = way;
+      if (!me.yielding.empty()) me.pushes = me.known.value_or(way);
     }
     const auto rides = [&](std::size_t other) { return members[other].carrier == i; };
     if (std::ranges::any_of(in_way, rides)) {
@@ -347,18 +355,16 @@ struct TogetherScratch::Turns {
     me.pushes.reset();
   }
 
-  /// Makes the step of one. Those that it carries have made room for it: they are in its way only where it would not
-  /// pass.
+  /// Makes the step of one. Those that it carries have made room for it: by rounding alone they do not hold it.
   void try_step(std::size_t i) {
     Member& me = members[i];
-    if (!me.carried.empty()) {
-      me.yielding = me.carried;
-      attempt(i, Try::without_those);
-      if (std::ranges::all_of(me.carried,
-                              [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
-        return;
-    }
     attempt(i, Try::its_step);
+    if (me.carried.empty() || is_as_foreseen(i, me.foreseen)) return;
+    me.yielding = me.carried;
+    attempt(i, Try::without_those);
+    if (!std::ranges::all_of(me.carried,
+                             [&](std::size_t other) { return is_clear_of(i, other, Tolerances{}.certain); }))
+      attempt(i, Try::its_step);
   }
 
   void take_turn(std::size_t i) {
@@ -395,13 +401,41 @@ struct TogetherScratch::Turns {
     });
   }
 
-  /// When all have gone: a carrier that climbs a stair, or is stopped, has another velocity than its way has.
+  /// Whether one went in the turn of another.
+  [[nodiscard]] bool went(std::size_t one, std::size_t other) const {
+    return std::ranges::any_of(members[other].moving,
+                               [&](const TurnTaker::Other& moving) { return moving.who == one; });
+  }
+
+  /// Whether those of the group that were to carry or push others went as these saw it. From now on the others know
+  /// how.
+  /// @param go else those are to see it stand.
+  [[nodiscard]] bool all_went_as_foreseen(bool go) {
+    bool all_did = true;
+    for (const std::size_t i : group)
+      for (const TurnTaker::Other& other : members[i].moving) {
+        if (turn_of[other.who] < turn_of[i]) continue;
+        Member& it = members[other.who];
+        if (is_as_foreseen(other.who, other.motion.to - it.from())) continue;
+        it.known = go ? highest_way(other.who) : Vec2d(0, 0);
+        all_did = false;
+      }
+    return all_did;
+  }
+
+  /// When all have gone. A carrier that climbs a stair, or is stopped, has another velocity than its way has. One that
+  /// went from under its rider, which had gone, carries it no more.
   void take_velocity_of_carrier(std::size_t i) {
     CharacterState& state = all[i]->state();
     const std::size_t carrier = state.ride.ground == Ride::none ? nobody : owner_of(state.ride.ground, i);
     if (carrier == nobody || std::exchange(members[i].has_velocity, true)) return;
     take_velocity_of_carrier(carrier);
     MoveResult& move = report_of(i).move;
+    const bool is_left = gap(axes_between(i, carrier), members[i].to - members[carrier].to) > Tolerances{}.touch;
+    if (is_left && !went(carrier, i)) {
+      state.ride = move.ride = {};
+      return;
+    }
     const Vec2d change = all[carrier]->state().velocity - state.ride.velocity;
     for (Vec2d* velocity : {&state.velocity, &state.ride.velocity, &state.ground.velocity, &move.velocity,
                             &move.ride.velocity, &move.ground.velocity})
@@ -415,11 +449,9 @@ struct TogetherScratch::Turns {
       if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
     }
     me.to = all[i]->state().position;
-    if (!me.carried.empty()) {
-      const Vec2d way = highest_way(i);
-      me.went_elsewhere = !((way - me.foreseen).norm() <= Tolerances{}.touch);
-      if (me.went_elsewhere) me.known = way;
-    }
+    me.moving.clear();
+    for (const TurnTaker::Other& other : others)
+      if (other.motion.from != other.motion.to) me.moving.push_back(other);
     me.has_gone = true;
     turn_of[i] = turns++;
   }
@@ -464,7 +496,8 @@ struct TogetherScratch::Turns {
   /// The steps of the group, again as long as some must go otherwise: those that came late go first, and those that a
   /// carrier moved otherwise than they foresaw go by the way that it went.
   void let_take_turns() {
-    constexpr int most_rounds = 4;
+    constexpr int most_rounds = 8;
+    constexpr int rounds_foreseen = 3;
     const std::size_t begin = turns;
     first.clear();
     for (int round = 0; round < most_rounds; ++round) {
@@ -472,7 +505,7 @@ struct TogetherScratch::Turns {
       std::ranges::sort(group);
       for (const std::size_t i : group) {
         members[i].to = members[i].from();
-        members[i].has_gone = members[i].waits = members[i].is_late = members[i].went_elsewhere = false;
+        members[i].has_gone = members[i].waits = members[i].is_late = false;
       }
       for (const std::size_t i : first)
         if (is_still(i)) take_turn(i);
@@ -482,8 +515,9 @@ struct TogetherScratch::Turns {
       for (const std::size_t i : group) {
         const bool is_new = members[i].is_late && !contains(first, i);
         if (is_new) first.push_back(i);
-        again = again || is_new || members[i].went_elsewhere;
+        again = again || is_new;
       }
+      again = !all_went_as_foreseen(round < rounds_foreseen) || again;
       if (!again) break;
     }
     for (const std::size_t i : group) take_velocity_of_carrier(i);
@@ -491,7 +525,6 @@ struct TogetherScratch::Turns {
 
   std::span<TurnTaker* const> all;
   Vec2d up{0, 1};
-  std::vector<Member> members;
   std::vector<std::size_t> order;
   std::vector<std::size_t> group;  ///< Those that may meet.
   std::vector<std::size_t> first;  ///< Those of the group that go before the others.
@@ -521,7 +554,13 @@ void step_together(std::span<Companion> companions, const StepContext& context, 
   for (Companion* companion : turns.companions) turns.takers.emplace_back(*companion, turns.companions, context);
   for (OfController& taker : turns.takers) turns.pointers.push_back(&taker);
   turns.make_step(turns.pointers, context.up);
-  for (std::size_t i = 0; i < turns.companions.size(); ++i) turns.companions[i]->turn = turns.turn_of[i];
+  for (std::size_t i = 0; i < turns.companions.size(); ++i) {
+    Companion& companion = *turns.companions[i];
+    companion.turn = turns.turn_of[i];
+    companion.moving.clear();
+    for (const TurnTaker::Other& other : turns.members[i].moving)
+      companion.moving.push_back(turns.companions[other.who]->body);
+  }
 }
 
 }  // namespace paperproof

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace paperproof {
 
@@ -34,6 +35,8 @@ struct Companion {
   Scratch* scratch = nullptr;        ///< Made by the controller. Those that share the controller may share one.
   StepReport* report = nullptr;      ///< Contacts name the bodies of others as they name any collider.
   std::size_t turn = 0;              ///< Written: its place in the order of this step, from 0.
+  /// Written: the bodies of the others that went, in its turn, along their ways of this step. All others stood.
+  std::vector<ColliderIndex> moving{};
 };
 
 /// One of several characters that take turns: what `take_turns` asks of it. `step_together` needs none of a game.
@@ -80,12 +83,15 @@ class TogetherScratch {
 ///    way. A carrier goes before its rider, unless the rider is in its way, as on a lift that rises. Of several that
 ///    wait for each other the last one goes first, and stops at the others.
 /// 3. To its rider a character is a mover, which goes straight from where it began to where it ended, and carries at
-///    its speed. To anyone else it is one, and pushes at its speed, if it went before, ended no nearer than it began,
-///    and did not fly past; else it stands where it ended.
-/// 4. A rider that goes first is carried by the way that its carrier would go without it. Where the carrier then goes
-///    another way, as others push it, all go again, up to three times: the rider is carried by that way. One that a
-///    mover presses pushes those in its way: they go first, as far as it would go. If they have no room, the mover
+///    its speed. To anyone else it is one, and pushes at its speed, if it went before and came no nearer along a
+///    direction in which it began farthest; else it stands where it ended. Where a way among such movers would lead
+///    through one of them as it stands, or one of them would crush, all of them stand.
+/// 4. A rider that goes first is carried by the way that its carrier would go without it. One that a mover presses
+///    pushes those in its way: they go first, as far as movers alone would take it. If they have no room, the mover
 ///    crushes the one that it presses. No character crushes another. None that walks or falls pushes one.
+/// 5. Where one that was to carry or push then goes another way than those saw, as others push or hold it, all go
+///    again, and see it go by that way; from the fourth time on it stands for them.
+/// 6. When all have gone a rider takes over the velocity with which its carrier ends, unless that went from under it.
 ///
 /// A character that meets no other makes the same step as alone, bit for bit. One whose step is refused stands where it
 /// is, and its report says why. The order of `companions` does not matter, only that of the ids.
