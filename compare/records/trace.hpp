@@ -115,10 +115,10 @@ struct TraceHeader {
   /// turn of one of them is judged.
   std::size_t bodies = 0;
   [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider + bodies >= scenery.colliders.size(); }
-  std::vector<std::string> ids;        ///< One per collider.
-  std::vector<bool> turning;           ///< By mover; empty where none turns.
-  std::string box2d;                   ///< Version of the Box2D in use.
-  std::optional<LevelPlan> plan;       ///< None for Box2D, which has none.
+  std::vector<std::string> ids;   ///< One per collider.
+  std::vector<bool> turning;      ///< By mover; empty where none turns.
+  std::string box2d;              ///< Version of the Box2D in use.
+  std::optional<LevelPlan> plan;  ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;
@@ -130,6 +130,8 @@ struct TraceStep {
   CharacterIndex character = 0;
   /// Its place in the order of this step, from 0 on: while one moves the others stand. None: all move at once.
   std::optional<CharacterIndex> turn{};
+  std::vector<CharacterIndex>
+      moving{};  ///< With `turn`: the others that went along their ways in it. All others stood.
   Input input{};
   std::optional<Vec2d> up{};       ///< In this step, where it is not the header's.
   std::optional<Vec2d> gravity{};  ///< The same [m/s²].

@@ -99,6 +99,7 @@ void fields(auto& io, A<TraceStep> auto& step, A<std::optional<bool>> auto& exac
   io.when(!step.refused.empty(), "input", step.input);
   if (!step.refused.empty()) return;
   io.may("turn", Characters{step.turn});
+  io.may("moving", Characters{step.moving});
   io.must("path", step.path);
   io.may("path_exact", exact);
   io.must("input", step.input);

@@ -1,5 +1,6 @@
 #include "runs/own_contender.hpp"
 
+#include "contains.hpp"
 #include "runs/level_ways.hpp"
 #include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
@@ -209,9 +210,13 @@ class TogetherContender final : public OwnContender {
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const std::size_t carrier = rides_[k].ground - first_body_;
       fill(records[k], reports_[k], k,
-           is_body(rides_[k].ground) ? Vec2d(states_[carrier].position - from[carrier])
-                                     : movers_.carried_by(rides_[k], input.players[k].drop));
+           is_body(rides_[k].ground)
+               ? Vec2d(contains(companions_[k].moving, rides_[k].ground) ? states_[carrier].position - from[carrier]
+                                                                         : Vec2d(0, 0))
+               : movers_.carried_by(rides_[k], input.players[k].drop));
       records[k].turn = static_cast<CharacterIndex>(companions_[k].turn);
+      records[k].moving.clear();
+      for (const ColliderIndex body : companions_[k].moving) records[k].moving.push_back(body - first_body_);
       name_others(records[k]);
       refuse_unusable(reports_[k].status);
     }
