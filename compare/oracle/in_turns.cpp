@@ -1,13 +1,13 @@
 #include "oracle/in_turns.hpp"
 
+#include "contains.hpp"
+
 #include <algorithm>
 #include <string>
 
 namespace paperproof::compare {
 namespace {
 
-/// Who comes no nearer than this goes away [m].
-constexpr double noise = 1e-12;
 /// Of a turn the own body is farther away than this, and than the way goes [m].
 constexpr double far_away = 100;
 
@@ -43,12 +43,12 @@ MoverMotion InTurns::motion_of(const TraceStep& other, const TraceStep& one, con
     const Vec2d away = from + Vec2d(far_away + 4 * (one.requested.norm() + (to - from).norm()), 0);
     return {away, away};
   }
-  const Vec2d& at = begin_of(one);
-  if (carrier == other.character) return {from, to};
-  const bool comes_to_it = pair_.meet_between(at, from, at, to);
-  if (other.turn > one.turn) return comes_to_it ? MoverMotion{from, to} : MoverMotion{from, from};
-  const bool recedes = !comes_to_it && pair_.separation(at, to) >= pair_.separation(at, from) - noise;
-  return recedes ? MoverMotion{from, to} : MoverMotion{to, to};
+  const bool is_later = other.turn > one.turn;
+  const bool goes = contains(one.moving, other.character) &&
+                    (is_later || carrier == other.character || pair_.recedes(begin_of(one), from, to));
+  if (goes) return {from, to};
+  const Vec2d& stands = is_later ? from : to;
+  return {stands, stands};
 }
 
 TraceStep InTurns::turn_of(const TraceStep& one, std::span<const TraceStep> steps, const Carrier& carrier) const {

@@ -12,13 +12,14 @@ namespace paperproof::compare {
 /// A turn is a step of one character in a level in which the bodies of the others are movers: so all rules of a step of
 /// one character hold in it. Feed it every step of one run in order. Not thread-safe.
 ///
-/// **How another goes in a turn.** It goes straight and evenly from where it began to where it ended, over the whole
-/// step, if
+/// **How another goes in a turn.** Where the record of the one says that it moves, it goes straight and evenly from
+/// where it began to where it ended, over the whole step, if
 /// - it carries the one, as the record of the step before says: whichever of them goes first;
-/// - or it went before, and that way led no nearer to where the one began;
-/// - or it goes after, and that way leads into where the one began: it pushes the one.
+/// - or it goes after: it pushes the one;
+/// - or it went before, and came no nearer to where the one began (see `ExactPair::recedes`).
 ///
-/// Any other stands where it is in that turn.
+/// Any other stands where it is in that turn. Places alone do not tell who pushes: of two that walk one behind the
+/// other the second may come to where the first began, and pushes nobody.
 ///
 /// **Velocity.** A rider of another character takes over the velocity with which that one ends its step: of one that
 /// climbs a stair or is stopped that is not its way by the time. In a turn as it is made here the rider, its ride and

@@ -186,6 +186,16 @@ bool ExactPair::meet(Corners one, Corners other) const {
 
 double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return impl_->separation_of(one - other); }
 
+bool ExactPair::recedes(const Vec2d& at, const Vec2d& from, const Vec2d& to) const {
+  constexpr double noise = 1e-12;
+  const double farthest = separation(at, from) - noise;
+  return std::any_of(impl_->sides.begin(), impl_->sides.end(), [&](const auto& side) {
+    const double begins = side.normal.dot(at - from);
+    const double ends = side.normal.dot(at - to) * (begins < 0 ? -1 : 1);
+    return std::abs(begins) - side.width >= farthest && ends >= std::abs(begins) - noise;
+  });
+}
+
 /// On a straight way the separation is convex: there is one deepest place, closed in on by thirds.
 double ExactPair::deepest(Corners one, Corners other) const {
   double deepest = 0;

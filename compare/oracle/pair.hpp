@@ -31,6 +31,10 @@ class ExactPair {
   /// Along the best axis, rounded [m]; negative: how deep they overlap.
   [[nodiscard]] double separation(const Vec2d& one, const Vec2d& other) const;
 
+  /// Whether one that goes straight comes no nearer to a place along an axis on which it begins farthest from it,
+  /// rounded. @param from,to of its way [m].
+  [[nodiscard]] bool recedes(const Vec2d& at, const Vec2d& from, const Vec2d& to) const;
+
   /// The largest depth at any moment of two ways, rounded [m]; 0 where they do not overlap.
   [[nodiscard]] double deepest(std::span<const PathPoint> one, std::span<const PathPoint> other) const;
 

@@ -142,7 +142,7 @@ bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.ve
 
 /// Surfaces of which one pushes leave no larger speed of a velocity that comes to them [m/s]: its own, with or without
 /// steering, which is along its ground if it walks; or twice that of the fastest of them. So fast a wall pushes up a
-/// slope of 60 degrees.
+/// slope of 60 degrees. How fast a wall goes along itself decides nothing: it pushes along its normal alone.
 double most_pressed(const Steered& came, std::span<const MetSurface> held) {
   const auto pushes = [](const MetSurface& at) { return at.velocity.dot(at.normal) > 0; };
   const auto is_other = [&](const MetSurface& at) {
@@ -156,7 +156,8 @@ double most_pressed(const Steered& came, std::span<const MetSurface> held) {
     for (const MetSurface& at : held)
       if (at.walkable) most = std::max(most, std::abs(velocity.x()) / at.normal.y());
   }
-  for (const MetSurface& at : held) most = std::max(most, 2 * at.velocity.norm());
+  for (const MetSurface& at : held)
+    most = std::max(most, 2 * (at.walkable ? at.velocity.norm() : std::abs(at.velocity.dot(at.normal))));
   return most;
 }
 
