@@ -146,13 +146,13 @@ struct Shares {
 };
 
 /// The way of one leads past another as that stands in the turn of the first.
-bool passes(const Party& party, std::size_t i, std::size_t other) {
-  const Together& all = party.all;
-  if (party.pair.overlap(party.before[i].position, party.before[other].position)) return true;
-  const Vec2d place = (all.turn[other] < all.turn[i] ? all.states : party.before)[other].position;
+bool passes(const Together& all, const std::vector<CharacterState>& before, const compare::ExactPair& pair,
+            std::size_t i, std::size_t other) {
+  if (pair.overlap(before[i].position, before[other].position)) return true;
+  const Vec2d place = (all.turn[other] < all.turn[i] ? all.states : before)[other].position;
   const std::vector<PathPoint>& path = all.reports[i].move.path;
   for (std::size_t k = 1; k < path.size(); ++k)
-    if (party.pair.meet_between(path[k - 1].position, place, path[k].position, place)) return false;
+    if (pair.meet_between(path[k - 1].position, place, path[k].position, place)) return false;
   return true;
 }
 
@@ -168,7 +168,7 @@ TEST(Together, at_random_no_two_come_to_overlap_none_gets_past_another_and_none_
       for (const ColliderIndex by : all.reports[i].move.crushed) ASSERT_FALSE(all.is_body(by)) << i;
       for (std::size_t other = 0; other < turns.size(); ++other) {
         if (other == i) continue;
-        ASSERT_TRUE(passes(party, i, other)) << i << " through " << other;
+        ASSERT_TRUE(passes(all, party.before, party.pair, i, other)) << i << " through " << other;
         ASSERT_TRUE(!party.pair.overlap(all.states[i].position, all.states[other].position) ||
                     party.pair.overlap(party.before[i].position, party.before[other].position))
             << i << " and " << other;
@@ -182,6 +182,36 @@ TEST(Together, at_random_no_two_come_to_overlap_none_gets_past_another_and_none_
   EXPECT_GT(shares.rode, steps / 100);
   EXPECT_GT(shares.pushed, steps / 2000);
   EXPECT_GT(shares.crushed, steps / 10000);
+}
+
+/// In 40 columns, thrown down and aside; the floor is level.
+TEST(Together, a_thousand_that_fall_onto_each_other_neither_overlap_nor_pass_and_none_is_crushed) {
+  constexpr std::size_t columns = 40;
+  Random random(1);
+  std::vector<Vec2d> places;
+  for (std::size_t i = 0; i < 1000; ++i)
+    places.emplace_back(static_cast<double>(i % columns) + random.between(0.85, 1.15),
+                        0.8 + 1.5 * static_cast<double>(i / columns) + random.between(-0.05, 0.05));
+  Together all = stepping::under_gravity(
+      places, {compare::box(-1, -1, 42, 0), compare::box(-1, 0, 0, 90), compare::box(41, 0, 42, 90)});
+  for (CharacterState& state : all.states) state.velocity = {random.between(-5, 5), random.between(-15, 0)};
+  const compare::ExactPair pair(CharacterDef{}.shape.hull());
+  std::size_t met = 0;
+  for (int step = 0; step < 60; ++step) {
+    const std::vector<CharacterState> before = all.states;
+    all.step();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ASSERT_TRUE(all.reports[i].move.crushed.empty()) << i << " in step " << step;
+      met += all.met(i).size();
+      for (std::size_t other = 0; other < places.size(); ++other) {
+        const Vec2d apart = before[i].position - before[other].position;
+        if (other == i || apart.cwiseAbs().maxCoeff() > 5) continue;
+        ASSERT_TRUE(passes(all, before, pair, i, other)) << i << " through " << other << " in step " << step;
+        ASSERT_FALSE(pair.overlap(all.states[i].position, all.states[other].position)) << i << " and " << other;
+      }
+    }
+  }
+  EXPECT_GT(met, 10'000U);
 }
 
 /// Whether none of the others comes where one may have touched it.

@@ -88,7 +88,7 @@ class Checker(ContactChecks, SensorChecks, SpeedChecks):
         self.legs = Legs(self.world, header["character"])
         self.ground = Ground(self.world, header["character"]["max_climb_degrees"])
         self.scripts = Scripts(header, self.world)
-        self.company = Company(self.body, self.ground.walkable)
+        self.company = Company(self.body)
         self.intents = [Intent(header, start) for start in header["starts"]]
         self.last = {}  # by character: the step before,
         self.repeated = collections.Counter()  # how often it has been the same,
@@ -153,7 +153,7 @@ class Checker(ContactChecks, SensorChecks, SpeedChecks):
             step.last = self.last.get(step.who)
             others = [other for other in together if other is not step]
             step.note_others(others)
-            step.pushed = step.turn is not None and any(self.company.pushes(other, step) for other in others)
+            step.pushed = step.turn is not None and any(self.company.goes(other, step) for other in others)
             yield from ((step.record, clause, step.told + words) for clause, words in self.check_alone(step, others))
         for one, other in itertools.permutations(together, 2):
             faults = list(self.company.check(one, other)) if one.who < other.who else []

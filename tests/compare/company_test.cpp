@@ -210,29 +210,36 @@ TraceHeader company_of(std::size_t characters) {
 }
 
 /// As a step of one among the bodies of both. @param carried by the other, as the step before said.
-TraceStep turn_of_first(const TraceHeader& header, std::array<TraceStep, 2> steps, bool carried) {
+/// @param moving what it says of the other in its turn.
+TraceStep turn_of_first(const TraceHeader& header, std::array<TraceStep, 2> steps, bool carried, bool moving) {
   steps[0].respawn = carried;
   if (carried) steps[0].from = TraceState{.ride = TraceRide{.character = 1}};
+  if (moving) steps[0].moving = {1};
   return InTurns(header, 0).turns(steps)[0];
 }
 
-TEST(InTurns, another_goes_evenly_where_it_carries_leaves_or_pushes_and_else_stands) {
+TEST(InTurns, another_goes_evenly_where_it_is_said_to_and_carries_leaves_or_pushes_and_else_stands) {
   const Vec2d beside(width + gap, 0);
   const Vec2d below(0, -2 * half_height - gap);
   const Vec2d right(0.125, 0);
   const Vec2d up(0, 0.125);
-  for (const auto& [what, turn, from, to, begin, end] :
-       {std::tuple{"its ground, which rises later", 0U, below, Vec2d(below + up), 0, 1},
-        {"its ground, which goes aside later", 0U, below, Vec2d(below + right), 0, 1},
-        {"its ground, which has sunk", 1U, below, Vec2d(below - up), 0, 1},
-        {"has left", 1U, beside, Vec2d(beside + right), 0, 1},
-        {"will leave", 0U, beside, Vec2d(beside + right), 0, 0},
-        {"has come near", 1U, Vec2d(beside + right), beside, 1, 1},
-        {"will come near", 0U, Vec2d(beside + right), beside, 0, 0},
-        {"will come in", 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 1},
-        {"above it, and will rise", 0U, Vec2d(-below), Vec2d(up - below), 0, 0}}) {
+  for (const auto& [what, moving, turn, from, to, begin, end] :
+       {std::tuple{"its ground, which rises later", true, 0U, below, Vec2d(below + up), 0, 1},
+        {"its ground, which goes aside later", true, 0U, below, Vec2d(below + right), 0, 1},
+        {"its ground, which has sunk", true, 1U, below, Vec2d(below - up), 0, 1},
+        {"its ground, which does not take it along", false, 0U, below, Vec2d(below + up), 0, 0},
+        {"has left", true, 1U, beside, Vec2d(beside + right), 0, 1},
+        {"has left, and is said to stand", false, 1U, beside, Vec2d(beside + right), 1, 1},
+        {"has gone along it", true, 1U, beside, Vec2d(beside + up), 0, 1},
+        {"has gone below it, farther away", true, 1U, beside, Vec2d(Vec2d(0.9 * beside) + 2 * below), 1, 1},
+        {"will leave", false, 0U, beside, Vec2d(beside + right), 0, 0},
+        {"has come near", true, 1U, Vec2d(beside + right), beside, 1, 1},
+        {"will come near", false, 0U, Vec2d(beside + right), beside, 0, 0},
+        {"will come in, and pushes", true, 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 1},
+        {"will come in after it has left", false, 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 0},
+        {"above it, and will rise", false, 0U, Vec2d(-below), Vec2d(up - below), 0, 0}}) {
     const TraceStep other = step({from, from + Vec2d(0, -3), to}, Vec2d(9, 9));
-    const TraceStep made = turn_of_first(company_of(2), in_turns(resting({0, 0}), turn, other), from == below);
+    const TraceStep made = turn_of_first(company_of(2), in_turns(resting({0, 0}), turn, other), from == below, moving);
     ASSERT_EQ(made.movers.size(), 2U);
     EXPECT_EQ(made.movers[1].from, begin == 0 ? from : to) << what;
     EXPECT_EQ(made.movers[1].to, end == 0 ? from : to) << what;
@@ -247,7 +254,7 @@ TEST(InTurns, whom_it_met_is_a_contact_with_the_body) {
   one.met = {{.other = 1, .normal = {-1, 0}, .fraction = 0.5, .side = Side::right}};
   TraceHeader two = promising({box(-4, -9, 4, -8)});
   two.characters = 2;
-  const TraceStep made = turn_of_first(two, in_turns(one, 0, resting({width + gap, 0})), false);
+  const TraceStep made = turn_of_first(two, in_turns(one, 0, resting({width + gap, 0})), false, false);
   ASSERT_EQ(made.contacts.size(), 2U);
   EXPECT_EQ(made.contacts[0].collider, 2U) << "after the scenery, and its own body";
   EXPECT_EQ(made.contacts[0].normal, Vec2d(-1, 0));
@@ -260,7 +267,8 @@ TEST(InTurns, whom_it_met_is_a_contact_with_the_body) {
 /// What is said of the first of two that take turns, whose fall is wanted.
 StepJudgement judged_in_turns(const std::array<TraceStep, 2>& steps, bool carried = false) {
   const Wanted wanted = wanting(steps[0].requested);
-  return Judge(InTurns(company_of(2), 0).header()).judge(turn_of_first(company_of(2), steps, carried), &wanted);
+  return Judge(InTurns(company_of(2), 0).header())
+      .judge(turn_of_first(company_of(2), steps, carried, carried), &wanted);
 }
 
 TEST(InTurns, a_fall_ends_at_where_the_other_stands_then) {

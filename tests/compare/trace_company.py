@@ -32,8 +32,7 @@ class Company:
     """Several characters of one shape: they overlap where the difference of their places is inside `reach`. Where they
     take turns, one moves while the others stand: those before it where they ended, those after it where they began."""
 
-    def __init__(self, body, walkable):
-        self.walkable = walkable  # cosine of the steepest ground
+    def __init__(self, body):
         self.reach = hull([less(a, b) for a in body for b in body])
         self.size = [float(max(corner[k] for corner in self.reach)) for k in (0, 1)]
 
@@ -64,14 +63,10 @@ class Company:
             along = less(b, a)
             yield float(turn(b, a, less(place, of))) / size(along), [float(along[1]) / size(along), -float(along[0]) / size(along)]
 
-    def pushes(self, other, one):
-        """Whether another moves one in its turn: one stands on it, or it comes after, into where one began."""
-        mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
-        between_them = list(self.sides_between(mine, start))
-        touches = 0 <= max(gap for gap, _ in between_them) <= GAP
-        if touches and any(gap >= 0 and float(dot(n, one.up)) >= self.walkable for gap, n in between_them):
-            return True
-        return other.turn > one.turn and self.meet((mine, mine), (start, end))
+    @staticmethod
+    def goes(other, one):
+        """Whether another went along its way in the turn of one, as that says."""
+        return other.who in one.get("moving", [])
 
     def is_under(self, other, one):
         """Whether one touches another from above where its step ends: where that stands or goes in the turn, or ends."""
@@ -82,13 +77,9 @@ class Company:
         return touches(self.acts(other, one)[-1][:2]) or touches(other.path[-1][:2])
 
     def acts(self, other, one):
-        """The way of another as one meets it in its turn: straight and even where it moves one, or went before and came no
-        nearer to where one began, nor past it; else it stands."""
-        mine, start, end = one.path[0][:2], other.path[0][:2], other.path[-1][:2]
-        gaps = [max(gap for gap, _ in self.sides_between(mine, at)) for at in (start, end)]
-        passes = self.meet((mine, mine), (start, end))
-        even = self.pushes(other, one) or (other.turn < one.turn and not passes and gaps[1] >= gaps[0] - 1e-12)
-        return [(*start, ZERO), (*end, Fraction(1))] if even else self.stands(other, one)
+        """The way of another as one meets it in its turn: straight and even, or it stands."""
+        start, end = other.path[0][:2], other.path[-1][:2]
+        return [(*start, ZERO), (*end, Fraction(1))] if self.goes(other, one) else self.stands(other, one)
 
     def check(self, one, other):
         """Two steps at the same time, or in turns: (clause, words)."""

@@ -53,7 +53,7 @@ class SpeedChecks:
         rides_on = before.get("character") == carrier.who and [met["character"] for met in step.get("met", [])] == [carrier.who]
         if rides_on and not step.contacts and len(step.path) == 2:
             # Along a way without a bend it goes at one speed, relative to what carries it.
-            relative = scaled(less(step.way(), carrier.way()), 1 / Fraction(step.dt))
+            relative = scaled(less(step.way(), step.ways_of_others[carrier.who]), 1 / Fraction(step.dt))
             off = size(less(less(vector(step.record["velocity"]), vector(ride["velocity"])), relative))
             if off > 2 * GAP / Fraction(step.dt):
                 yield "velocity", f"ends {off} m/s faster or slower than it goes on character {carrier.who}"

@@ -29,7 +29,8 @@ class Step:
         return self.record.get(key, default)
 
     def note_others(self, others):
-        self.ways_of_others = {other.who: other.way() for other in others}
+        stood = set() if self.turn is None else {other.who for other in others} - set(self.get("moving", []))
+        self.ways_of_others = {other.who: [ZERO, ZERO] if other.who in stood else other.way() for other in others}
         ride = self.get("ride", {})
         if ride.get("character") in self.ways_of_others:
             # A rider takes over the velocity of its carrier, which went its way at another one where something stopped it.
