@@ -265,10 +265,9 @@ TEST(InTurns, whom_it_met_is_a_contact_with_the_body) {
 }
 
 /// What is said of the first of two that take turns, whose fall is wanted.
-StepJudgement judged_in_turns(const std::array<TraceStep, 2>& steps, bool carried = false) {
+StepJudgement judged_in_turns(const std::array<TraceStep, 2>& steps, bool carried = false, bool moving = false) {
   const Wanted wanted = wanting(steps[0].requested);
-  return Judge(InTurns(company_of(2), 0).header())
-      .judge(turn_of_first(company_of(2), steps, carried, carried), &wanted);
+  return Judge(InTurns(company_of(2), 0).header()).judge(turn_of_first(company_of(2), steps, carried, moving), &wanted);
 }
 
 TEST(InTurns, a_fall_ends_at_where_the_other_stands_then) {
@@ -288,7 +287,7 @@ TEST(InTurns, only_a_head_that_carries_lifts_before_it_goes) {
     const Vec2d begin(0, 2 * half_height + (lifts ? gap : 0.05));
     TraceStep rides = step({begin, begin + up}, Vec2d(0, -0.01));
     rides.grounded = lifts;
-    const StepJudgement judged = judged_in_turns(in_turns(rides, 0, head), lifts);
+    const StepJudgement judged = judged_in_turns(in_turns(rides, 0, head), lifts, true);
     EXPECT_EQ(judged.way_gained == 0 && judged.speed_gained == 0, lifts);
     EXPECT_FALSE(judged.hangs || judged.ground_refuted);
   }
