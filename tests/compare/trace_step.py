@@ -1,5 +1,5 @@
 """One record of a trace, with what the checks of check_trace.py need of it."""
-from trace_geometry import GAP, exact, less, scaled, size, vector
+from trace_geometry import GAP, ZERO, exact, less, scaled, size, vector
 from trace_company import places_at
 from trace_motion import Frame
 from trace_world import Motion
