@@ -43,10 +43,12 @@ MoverMotion InTurns::motion_of(const TraceStep& other, const TraceStep& one, con
     const Vec2d away = from + Vec2d(far_away + 4 * (one.requested.norm() + (to - from).norm()), 0);
     return {away, away};
   }
+  const Vec2d& at = begin_of(one);
   const bool is_later = other.turn > one.turn;
-  const bool goes = contains(one.moving, other.character) &&
-                    (is_later || carrier == other.character || pair_.recedes(begin_of(one), from, to));
-  if (goes) return {from, to};
+  const bool carries = carrier == other.character;
+  const bool pushes = is_later && pair_.meet_between(at, from, at, to);
+  const bool recedes = !is_later && pair_.recedes(at, from, to);
+  if (contains(one.moving, other.character) && (carries || pushes || recedes)) return {from, to};
   const Vec2d& stands = is_later ? from : to;
   return {stands, stands};
 }

@@ -15,7 +15,7 @@ namespace paperproof::compare {
 /// **How another goes in a turn.** Where the record of the one says that it moves, it goes straight and evenly from
 /// where it began to where it ended, over the whole step, if
 /// - it carries the one, as the record of the step before says: whichever of them goes first;
-/// - or it goes after: it pushes the one;
+/// - or it goes after, and its way leads into where the one began: it pushes the one;
 /// - or it went before, and came no nearer to where the one began (see `ExactPair::recedes`).
 ///
 /// Any other stands where it is in that turn. Places alone do not tell who pushes: of two that walk one behind the
