@@ -236,6 +236,7 @@ TEST(InTurns, another_goes_evenly_where_it_is_said_to_and_carries_leaves_or_push
         {"has come near", true, 1U, Vec2d(beside + right), beside, 1, 1},
         {"will come near", false, 0U, Vec2d(beside + right), beside, 0, 0},
         {"will come in, and pushes", true, 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 1},
+        {"will come near, and is said to push", true, 0U, Vec2d(beside + right), beside, 0, 0},
         {"will come in after it has left", false, 0U, Vec2d(beside + right), Vec2d(beside - right), 0, 0},
         {"above it, and will rise", false, 0U, Vec2d(-below), Vec2d(up - below), 0, 0}}) {
     const TraceStep other = step({from, from + Vec2d(0, -3), to}, Vec2d(9, 9));
