@@ -161,7 +161,7 @@ await serve({
   package: "box2d-wasm",
   greeting: {
     name: "Box2D in WebAssembly", version: "2.4.1", can: ["movers", "turning", "one_way", "circles", "conveyors"],
-    skin: 0.02, scalar: "float", machine: "webassembly",
+    skin: 0.02, most_way: 2, scalar: "float", machine: "webassembly",
   },
   load,
   open: (loaded, run, parts) => new World(loaded, run, parts),

@@ -111,7 +111,7 @@ class World {
 
 await serve({
   package: "planck",
-  greeting: {name: "Planck", can: ["movers", "turning", "one_way", "circles", "conveyors"], skin: 0.02, scalar: "double",
+  greeting: {name: "Planck", can: ["movers", "turning", "one_way", "circles", "conveyors"], skin: 0.02, most_way: 2, scalar: "double",
     machine: "javascript"},
   load,
   open: (loaded, run, parts) => new World(loaded, run, parts),

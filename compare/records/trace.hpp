@@ -162,7 +162,8 @@ struct TraceStep {
   std::string refused{};             ///< Why the step was refused; nothing but the input is valid then.
   bool stuck = false;                ///< The contender reported that it is stuck inside something.
   bool dropped = false;              ///< Displacement was left when the iterations ran out.
-  bool capped = false;               ///< Box2D only: the step met the 2 m cap.
+  bool capped =
+      false;  ///< The wanted way is longer than the contender's maker documents as the most in a step: 2 m of Box2D.
 };
 
 /// Unit vector against which a character falls in a step.

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 
 namespace paperproof::compare {
 namespace {
@@ -101,6 +102,7 @@ class PeerContender final : public Contender {
       TraceStep& record = records[k];
       clear(record);
       record.requested = wanted[k] * input.dt;
+      record.capped = record.requested.norm() > most_way_;
       record.steered = characters_[k].steered * input.dt;
       record.movers.assign(input.movers.begin(), input.movers.end());
       add_ways(header_, {input.movers, input.turns}, record.vertex_ways);
@@ -162,6 +164,7 @@ class PeerContender final : public Contender {
     has_query_ = greeting.value("overlap", false);
     header_.scalar = greeting.value("scalar", header_.scalar);
     header_.path_exact = greeting.value("path_exact", false);
+    most_way_ = greeting.value("most_way", most_way_);
     if (greeting.contains("points")) header_.points = shape_said(greeting["points"]);
     header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin) + rounding_of_gap(scene)}};
   }
@@ -274,7 +277,8 @@ class PeerContender final : public Contender {
   EngineIntent intent_{header_};
   std::vector<EngineCharacter> characters_;
   std::vector<Place> places_;
-  double ns_ = 0;  ///< Of all steps that it timed.
+  double most_way_ = std::numeric_limits<double>::infinity();  ///< See README.md of the peers [m].
+  double ns_ = 0;                                              ///< Of all steps that it timed.
   int timed_ = 0;
 };
 

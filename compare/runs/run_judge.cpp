@@ -410,7 +410,8 @@ void RunJudge::write_faults(Row& row) const {
           fmt::format("the judge's two methods disagree on {}", counted(disagreements_, "step")));
   if (steps_capped_ > 0)
     fault(Axis::validity, Verdict::flagged,
-          fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));
+          fmt::format("{} beyond the way that its maker documents as the most in a step, not scored",
+                      counted(steps_capped_, "step")));
   if (!header_.guarantees.empty()) return;  // the rest are clauses
   if (row.first_tunnel)                     // the first passage in words says more than how many there are
     fault(Axis::safety, Verdict::tunnels, row.first_tunnel->words);

@@ -1,6 +1,7 @@
 #include "studies/field.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "records/verdict.hpp"
 #include "runs/contender.hpp"
 #include "runs/peers.hpp"
 #include "runs/run_case.hpp"
@@ -101,6 +102,8 @@ constexpr std::array faults{
             return std::optional(row.first_tunnel ? row.first_tunnel->speed_m_s : 0);
           }},
     Fault{2, "inside {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.max_penetration_m, skin_of(row)); }},
+    Fault{0.05, "beyond its limit", 1,
+          [](const Row& row, bool) { return falls_short(row, Axis::validity) ? std::optional(0.0) : std::nullopt; }},
     Fault{1, "hangs {} of its steps", 1, [](const Row& row, bool) { return beyond(row.hanging_steps, 0); }},
     Fault{0.8, "clips {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.clipped_depth_max_m, 0); }},
     Fault{0.6, "restless {} mm", 1e-3, [](const Row& row, bool) { return beyond(row.rest_peak_to_peak_m, visible); }},
