@@ -17,8 +17,8 @@ namespace {
 /// inside a body pushes that body away at once.
 constexpr double most_off = 0.02;
 
-/// How much larger the body is than the hero [m]. What stands within 5 mm before a body, Box2D takes it up to in eight
-/// sub-steps, in every step; what overlaps it already, never. A hero stands and walks at 5e-7 m.
+/// How much larger the body is than the hero [m]. A hero stands 5e-7 m above its ground. A body so near would make
+/// Box2D take it there in eight sub-steps of every step. What a body overlaps already, Box2D does not take it to.
 constexpr float larger = 2e-4F;
 
 /// Moves the sides of a polygon outwards.

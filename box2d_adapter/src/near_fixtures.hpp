@@ -34,7 +34,7 @@ struct HeroInWorld {
 };
 
 /// Notes the hero of a body, for the other heroes. Thread-safe.
-/// @param hero what it points to must outlive the entry. Without a place: forgets it.
+/// @param hero its pointers must stay valid. An empty one removes the entry.
 void note_hero(const b2Body& body, const HeroInWorld& hero);
 
 /// Position of a body [m]; for the body of another hero that hero's own, because `world.Step` moved the body and the
