@@ -320,10 +320,11 @@ struct TogetherScratch::Turns {
   /// How far one went in its last attempt. Over the edge of a stair it goes higher than it ends: as high as that.
   [[nodiscard]] Vec2d highest_way(std::size_t i) const {
     const Vec2d way = all[i]->state().position - members[i].from();
-    double peak = std::max(dot(way, up), 0.0);
+    const double rise = std::max(dot(way, up), 0.0);
+    double peak = rise;
     for (const PathPoint& corner : report_of(i).move.path)
       peak = std::max(peak, dot(Vec2d(corner.position - members[i].from()), up));
-    return way + up * (peak - std::max(dot(way, up), 0.0));
+    return way + up * (peak - rise);
   }
 
   /// Whether its last attempt went so far [m].

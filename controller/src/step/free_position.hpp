@@ -11,13 +11,11 @@
 
 namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 
-/// More than rounding does to a separation at a place [m]: 4e-9 of it at 1e6 m.
-[[nodiscard]] inline Real noise_at(const Vec2& p) {
-  return 32 * std::numeric_limits<Real>::epsilon() * p.cwiseAbs().maxCoeff();
+/// The least gap around a free position at a place [m]: that of an opening that counts as closed, and more than
+/// rounding does to a separation there, which is 4e-9 m at 1e6 m.
+[[nodiscard]] inline Real least_gap(const Vec2& p) {
+  return tolerances.hit + 32 * std::numeric_limits<Real>::epsilon() * p.cwiseAbs().maxCoeff();
 }
-
-/// The least gap around a free position at a place [m]: that of an opening that counts as closed, but for rounding.
-[[nodiscard]] inline Real least_gap(const Vec2& p) { return tolerances.hit + noise_at(p); }
 
 struct FreePositionQuery {
   Vec2 from;                        ///< Where the motion starts [m],
