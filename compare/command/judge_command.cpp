@@ -72,9 +72,6 @@ class AskedByScene {
 
 /// Whether two records say the same of the world, which has one state in a step.
 bool is_one_world(const TraceStep& a, const TraceStep& b) {
-  const auto same_motion = [](const MoverMotion& one, const MoverMotion& other) {
-    return one.from == other.from && one.to == other.to;
-  };
   const auto same_way = [](const VertexWay& one, const VertexWay& other) {
     return one.collider == other.collider && one.instants == other.instants && one.vertices == other.vertices;
   };

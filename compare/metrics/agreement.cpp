@@ -14,11 +14,8 @@ namespace {
 std::uint8_t only_excused(const std::vector<Contact>& contacts, const StepJudgement& judged) {
   std::uint8_t other = 0;
   for (const Contact& contact : contacts) {
-    const bool ghost = std::find(judged.ghosts.begin(), judged.ghosts.end(),
-                                 std::pair(contact.collider, contact.side)) != judged.ghosts.end();
-    const std::vector<ColliderIndex>& near = judged.dont_care;
-    if (!ghost && !detail::is_exact(judged, contact) &&
-        std::find(near.begin(), near.end(), contact.collider) != near.end())
+    if (!detail::is_ghost(judged, contact) && !detail::is_exact(judged, contact) &&
+        contains(judged.dont_care, contact.collider))
       continue;
     other |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(contact.side));
   }

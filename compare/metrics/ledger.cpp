@@ -37,8 +37,9 @@ bool rests(const TraceStep& step, const StepJudgement& judged) {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 7> names{"contact", "side",        "time",        "crossing",
-                                                  "stop",    "toggle_ours", "toggle_box2d"};
+  constexpr auto names =
+      std::to_array<std::string_view>({"contact", "side", "time", "crossing", "stop", "toggle_ours", "toggle_box2d"});
+  static_assert(names.size() == static_cast<std::size_t>(EventKind::toggle_box2d) + 1);
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -23,10 +23,6 @@ inline constexpr double least_edge = 0.005;
 /// The way of a step that Box2D travels at most [m].
 inline constexpr double longest_way = 2;
 
-[[nodiscard]] inline bool is_ghost(const StepJudgement& judged, const Contact& touch) {
-  return contains(judged.ghosts, std::pair(touch.collider, touch.side));
-}
-
 /// By a crush that exact arithmetic verified.
 [[nodiscard]] inline bool is_crushed(const StepJudgement& judged) {
   return !judged.crushed.empty() || !judged.pressed.empty();

@@ -1,6 +1,7 @@
 /// What a step should have reported as contacts, and what it lost to nothing.
 #pragma once
 
+#include "contains.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
 
@@ -21,7 +22,12 @@ inline constexpr double least_approach = 1e-3;
 /// Of the character as it stands. What rounding leaves of a component that is zero is none.
 [[nodiscard]] Side side_along(const Vec2d& normal, const Vec2d& up);
 
-/// Whether a reported contact should have been reported, on its side.
+/// Whether a reported contact is among `StepJudgement::ghosts`.
+[[nodiscard]] inline bool is_ghost(const StepJudgement& judgement, const Contact& reported) {
+  return contains(judgement.ghosts, std::pair(reported.collider, reported.side));
+}
+
+/// Whether exact arithmetic has this contact, too: with the same collider, on the same side.
 [[nodiscard]] bool is_exact(const StepJudgement& judgement, const Contact& reported);
 
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.

@@ -45,10 +45,10 @@ MoverMotion InTurns::motion_of(const TraceStep& other, const TraceStep& one, con
   }
   const Vec2d& at = begin_of(one);
   const bool is_later = other.turn > one.turn;
-  const bool carries = carrier == other.character;
-  const bool pushes = is_later && pair_.meet_between(at, from, at, to);
-  const bool recedes = !is_later && pair_.recedes(at, from, to);
-  if (contains(one.moving, other.character) && (carries || pushes || recedes)) return {from, to};
+  const auto pushes_or_recedes = [&] {
+    return is_later ? pair_.meet_between(at, from, at, to) : pair_.recedes(at, from, to);
+  };
+  if (contains(one.moving, other.character) && (carrier == other.character || pushes_or_recedes())) return {from, to};
   const Vec2d& stands = is_later ? from : to;
   return {stands, stands};
 }

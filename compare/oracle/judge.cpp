@@ -42,8 +42,6 @@ void excuse_beside_another(const TraceStep& step, StepJudgement& judgement) {
   judgement.crept.setZero();
 }
 
-bool same_motion(const MoverMotion& a, const MoverMotion& b) { return a.from == b.from && a.to == b.to; }
-
 }  // namespace
 
 Judge::Sceneries::Sceneries(const TraceHeader& header)
@@ -183,10 +181,7 @@ void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgeme
 /// @param step the exact part of it.
 void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const {
   const auto is_known = [&](const Contact& contact) {
-    const auto is_it = [&](const ExactContact& one) {
-      return one.collider == contact.collider && one.side == contact.side;
-    };
-    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
+    return detail::is_exact(judgement, contact) ||
            contains(judgement.deflected, std::pair(contact.collider, contact.side));
   };
   const auto is_pushed = [&](const Contact& contact) {

@@ -93,9 +93,6 @@ double Judge::farthest_out(const Place& at) const {
 bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
   if (asked_way_out_) {
     const Kept& asked = asked_way_out_->first;
-    const auto same_motion = [](const MoverMotion& a, const MoverMotion& b) {
-      return a.from == b.from && a.to == b.to;
-    };
     const bool same =
         asked.position == at.position && asked.fraction == at.fraction && !turns.left_free &&
         std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);

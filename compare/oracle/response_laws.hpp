@@ -53,8 +53,8 @@ struct ControlledRange {
 /// @param surfaces as an upright character sees them.
 [[nodiscard]] Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
 
-/// Whether some of the surfaces, touched together, come against a character and leave it no velocity up to so much
-/// [m/s]: then it goes to a free place, or is crushed.
+/// Whether some surfaces that are touched together push a character, and allow it no velocity of at most `most` [m/s].
+/// Then it goes to a free place, or is crushed.
 [[nodiscard]] bool leave_no_motion(std::span<const MetSurface> surfaces, double most);
 
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and

@@ -164,11 +164,6 @@ std::vector<ColliderIndex> TurningJudge::overlapped(const TraceStep& step) const
   return found;
 }
 
-bool TurningJudge::is_near(const TraceStep& step, double within) const {
-  return std::any_of(solids_.begin(), solids_.end(),
-                     [&](const Solid& solid) { return nearest(solid, step) <= within; });
-}
-
 std::vector<ColliderIndex> TurningJudge::near_at_begin(const TraceStep& step, double within) const {
   std::vector<ColliderIndex> found;
   for (const Solid& solid : solids_)

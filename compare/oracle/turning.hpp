@@ -63,8 +63,6 @@ class TurningJudge {
   }
   /// Whether something that turns came over the octagon, and still overlaps it.
   [[nodiscard]] bool has_crushed() const noexcept { return !sides_.empty(); }
-  /// Whether something that turns is within so many metres at a corner of the way.
-  [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.
   [[nodiscard]] bool left_free(const TraceStep& step, std::span<const PathPoint> way) const;
   /// The solids that are no farther than so many metres from where the step begins.

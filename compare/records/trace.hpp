@@ -176,6 +176,11 @@ struct TraceStep {
   return step.gravity.value_or(header.gravity);
 }
 
+/// Whether two offsets go alike; their angles are not asked for.
+[[nodiscard]] inline bool same_motion(const MoverMotion& a, const MoverMotion& b) {
+  return a.from == b.from && a.to == b.to;
+}
+
 /// Only what Box2D moves is cut short; who promises something, or tells its whole way, has no cap.
 [[nodiscard]] inline bool is_capped(const TraceStep& step, const TraceHeader& header) {
   return step.capped && !header.path_exact && header.guarantees.empty();

@@ -66,25 +66,21 @@ bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) 
   return !company_ || company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
 }
 
-/// Whether another character is near that goes in its turn, or was near and went since the one before.
+/// Whether another character stands elsewhere than the turn before left it, and is or was near. Of one that goes now
+/// nobody is asked who stands: see `stands`.
 bool RunJudge::is_beside_another(const TraceStep& turn, const Follower& follower) const {
   if (follower.last.empty()) return true;
-  const TraceStep& last = follower.last.back();
-  const auto is_near = [&](ColliderIndex body, const std::vector<MoverMotion>& movers) {
+  const std::vector<MoverMotion>& before = follower.last.back().movers;
+  const auto went = [&](ColliderIndex collider) {
+    const MoverIndex mover = header_.scenery.colliders[collider].mover;
+    return header_.is_body(collider) && turn.movers[mover].from != before[mover].to;
+  };
+  const auto went_near = [&](const std::vector<MoverMotion>& movers) {
     const std::vector<ColliderIndex> near =
         scenery().near(Place(turn.path.front(), movers), Place(turn.path.back(), movers), beside);
-    return contains(near, body);
+    return std::any_of(near.begin(), near.end(), went);
   };
-  const auto goes_near = [&](ColliderIndex body) {
-    const MoverIndex mover = header_.scenery.colliders[body].mover;
-    const bool went = turn.movers[mover].from != last.movers[mover].to;
-    if (!went && !moves(turn.movers[mover])) return false;
-    return is_near(body, turn.movers) || (went && is_near(body, last.movers));
-  };
-  for (std::size_t body = header_.scenery.colliders.size() - header_.bodies; body < header_.scenery.colliders.size();
-       ++body)
-    if (goes_near(static_cast<ColliderIndex>(body))) return true;
-  return false;
+  return went_near(turn.movers) || went_near(before);
 }
 
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
