@@ -32,7 +32,7 @@ std::optional<double> time_per_second(const Row& row) {
 std::string called(const Row& row) {
   std::string name = row.contender;
   if (!row.knob.empty()) name += " with " + row.knob;
-  if (row.scalar == "float" && row.engine.empty() && !row.contender.starts_with("box2d")) name += " in float";
+  if (is_float_by_choice(row)) name += " in float";
   return name;
 }
 

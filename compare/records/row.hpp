@@ -94,10 +94,10 @@ struct Row {
   std::string contender;
   std::string scalar = "double";
   std::string mode = "free";
-  std::string knob;    ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
-  std::string engine;  ///< Name and version, as a peer says.
+  std::string knob;     ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
+  std::string engine;   ///< Name and version, as a peer says.
   std::string machine;  ///< What its engine runs on, as a peer says: native, webassembly, javascript or script.
-  int steps = 0;       ///< that ran
+  int steps = 0;        ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;
@@ -131,6 +131,11 @@ struct Row {
 
 /// Whether a run was made and judged: neither `failed` nor `not_applicable`.
 [[nodiscard]] bool was_judged(const Row& row) noexcept;
+
+/// Whether it ran in float and could have run in double: engines have one number type.
+[[nodiscard]] inline bool is_float_by_choice(const Row& row) noexcept {
+  return row.scalar == "float" && row.engine.empty() && !row.contender.starts_with("box2d");
+}
 
 /// See `is_guaranteed`.
 [[nodiscard]] inline bool is_guaranteed(const Row& row) noexcept { return is_guaranteed(row.contender, row.scalar); }

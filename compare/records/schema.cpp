@@ -32,11 +32,12 @@ bool is_whole(const Json& value) {
 bool is_of_type(const Json& value, const Json& type) {
   if (type.is_array())
     return std::any_of(type.begin(), type.end(), [&](const Json& one) { return is_of_type(value, one); });
-  if (type == "object") return value.is_object();
-  if (type == "array") return value.is_array();
-  if (type == "string") return value.is_string();
-  if (type == "boolean") return value.is_boolean();
-  if (type == "number") return value.is_number();
+  const auto& word = type.get_ref<const std::string&>();  // comparing JSON with a text would copy the text
+  if (word == "object") return value.is_object();
+  if (word == "array") return value.is_array();
+  if (word == "string") return value.is_string();
+  if (word == "boolean") return value.is_boolean();
+  if (word == "number") return value.is_number();
   return is_whole(value);
 }
 
@@ -131,6 +132,7 @@ std::optional<std::string> Schema::fault(const Json& value, const std::string& d
 
 std::optional<std::string> Schema::fault_of(const Json& value, const Json& referring) const {
   const Json& schema = resolved(referring);
+  if (schema.empty()) return std::nullopt;
   const auto expected = [&](const std::string& what) {
     return fmt::format(": expected {}, not {}", what, shown_value(value));
   };
@@ -182,8 +184,10 @@ std::optional<std::string> Schema::fault_of_object(const Json& value, const Json
   const auto at = [](const std::string& key, const std::string& says) { return (Pointer() / key).to_string() + says; };
   const Json& properties = part_of(schema, "properties", nothing);
   const Json& others = part_of(schema, "additionalProperties", nothing);
-  for (const auto& [key, inner] : value.items()) {
-    if (others != false || properties.contains(key)) continue;
+  const bool closed = others == false;
+  for (auto member = value.begin(); closed && member != value.end(); ++member) {
+    const std::string& key = member.key();
+    if (properties.contains(key)) continue;
     const std::vector<std::string> keys = keys_of(properties);
     const std::string near = did_you_mean(key, keys);
     return at(key, ": unknown key" + (near.empty() ? "; expected one of " + one_of_words(keys) : near));
@@ -193,9 +197,9 @@ std::optional<std::string> Schema::fault_of_object(const Json& value, const Json
   for (const auto& [key, needed] : part_of(schema, "dependentRequired", nothing).items())
     if (value.contains(key) && !has_all(value, needed))
       return at(key, fmt::format(": expected only beside {}", needed[0].get<std::string>()));
-  for (const auto& [key, inner] : value.items()) {
-    const auto known = properties.find(key);
-    if (Fault found = fault_of(inner, known == properties.end() ? others : *known)) return at(key, *found);
+  for (auto member = value.begin(); member != value.end(); ++member) {
+    const auto known = properties.find(member.key());
+    if (Fault found = fault_of(*member, known == properties.end() ? others : *known)) return at(member.key(), *found);
   }
   return std::nullopt;
 }
@@ -204,11 +208,13 @@ std::optional<std::string> Schema::fault_of_list(const Json& value, const Json& 
   const std::string count = range_missed(value.size(), part_of(schema, "minItems", unlimited), unlimited,
                                          part_of(schema, "maxItems", unlimited));
   if (!count.empty()) return fmt::format(": expected {} entries, not {}", count, value.size());
+  const bool unique = schema.value("uniqueItems", false);
+  const Json& items = part_of(schema, "items", nothing);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const auto before = value.begin() + static_cast<std::ptrdiff_t>(i);
-    if (schema.value("uniqueItems", false) && std::find(value.begin(), before, value[i]) != before)
+    if (unique && std::find(value.begin(), before, value[i]) != before)
       return fmt::format("/{}: expected another entry than those before, not {}", i, shown_value(value[i]));
-    if (Fault found = fault_of(value[i], part_of(schema, "items", nothing))) return fmt::format("/{}{}", i, *found);
+    if (Fault found = fault_of(value[i], items)) return fmt::format("/{}{}", i, *found);
   }
   return std::nullopt;
 }

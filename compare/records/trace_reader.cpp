@@ -176,8 +176,7 @@ void FieldReader::take(const ordered_json& json, Movers<TraceStep> all) const {
         FieldReader(motion, header_).may("offset", own);
       }
       const MoverMotion& other = step.movers[mover];
-      if (!known.insert(mover).second && (other.from != own.from || other.to != own.to))
-        refuse("the offset of what goes along with it");
+      if (!known.insert(mover).second && !same_motion(other, own)) refuse("the offset of what goes along with it");
       step.movers[mover] = own;
     });
   std::sort(step.vertex_ways.begin(), step.vertex_ways.end(),
@@ -299,7 +298,9 @@ std::optional<TraceStep> TraceReader::next() {
 
 bool TraceReader::read_line(std::string& line) {
   line.clear();
-  for (int c = stream_.get(); c != std::ifstream::traits_type::eof(); c = stream_.get()) {
+  std::streambuf& from = *stream_.rdbuf();
+  constexpr int no_more = std::ifstream::traits_type::eof();
+  for (int c = from.sbumpc(); c != no_more; c = from.sbumpc()) {
     if (c == '\n') {
       ++line_;
       return true;

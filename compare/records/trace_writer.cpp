@@ -53,8 +53,7 @@ class FieldWriter {
 
   template <class T>
   void must(std::string_view key, const T& value) {
-    if (!is_first_) out_.push_back(',');
-    is_first_ = false;
+    next();
     fmt::format_to(std::back_inserter(out_), "\"{}\":", key);
     put(value);
   }
@@ -68,13 +67,17 @@ class FieldWriter {
   }
 
  private:
+  void next() {
+    if (!is_first_) out_.push_back(',');
+    is_first_ = false;
+  }
   void put_text(std::string_view text) { out_.append(text.data(), text.data() + text.size()); }
-  template <class Items>
-  void put_list(const Items& items) {
+  template <class Items, class As = std::identity>
+  void put_list(const Items& items, As as = {}) {
     out_.push_back('[');
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (i > 0) out_.push_back(',');
-      put(items[i]);
+      put(as(items[i]));
     }
     out_.push_back(']');
   }
@@ -116,12 +119,7 @@ class FieldWriter {
 
   void put(Colliders<const ColliderIndex> collider) { put_text(lines_.id(collider.of)); }
   void put(Colliders<const std::vector<ColliderIndex>> colliders) {
-    out_.push_back('[');
-    for (std::size_t i = 0; i < colliders.of.size(); ++i) {
-      if (i > 0) out_.push_back(',');
-      put(Colliders{colliders.of[i]});
-    }
-    out_.push_back(']');
+    put_list(colliders.of, [](const ColliderIndex& collider) { return Colliders{collider}; });
   }
   template <class T>
   void put(const Characters<T>& characters) {
@@ -136,8 +134,7 @@ class FieldWriter {
   }
   /// @param way null where it does not turn.
   void put_motion(const TraceLines::Moving& moving, const VertexWay* way, const MoverMotion& motion) {
-    if (!is_first_) out_.push_back(',');
-    is_first_ = false;
+    next();
     put(Colliders{moving.collider});
     out_.push_back(':');
     if (way == nullptr) return put(motion);

@@ -16,8 +16,9 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string_view name_of(ReportEvent::Kind kind) {
-  constexpr std::array<std::string_view, 9> names{"tunnel", "clipped", "inside", "one-way broken", "hanging", "crush",
-                                                  "drop",   "sensor",  "note"};
+  constexpr auto names = std::to_array<std::string_view>(
+      {"tunnel", "clipped", "inside", "one-way broken", "hanging", "crush", "drop", "sensor", "note"});
+  static_assert(names.size() == static_cast<std::size_t>(ReportEvent::Kind::note) + 1);
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -99,10 +99,10 @@ class SceneRun {
     if (!lane.running()) return {};
     const std::span<const Vec2d> hull = scene_.character.shape.hull();
     const double rounding = 1e-5 * scene_.character.shape.box().upper.norm();  // of shapes in float
-    const bool own_shape =
-        !std::equal(hull.begin(), hull.end(), lane.header().points.begin(), lane.header().points.end(),
-                    [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
-    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && !own_shape;
+    const bool same_shape =
+        std::equal(hull.begin(), hull.end(), lane.header().points.begin(), lane.header().points.end(),
+                   [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
+    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && same_shape;
     std::vector<Answer> asked = as_it_is ? scene_.answers : std::vector<Answer>{};
     const auto is_sensed = [](const Answer& one) { return one.of == Answer::Of::enter || one.of == Answer::Of::leave; };
     if (find_peer(lane.contender_name()) != nullptr) std::erase_if(asked, is_sensed);
