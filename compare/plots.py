@@ -251,9 +251,9 @@ def draw_curves(scene, rows, theme):
 FIELD, FIELD_KEYS = "field: ", ("contender", "knob", "scalar", "engine", "verdict", "worst", "badness")
 
 
-def field_rows(rows):
-    """Of rows of `study field` what a table needs."""
-    return [{**{key: row[key] for key in FIELD_KEYS if key in row}, "swept": {"question": row["swept"]["question"]}} for row in rows]
+def field_row(row):
+    """Of a row of `study field` what a table needs."""
+    return {**{key: row[key] for key in FIELD_KEYS if key in row}, "swept": {"question": row["swept"]["question"]}}
 
 
 def field_cells(rows):
@@ -321,8 +321,8 @@ def draw_ratios(figures, theme):
     return figure
 
 
-def pictures_of(paths):
-    """Pairs of the title and a function that draws the picture in a theme."""
+def pictures_of(paths, keep=None):
+    """Pairs of the title and a function that draws the picture in a theme. KEEP gets what the field's picture needs of its rows."""
     questions, motions, figures, field = {}, {}, [], []
     for path in paths:
         rows, own_figures = content_of(path)
@@ -333,7 +333,7 @@ def pictures_of(paths):
             if row.get("mode") == "work_precision":
                 motions.setdefault(row["scene"], []).append(row)
             elif swept and swept["question"].startswith(FIELD):
-                field += field_rows([row])
+                field.append(field_row(row))
             elif swept and swept["axes"] and "border" not in row:
                 key = (swept.get("question"), row["scene"], *swept["axes"])
                 if key not in questions:
@@ -344,6 +344,8 @@ def pictures_of(paths):
             yield maps.title, lambda theme, maps=maps: draw_maps(maps, theme)
     for scene, rows in motions.items():
         yield scene, lambda theme, scene=scene, rows=rows: draw_curves(scene, rows, theme)
+    if keep:
+        Path(keep).write_text('{"paperproof_rows": 1, "rows": [\n' + ",\n".join(map(json.dumps, field)) + "\n]}\n", encoding="utf-8")
     if field:
         yield "field", lambda theme: draw_field(field, theme)
     for one in figures:
@@ -393,10 +395,7 @@ def main():
     options = parser.parse_args()
     try:
         Path(options.out).mkdir(parents=True, exist_ok=True)
-        pictures = list(pictures_of(options.rows))
-        if options.keep:
-            kept = [json.dumps(row) for path in options.rows for row in field_rows(content_of(path)[0])]
-            Path(options.keep).write_text('{"paperproof_rows": 1, "rows": [\n' + ",\n".join(kept) + "\n]}\n", encoding="utf-8")
+        pictures = list(pictures_of(options.rows, options.keep))
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f"plots.py: expected files of rows and a folder: {error!r}")
     if not pictures:

@@ -108,21 +108,13 @@ std::vector<Column<FieldLine>> cost_columns() {
           {"characters that it does not have", of_ours("round ones, more than 8 corners, ones that turn")}};
 }
 
-bool is_a_hole(const Row& row) { return !row.engine.empty() && badness(row) >= 1 && badness(row) < 4; }
-
-/// What hole a run that is not safe shows.
-ReportEvent::Kind hole_of(const Row& row) {
-  return badness(row) >= 3   ? ReportEvent::Kind::tunnel
-         : badness(row) >= 2 ? ReportEvent::Kind::inside
-                             : ReportEvent::Kind::hanging;
-}
-
 /// Of one peer: the worst of each group, and then others, as many as are checked.
 std::vector<const Row*> claims_of(const std::vector<Row>& rows, const std::vector<std::string>& groups) {
   std::vector<const Row*> claims;
   const auto add = [&](const Row* row) {
     const bool known = std::find(claims.begin(), claims.end(), row) != claims.end();
-    if (row != nullptr && is_a_hole(*row) && !known && claims.size() < checks_of_peer) claims.push_back(row);
+    if (row != nullptr && !row->engine.empty() && hole_of(*row) && !known && claims.size() < checks_of_peer)
+      claims.push_back(row);
   };
   for (const std::string& group : groups) add(worst_in(rows, group));
   for (const Row& row : rows) add(&row);
@@ -167,7 +159,7 @@ ChartGrid FieldView::grid() const {
       cell.words = worst->reason.empty() ? worst->worst : worst->reason;
       cell.command = worst->command;
       cell.through = worst->tunnels.value_or(0) > 0;
-      cell.grave = badness(*worst) >= 1;
+      cell.grave = is_unsafe(*worst);
     }
   }
   return grid;
@@ -196,7 +188,7 @@ ChartTable FieldView::spot_checks() const {
   jobs.run = [&](std::size_t job) {
     const std::optional<Case> one = case_of_command(claims[job]->command);
     if (!one) return std::string();
-    const SpotCheck check = spot_check(*one, hole_of(*claims[job]));
+    const SpotCheck check = spot_check(*one, *hole_of(*claims[job]));
     return nlohmann::json{check.step, check.judge, check.engine, check.confirmed}.dump();
   };
   jobs.lost = [](std::size_t, const std::string& reason) { return nlohmann::json{0, "", reason, "-"}.dump(); };

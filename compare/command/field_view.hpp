@@ -13,8 +13,8 @@ namespace paperproof::compare {
 /// A contender, and all that it did.
 using FieldLine = std::pair<std::string, std::vector<Row>>;
 
-/// A table of contenders by groups, one of their metrics, one of what the guarantee costs; on the page the engines' own
-/// word on what is held against them, too. Keeps all rows.
+/// A table of contenders by groups, one of their metrics, and one of what the guarantee costs. The page also has what
+/// the engines' own queries say of the worst runs. It keeps all rows.
 class FieldView {
  public:
   /// @param study is to live as long as this. @param jobs processes for the page's checks; 0: one for each core.

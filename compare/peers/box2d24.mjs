@@ -6,7 +6,7 @@
  *
  * The calls are Box2D's own (box2d.org/documentation of 2.4); npm's package documents what it adds: tuplesToVec2Array.
  */
-import {installed, outline, serve, standing} from "./peer.mjs";
+import {installed, outline, serve} from "./peer.mjs";
 
 async function load() {
   globalThis.fetch = undefined;  // the package of 2021 takes Node 18's for a browser's, and would fetch a file by its path
@@ -15,7 +15,7 @@ async function load() {
 
 class World {
   constructor({box2d, clipper}, run, parts) {
-    Object.assign(this, {box2d, run, parts});
+    Object.assign(this, {box2d, parts});
     this.world = new box2d.b2World(this.vector([0, 0]));
     this.world.SetAllowSleeping(false);
     this.bodies = parts.map((part) => this.#addPart(part, clipper));
@@ -121,8 +121,7 @@ class World {
     fixture.SetFilterData(this.filter);
   }
 
-  ask(wanted, dt) {
-    this.asked = {wanted, dt};
+  ask(wanted) {
     this.body.SetLinearVelocity(this.at(wanted));
   }
 
@@ -152,7 +151,7 @@ class World {
     return {
       path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y],
       // Within the distance at which it begins to touch, and the slop.
-      ...standing(this.run, touching.filter(({separation}) => separation <= 0.025), this.asked),
+      touching: touching.filter(({separation}) => separation <= 0.025),
     };
   }
 }
@@ -164,5 +163,5 @@ await serve({
     skin: 0.02, most_way: 2, scalar: "float", machine: "webassembly",
   },
   load,
-  open: (loaded, run, parts) => new World(loaded, run, parts),
+  World,
 });

@@ -9,15 +9,13 @@
  * mover is that of samples/sample_character.cpp. The mover is a capsule: the largest upright one in the octagon. The judge
  * is told, by eight points on its rim, and looks at those.
  */
-import {installed, nearest, outline, serve, standing, words} from "./peer.mjs";
+import {installed, loadBox2d3, nearest, outline, serve, words} from "./peer.mjs";
 
 const asMover = words.includes("mover");
 const slop = 0.005;  // b2_linearSlop
 
 async function load() {
-  globalThis.navigator ??= {hardwareConcurrency: 1};  // the package's integration test does so for Node before 21
-  const box2d = await (await installed("box2d3-wasm")).default();
-  return {box2d, clipper: (await installed("clipper-lib")).default};
+  return {box2d: await loadBox2d3(), clipper: (await installed("clipper-lib")).default};
 }
 
 /** The largest upright capsule in a convex shape around (0, 0): `{radius, half}`, with `half` the length of its axis. */
@@ -234,7 +232,7 @@ class World {
       from = [x, y];
     }
     path.push([...this.place, 1]);
-    return {path, velocity, ...standing(this.run, touching, this.asked)};
+    return {path, velocity, touching};
   }
 
   #answerOfBody() {
@@ -250,7 +248,7 @@ class World {
       }
     }
     const [at, velocity] = [box2d.b2Body_GetPosition(this.body), box2d.b2Body_GetLinearVelocity(this.body)];
-    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], ...standing(this.run, touching, this.asked)};
+    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], touching};
   }
 }
 
@@ -262,6 +260,6 @@ await serve({
   },
   sink: asMover ? 1e-3 : 0.05,  // soft contacts sink in by centimetres
   load,
-  open: (loaded, run, parts) => new World(loaded, run, parts),
+  World,
   own: (run) => (asMover ? {points: rimOf(capsuleIn(run.points))} : {}),
 });

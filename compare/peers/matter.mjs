@@ -7,7 +7,7 @@
  * no continuous collision, and says so. Its lengths are pixels, its velocities pixels in 1/60 s; a metre is 32 of them here,
  * the scenes' own scale. It knows convex polygons alone: others come in triangles, and chains and circles not at all.
  */
-import {convexPieces, installed, nearest, serve, standing} from "./peer.mjs";
+import {convexPieces, installed, nearest, serve} from "./peer.mjs";
 
 const scale = 32;
 const pixels = ([x, y]) => ({x: x * scale, y: y * scale});
@@ -21,7 +21,7 @@ async function load() {
 class World {
   constructor({matter, earcut}, run, parts) {
     if (run.colliders.some(({chain}) => chain)) throw "a chain, and it knows convex polygons alone";
-    Object.assign(this, {matter, run, parts});
+    Object.assign(this, {matter});
     this.engine = matter.Engine.create({gravity: {x: 0, y: 0, scale: 0}});  // the wanted velocity has gravity in it
     this.partOf = new Map();
     this.bodies = parts.map((part) => convexPieces(part, earcut).map(({ring}) => {
@@ -53,8 +53,7 @@ class World {
     }
   }
 
-  ask(wanted, dt) {
-    this.asked = {wanted, dt};
+  ask(wanted) {
     this.matter.Body.setVelocity(this.body, pixels([wanted[0] / 60, wanted[1] / 60]));
   }
 
@@ -86,7 +85,7 @@ class World {
     const {x, y} = this.body.position;
     const velocity = this.matter.Body.getVelocity(this.body);
     return {path: [[x / scale, y / scale, 1]], velocity: [(velocity.x / scale) * 60, (velocity.y / scale) * 60],
-      ...standing(this.run, touching, this.asked)};
+      touching};
   }
 }
 
@@ -95,5 +94,5 @@ await serve({
   greeting: {name: "Matter.js", can: ["movers", "conveyors"], skin: 0.0016, scalar: "double",
     machine: "javascript"},  // its slop is 0.05 px: so deep it rests
   load,
-  open: (loaded, run, parts) => new World(loaded, run, parts),
+  World,
 });

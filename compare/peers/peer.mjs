@@ -12,22 +12,21 @@ export const words = process.argv.slice(2);
 const packages = new URL("../../build/peers/", import.meta.url);
 /** An installed package: what `import` of its name has in a module that stands beside the packages. */
 export const installed = async (name) => (await import(new URL("engine.mjs", packages))).installed(name);
-/** The version of an installed package. */
-export const versionOf = (name) => JSON.parse(readFileSync(new URL(`node_modules/${name}/package.json`, packages))).version;
+const versionOf = (name) => JSON.parse(readFileSync(new URL(`node_modules/${name}/package.json`, packages))).version;
 
 /**
  * @param {object} engine `package` (of npm), `greeting` (README.md; its version is the package's where it has none),
- *   `load()`: the loaded engine, `open(loaded, run, parts)`: a world. A world has
+ *   `load()`: the loaded engine, `World`: a class, made with the loaded engine, the run and its parts. A world has
  *   - `put(position, velocity)`: the character is there now;
  *   - `drive(part, motion, dt)`: the mover of a part goes from `motion.from` to `motion.to`, and turns by `motion.angle`;
  *   - `ask(wanted, dt)`: the wanted velocity of the step;
  *   - `advance(dt)`: the engine's own work. It alone is timed;
  *   - `gate(gate, holds)`, where it has one-way chains: whether a segment of them (`part.gates`) holds in this step;
- *   - `answer()`: what the schema calls a character;
+ *   - `answer()`: what the schema calls a character, or of that `path` and `velocity`, with what is `touching` (`standing`);
  *   - `overlaps(position)`, where its engine has a query of overlap: the ids of what the character overlaps there.
  *   `sink` is how deep its character may stand in the ground [m]; none where it does not say.
  *   `own(run)`, where there is one, has what else is to be greeted with, as `points`.
- *   Where `open` or `load` throws a string, the scene is refused for this reason.
+ *   Where `World` or `load` throws a string, the scene is refused for this reason.
  */
 export async function serve(engine) {
   const say = (what) => process.stdout.write(JSON.stringify(what) + "\n");
@@ -43,8 +42,8 @@ export async function serve(engine) {
         const bodies = parts(run);
         moving = bodies.filter((part) => part.mover);
         gates = bodies.flatMap((part) => part.gates.map((gate) => ({part, gate})));
-        warmUp(engine.open(loaded, run, parts(run)), run);
-        world = engine.open(loaded, run, bodies);
+        warmUp(new engine.World(loaded, run, parts(run)), run);
+        world = new engine.World(loaded, run, bodies);
         const own = engine.own?.(run);
         points = own?.points ?? run.points;
         say({version: versionOf(engine.package), ...(world.overlaps && {overlap: true}), ...engine.greeting, ...own});
@@ -71,7 +70,8 @@ export async function serve(engine) {
     const began = process.hrtime.bigint();
     world.advance(heard.dt);
     const ns = Number(process.hrtime.bigint() - began);
-    const answer = world.answer();
+    const {touching, ...answer} = world.answer();
+    if (touching) Object.assign(answer, standing(run, touching, {wanted, dt: heard.dt}));
     const way = [place, (place = answer.path.at(-1))];
     if (drop)
       answer.dropped_through = [...new Set(gates.filter(({part, gate}) => gate.held && isNear(gate, points, way) &&
@@ -143,7 +143,7 @@ function isAbove({a, normal}, points, place, offset, sink) {
     normal[0] * (place[0] + x - a[0] - offset[0]) + normal[1] * (place[1] + y - a[1] - offset[1]) >= -sink * length);
 }
 
-const cross = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+export const cross = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 const ringArea = (ring) => ring.reduce((sum, a, i) => sum + cross(ring[0], a, ring[(i + 1) % ring.length]), 0) / 2;
 const counterClockwise = (ring) => (ringArea(ring) < 0 ? [...ring].reverse() : ring);
 
@@ -163,6 +163,10 @@ export function convexPieces(part, earcut) {
       ({id, ring: counterClockwise(corners.slice(3 * i, 3 * i + 3).map((corner) => points[corner]))}));
   });
 }
+
+/** The edges of a part's chains that block from both sides. */
+export const twoSidedEdges = (part) => part.colliders.filter(({chain, one_way: way}) => chain && !way)
+  .flatMap(({chain}) => chain.slice(1).map((b, i) => [chain[i], b]));
 
 /**
  * The outline of all polygons of a part, as chains of Box2D want it: counter-clockwise, holes clockwise; vertices are
@@ -188,8 +192,7 @@ export function outline(part, clipper, spacing, round = Math.fround) {
   const {pftNonZero} = clipper.PolyFillType;
   joined.Execute(clipper.ClipType.ctUnion, found, pftNonZero, pftNonZero);
   const loops = [];
-  const twoSided = part.colliders.filter(({chain, one_way: way}) => chain && !way);
-  const edges = twoSided.flatMap(({chain}) => chain.slice(1).map((b, i) => [chain[i], b]));
+  const edges = twoSidedEdges(part);
   const tooNear = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]) <= spacing;
   for (const path of found) {
     const loop = path.map(({X, Y}) => known.get(`${X} ${Y}`) ?? [round(X / unit), round(Y / unit)]);
@@ -216,6 +219,12 @@ export function nearest(part, point) {
     return Math.min(...lines.flatMap((line) => line.slice(1).map((b, i) => toSegment(point, line[i], b))));
   };
   return part.colliders.reduce((best, next) => (distance(next) < distance(best) ? next : best)).id;
+}
+
+/** Box2D 3, loaded: npm box2d3-wasm. Its integration test fills in for what Node has since 21. */
+export async function loadBox2d3() {
+  globalThis.navigator ??= {hardwareConcurrency: 1};
+  return (await installed("box2d3-wasm")).default();
 }
 
 /**

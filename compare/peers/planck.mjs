@@ -7,7 +7,7 @@
  * Sources: piqnt.com/planck.js/docs, its pages on bodies (bullets, fixed rotation), chains, contacts and the world ("the
  * suggested iteration count is 8 for velocity and 3 for position").
  */
-import {installed, nearest, outline, serve, standing, words} from "./peer.mjs";
+import {installed, nearest, outline, serve, words} from "./peer.mjs";
 
 async function load() {
   return {planck: await installed("planck"), clipper: (await installed("clipper-lib")).default};
@@ -18,7 +18,7 @@ const vector = ([x, y]) => ({x, y});
 
 class World {
   constructor({planck, clipper}, run, parts) {
-    Object.assign(this, {planck, run, parts});
+    Object.assign(this, {planck, parts});
     this.world = new planck.World({gravity: {x: 0, y: 0}, allowSleep: false});  // the wanted velocity has gravity in it
     this.bodies = parts.map((part) => this.#addPart(part, clipper));
     this.body = this.world.createDynamicBody({fixedRotation: true, bullet: words.includes("bullet"), allowSleep: false});
@@ -61,8 +61,7 @@ class World {
     fixture.setFilterMaskBits(holds ? 0xffff : 0);
   }
 
-  ask(wanted, dt) {
-    this.asked = {wanted, dt};
+  ask(wanted) {
     this.body.setLinearVelocity(vector(wanted));
   }
 
@@ -105,7 +104,7 @@ class World {
       }
     }
     const [at, velocity] = [this.body.getPosition(), this.body.getLinearVelocity()];
-    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], ...standing(this.run, touching, this.asked)};
+    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], touching};
   }
 }
 
@@ -114,5 +113,5 @@ await serve({
   greeting: {name: "Planck", can: ["movers", "turning", "one_way", "circles", "conveyors"], skin: 0.02, most_way: 2, scalar: "double",
     machine: "javascript"},
   load,
-  open: (loaded, run, parts) => new World(loaded, run, parts),
+  World,
 });

@@ -12,7 +12,7 @@
  * Sources: rapier.rs/docs/user_guides/javascript, its pages on the character controller, on rigid-bodies (CCD, locked
  * rotations, kinematic bodies) and on colliders; rapier.rs/javascript2d for each call.
  */
-import {convexPieces, installed, nearest, outline, serve, standing, words} from "./peer.mjs";
+import {convexPieces, installed, nearest, outline, serve, standing, twoSidedEdges, words} from "./peer.mjs";
 
 const asBody = words.some((word) => word.startsWith("body"));
 const asOutline = words.includes("outline");
@@ -61,12 +61,9 @@ class World {
       this.owner.set(collider.handle, {part, collider: id});
       return collider;
     };
-    const {loops, edges} = outline(part, clipper, 0);
-    if (asOutline) {
-      for (const loop of loops) add(ColliderDesc.polyline(flat([...loop, loop[0]]), null, PolylineFlags.ORIENTED));
-    } else {
-      for (const {id, ring} of convexPieces(part, earcut)) add(ColliderDesc.convexPolyline(flat(ring)), id);
-    }
+    const {loops, edges} = asOutline ? outline(part, clipper, 0) : {loops: [], edges: twoSidedEdges(part)};
+    for (const loop of loops) add(ColliderDesc.polyline(flat([...loop, loop[0]]), null, PolylineFlags.ORIENTED));
+    for (const {id, ring} of asOutline ? [] : convexPieces(part, earcut)) add(ColliderDesc.convexPolyline(flat(ring)), id);
     for (const [a, b] of edges) add(ColliderDesc.segment(vector(a), vector(b)));
     for (const gate of part.gates) gate.collider = add(ColliderDesc.segment(vector(gate.a), vector(gate.b)), gate.id);
     for (const {circle: [x, y, radius]} of part.colliders.filter(({circle}) => circle))
@@ -137,8 +134,7 @@ class World {
             separation: manifold.solverContactDist(i)});
         }
       }));
-    const said = standing(this.run, touching, this.asked);
-    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], ...said};
+    return {path: [[at.x, at.y, 1]], velocity: [velocity.x, velocity.y], touching};
   }
 
   /**
@@ -178,5 +174,5 @@ await serve({
   },
   sink: asBody ? 0.05 : 1e-3,  // a body that lands sinks in by centimetres
   load,
-  open: (loaded, run, parts) => new World(loaded, run, parts),
+  World,
 });

@@ -16,12 +16,13 @@ cd "$here"
 out=build/release/peers
 mkdir -p "$out"
 log=$out/run.log
+# One after the other: in a list before `||` a failure ends nothing. The first in a shell of its own, as it exits.
 {
-  install_missing "${build_packages[@]}" "${peer_packages[@]}"
-  install_peers
-  cmake -S . --preset release "${whole_build[@]}"
-  cmake --build build/release --target paperproof --parallel "$(build_jobs)"
-  g++ -std=c++20 -O2 compare/peers/chipmunk.cpp -lchipmunk -o "$out/chipmunk"
+  (install_missing "${build_packages[@]}" "${peer_packages[@]}") &&
+    install_peers &&
+    cmake -S . --preset release "${whole_build[@]}" &&
+    cmake --build build/release --target paperproof --parallel "$(build_jobs)" &&
+    g++ -std=c++20 -O2 compare/peers/chipmunk.cpp -lchipmunk -o "$out/chipmunk"
 } >"$log" 2>&1 || {
   tail -n 40 "$log" >&2
   exit 2

@@ -1,9 +1,9 @@
 /** What answerers in JavaScript share: they read questions, time the answers, and write them. */
 import {createReadStream} from "node:fs";
 import {createInterface} from "node:readline";
+import {cross} from "../peers/peer.mjs";
 
 const times = 8;
-const cross = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 
 /**
  * A question as engines of floats want it, seen from where the way begins: there a float is finest.

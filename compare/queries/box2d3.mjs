@@ -6,11 +6,10 @@
  *
  * Its sources: a cast stops where two shapes are a slop apart, or a quarter of it more; its slop is 5 mm.
  */
-import {installed} from "../peers/peer.mjs";
+import {loadBox2d3} from "../peers/peer.mjs";
 import {answerAll} from "./answers.mjs";
 
-globalThis.navigator ??= {hardwareConcurrency: 1};  // as the package's own test does for Node before 21
-const box2d = await (await installed("box2d3-wasm")).default();
+const box2d = await loadBox2d3();
 const world = box2d.b2CreateWorld(box2d.b2DefaultWorldDef());
 const shapeDef = box2d.b2DefaultShapeDef();
 const filter = box2d.b2DefaultQueryFilter();

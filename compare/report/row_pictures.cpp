@@ -46,11 +46,10 @@ std::string slope_in_words(const Row& curve) {
 
 std::string who_ran(const Row& row, const std::vector<std::string>& varied) {
   std::string name = row.contender;
-  const bool is_float = row.scalar == "float" && row.engine.empty() && !name.starts_with("box2d");
   std::istringstream knobs(row.knob);
   for (std::string knob; knobs >> knob;)
     if (std::find(varied.begin(), varied.end(), knob.substr(0, knob.find('='))) == varied.end()) name += ' ' + knob;
-  return is_float ? name + " in float" : name;
+  return is_float_by_choice(row) ? name + " in float" : name;
 }
 
 std::string axis_words(const std::string& key) {

@@ -78,9 +78,9 @@ class Contender {
   /// Of a peer alone.
   [[nodiscard]] virtual std::optional<PeerNotes> peer_notes() const { return std::nullopt; }
   /// What a character would overlap at a place, as the engine's own query has it: ids. Nothing where it has no query.
-  /// @param movers where each is: its `to`.
-  [[nodiscard]] virtual std::optional<std::vector<std::string>> overlapped_at(
-      const Vec2d& /*place*/, std::span<const MoverMotion> /*movers*/) {
+  /// @param movers where each stands.
+  [[nodiscard]] virtual std::optional<std::vector<std::string>> overlapped_at(const Vec2d& /*place*/,
+                                                                              std::span<const MoverMotion> /*movers*/) {
     return std::nullopt;
   }
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.

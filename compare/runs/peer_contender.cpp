@@ -62,8 +62,6 @@ constexpr std::array<Feature, 6> features{{
      }},
 }};
 
-Vec2d point_of(const Json& list) { return {list[0].get<double>(), list[1].get<double>()}; }
-
 const Schema& protocol() {
   static const Schema schema(peer_schema::paperproof_peer_schema_json);
   return schema;
@@ -133,10 +131,8 @@ class PeerContender final : public Contender {
   [[nodiscard]] std::optional<std::vector<std::string>> overlapped_at(const Vec2d& place,
                                                                       std::span<const MoverMotion> movers) override {
     if (!has_query_ || !header_.turning.empty()) return std::nullopt;
-    std::vector<MoverMotion> there(movers.begin(), movers.end());
-    for (MoverMotion& mover : there) mover.from = mover.to;
     Json question{{"overlap", point_json(place)}};
-    if (const Json ways = ways_json(there, {}); !ways.is_null()) question["movers"] = ways;
+    if (const Json ways = ways_json(movers, {}); !ways.is_null()) question["movers"] = ways;
     return ask(question, "overlaps", patience)["overlaps"].get<std::vector<std::string>>();
   }
 

@@ -1,5 +1,6 @@
 #include "runs/spot_check.hpp"
 
+#include "oracle/company.hpp"
 #include "runs/contender.hpp"
 #include "runs/run_case.hpp"
 
@@ -41,7 +42,7 @@ class Engine {
   /// @param fraction of the step. @throws NotApplicable where it has no query.
   [[nodiscard]] Asked ask(const TraceStep& step, double fraction, const Vec2d& place) {
     std::vector<MoverMotion> movers;
-    for (const MoverMotion& mover : step.movers) movers.push_back({mover.from, mover.at(fraction)});
+    for (const MoverMotion& mover : step.movers) movers.push_back({mover.at(fraction), mover.at(fraction)});
     const std::optional<std::vector<std::string>> found = contender_->overlapped_at(place, movers);
     if (!found) throw NotApplicable("has no query of this kind");
     return {place, *found};
@@ -53,15 +54,6 @@ class Engine {
   std::unique_ptr<Contender> contender_;
 };
 
-/// On a straight way between two corners.
-Vec2d place_on(const TraceStep& step, double fraction) {
-  const auto after = std::find_if(step.path.begin() + 1, step.path.end() - 1,
-                                  [&](const PathPoint& corner) { return corner.fraction >= fraction; });
-  const PathPoint& from = *(after - 1);
-  const double share = (fraction - from.fraction) / (after->fraction - from.fraction);
-  return from.position + share * (after->position - from.position);
-}
-
 /// Free of the solid, then inside it, then free of it again. @param solid its id; an engine that joins solids may name
 /// another one, and then any counts.
 void ask_on_the_way(Engine& engine, const std::vector<TraceStep>& steps, const std::string& solid, SpotCheck& check) {
@@ -69,8 +61,10 @@ void ask_on_the_way(Engine& engine, const std::vector<TraceStep>& steps, const s
   for (const TraceStep& step : steps) {
     if (step.step > check.step) break;
     const int places = step.step == check.step ? places_of_step : 1;
-    for (int i = 0; i < places; ++i)
-      way.push_back(engine.ask(step, i / double{places_of_step}, place_on(step, i / double{places_of_step})));
+    for (int i = 0; i < places; ++i) {
+      const double at = i / double{places_of_step};
+      way.push_back(engine.ask(step, at, place_at(step.path, at)));
+    }
     if (step.step == check.step) way.push_back(engine.ask(step, 1, step.path.back().position));
   }
   const bool is_named = std::any_of(way.begin(), way.end(), [&](const Asked& asked) { return asked.has(solid); });

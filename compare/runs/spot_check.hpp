@@ -17,7 +17,7 @@ struct SpotCheck {
 
 /// Runs the Case of a peer again, and asks its engine what the character overlaps at the places that were recorded: on
 /// the way through a solid, at the ends of steps inside one, at lower places where it hangs.
-/// @param hole tunnel, inside or hanging. What goes wrong is in the words.
+/// @param hole tunnel, inside or hanging. Where the run or the query fails, `engine` says why.
 [[nodiscard]] SpotCheck spot_check(const Case& one, ReportEvent::Kind hole);
 
 }  // namespace paperproof::compare

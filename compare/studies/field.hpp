@@ -25,6 +25,12 @@ inline constexpr const char* field_title = "field: ";
 /// The skin of whoever ran: up to this depth it may be inside [m].
 [[nodiscard]] double skin_of(const Row& row);
 
+/// Whether its worst is unsafe: it fails, passes or ends inside something, or hangs.
+[[nodiscard]] bool is_unsafe(const Row& row);
+
+/// What hole its worst is; nothing where it is none.
+[[nodiscard]] std::optional<ReportEvent::Kind> hole_of(const Row& row);
+
 /// Says of a run the worst that it does: `worst`, in a word and a figure, and `badness`.
 /// @param on_seams its ground is level: what hops hops at seams.
 void judge_field(Row& row, bool on_seams);

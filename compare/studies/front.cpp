@@ -96,9 +96,7 @@ std::string words_of_front(const std::string& motion, const std::vector<Row>& ro
   for (const Row& row : rows) {
     if (is_guaranteed(row) && counts(row) && (best == nullptr || *row.error_max_m < *best->error_max_m)) best = &row;
     if (!row.on_front.value_or(false)) continue;
-    const std::string who =
-        row.contender +
-        (row.scalar == "float" && row.engine.empty() && !row.contender.starts_with("box2d") ? " (float)" : "");
+    const std::string who = row.contender + (is_float_by_choice(row) ? " (float)" : "");
     if (std::find(front.begin(), front.end(), who) == front.end()) front.push_back(who);
   }
   std::string text = fmt::format("{}: on the front: {}.", motion, fmt::join(front, ", "));
