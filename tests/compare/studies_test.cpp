@@ -60,8 +60,9 @@ TEST(WorkPrecision, steps_err_by_the_formula_and_contenders_from_them_by_their_g
     if (row.scene == "level") continue;
     const double h = row.parameters.front().second;
     // Its time of impact is within a quarter of its slop of 5 mm; it goes no more than 2 m a step.
-    if (row.contender == "box2d" && row.scene != "bullet")
+    if (row.contender == "box2d" && row.scene != "bullet") {
       EXPECT_NEAR(row.error_law_max_m.value(), row.scene == "flight" ? 0 : box2d::rest_gap, 0.002) << row.scene << h;
+    }
     if (row.contender != law_of_steps) continue;
     double error = 0;
     double squares = 0;
