@@ -241,12 +241,22 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact& contact) const {
   return face->second;
 }
 
+/// Whether a climb leads on at a corner: its way up ends there, and took no time.
+bool ContactJudge::climbs_to(std::size_t corner) const {
+  if (!(header_.character.step_height > 0) || corner == 0) return false;
+  const Vec2d way = step_.path[corner].position - step_.path[corner - 1].position;
+  return step_.path[corner].fraction == step_.path[corner - 1].fraction && way.dot(up_) > 0 &&
+         std::abs(across(way)) <= ulp_at(header_, step_.path[corner].position);
+}
+
 /// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left
-/// of the motion was stopped, or ground was followed.
+/// of the motion was stopped, or ground was followed. A climb may end along the top of its stair.
 bool ContactJudge::ran_into(const Contact& contact) const {
   for (std::size_t i = 1; i < step_.path.size(); ++i) {
     const Vec2d leg = step_.path[i].position - step_.path[i - 1].position;
-    if (contact.normal.dot(leg) < 0 && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
+    const double most = climbs_to(i - 1) ? ulp_at(header_, step_.path[i].position) : 0;
+    const double leads = contact.normal.dot(leg);
+    if (leads < most && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
   }
   return false;
 }

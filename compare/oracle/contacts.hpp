@@ -71,6 +71,7 @@ class ContactJudge {
   /// The same, found once. @param contact one of the step's.
   [[nodiscard]] std::optional<Vec2d> face_of(const Contact& contact) const;
   [[nodiscard]] bool has_face(const Contact& contact) const { return face_of(contact).has_value(); }
+  [[nodiscard]] bool climbs_to(std::size_t corner) const;
   [[nodiscard]] bool ran_into(const Contact& contact) const;
   [[nodiscard]] std::vector<ExactContact> contacts_besides(const Contact& contact,
                                                            const StepJudgement& judgement) const;
