@@ -46,6 +46,20 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   return true;
 }
 
+/// Makes the last climb rise no higher than where it ends, if the way there is free: whoever stands on the walker is
+/// lifted no farther.
+/// @param corner of the path at which it begins.
+inline void lower_climb(Step& step, std::size_t corner) {
+  auto& path = step.result.path;
+  const Vec2 from = path[corner].position;
+  const Vec2 low = from + step.up.in_world({0, step.up.up_of(Vec2(step.position - from))});
+  if (!exactly_clear(step, from, low) || !exactly_clear(step, low, step.position)) return;
+  path[corner + 1].position = low;
+  path[corner + 2] = path.back();
+  while (path.size() > corner + 3) path.pop_back();
+  note_reported(step);
+}
+
 /// Goes up, on sideways, and down to ground that is higher. @return false if it does not end there.
 [[nodiscard]] inline bool climb_by(Step& step, Real rise, Real sideways, Real speed) {
   const Vec2 before = step.position;
@@ -87,6 +101,7 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
       go_back_to(step, corner);
     }
     if (!is_climbed) return;
+    lower_climb(step, corner);
   }
 }
 
