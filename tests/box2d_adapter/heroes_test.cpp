@@ -26,6 +26,15 @@ b2Body* slope(World& world) {
   return world.add(b2_staticBody, {0, 0}, shape).GetBody();
 }
 
+b2Body* stairs(World& world) {
+  b2Body* last = world.box(b2_staticBody, {-20, -1}, 20, 1).GetBody();
+  for (int i = 0; i < 100; ++i) {
+    const auto stair = static_cast<float>(i);
+    last = world.box(b2_staticBody, {0.6F * stair + 0.3F, 0.1F * stair}, 0.3F, 0.1F * stair + 0.2F).GetBody();
+  }
+  return last;
+}
+
 b2Body* wall(World& world) {
   world.floor();
   return world.box(b2_kinematicBody, {-2.5F, 1.5F}, 0.5F, 1.4F).GetBody();
@@ -68,6 +77,7 @@ const std::array places{Place{.name = "slow_lift", .build = lift, .velocity = {0
                         Place{.name = "rocking_plank", .build = lift, .spin = 0.4},
                         Place{.name = "wall", .build = wall, .first = {-1.4, 0}, .next = {0.7, 0}, .velocity = {3, 0}},
                         Place{.name = "slope", .build = slope, .first = {-1, 0}, .move = 1},
+                        Place{.name = "stairs", .build = stairs, .first = {-1, 0}, .move = 1},
                         Place{.name = "crate", .build = crate, .first = {0, 1.01}},
                         Place{.name = "bridge", .build = bridge, .first = {0, -0.8}}};
 
