@@ -146,8 +146,7 @@ struct ExactScenery::Impl {
 
   /// Whether a position keeps at least `clearance` from a barrier, at the moment when the ways end.
   [[nodiscard]] bool keeps_clear(const detail::Barrier& barrier, const Vec2d& position, double clearance) const {
-    /// Boxes that are this far apart leave any clearance along the best axis, unless a corner is sharper than 0.01°
-    /// [m].
+    // Boxes that are this far apart [m] leave any clearance along the best axis, unless a corner is sharper than 0.01°.
     const double surely_clear = 1e4 * clearance;
     detail::FramePlace place = barrier.end;
     place.position = position;

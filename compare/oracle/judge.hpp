@@ -55,8 +55,8 @@ struct StepJudgement {
   /// Over the reported contacts: the smallest exact separation at any corner of the way [m].
   double max_contact_gap = 0;
   std::vector<ExactContact> contacts;  ///< What should have been reported.
-  std::vector<ColliderIndex>
-      dont_care;  ///< Within reach of what the contender calls touching: neither right nor wrong.
+  /// Within reach of what the contender calls touching: neither right nor wrong.
+  std::vector<ColliderIndex> dont_care;
   /// Of the `dont_care`, those that are between where §6 of the guarantee begins to hit and where it lets go.
   std::vector<ColliderIndex> contact_band;
   /// Reported contacts that no requested motion has, but what an exact contact leaves of it: right all the same.
@@ -68,8 +68,7 @@ struct StepJudgement {
   std::vector<std::pair<ColliderIndex, Side>> ghosts;
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
-  /// How far the requested motion goes against the normal of the first impact, where it goes as requested until then
-  /// [m].
+  /// How far the requested motion goes against the normal of the first impact [m], if it goes as requested until then.
   std::optional<double> first_approach;
   bool hangs = false;         ///< It could have fallen, and did not: see `Judge`.
   bool hovers = false;        ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
@@ -143,8 +142,7 @@ struct StepJudgement {
 ///
 /// **Tunnelled.** A solid (a polygon, or a two-sided chain) is tunnelled in a step that ends free of it when
 /// - the octagon was free of it when the step began, and its open interior meets the solid somewhere on the polyline
-/// that
-///   was travelled; or
+///   that was travelled; or
 /// - it was inside since an earlier step, and the straight ways from its last position free of the solid to all corners
 ///   of the way since it left meet the solid: it left on another side. Leaving a solid in which the run (or a respawn,
 ///   or a placement of the twin) began is none; entering it again after that is.
@@ -161,11 +159,10 @@ struct StepJudgement {
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
 ///   those named, or from where that leg touches it (no way that leaves later undoes what has been pressed in), by a
-///   straight uniform motion until the end
-///   of the step that meets no solid but what is overlapped at that corner, and comes no nearer than 1e-7 m (each side
-///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
-///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side
-///   there is no room.
+///   straight uniform motion until the end of the step that meets no solid but what is overlapped at that corner, and
+///   comes no nearer than 1e-7 m (each side of the octagon moved out by so much) to what is farther away there: who
+///   passes a rim nearer than that may be stopped at it. And no solid that was met before lies between the last place
+///   free of it and there: on its far side there is no room.
 ///
 /// A crush with room counts as one without where another that goes at the same time is near (exempted). `room` says
 /// where it was.
@@ -175,8 +172,7 @@ struct StepJudgement {
 /// and `passage`, nor what it stops of `speed_lost` and `hanging`, like one without room: one breach is said once.
 /// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
 /// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
-/// when the step began. What a
-/// mover presses the octagon into besides itself is not excused.
+/// when the step began. What a mover presses the octagon into besides itself is not excused.
 ///
 /// **Sensor events** are reported in order of time, and compared for every sensor entering and leaving apart.
 ///
@@ -267,10 +263,10 @@ struct StepJudgement {
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
 /// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,
-/// within the step and the contender's reach beyond it (octagon_sweep in
-/// double: 1e-6 m; Box2D: 20 mm), from any corner of the path. No more is lost than steering in the slowest way leaves
-/// of a step in parts. What is lost where something that turns may oppose the motion (`TurningJudge::opposes`), or no
-/// more than by what a touched one may come farther than its nearest point, is `unsure` (exempted).
+/// within the step and the contender's reach beyond it (octagon_sweep in double: 1e-6 m; Box2D: 20 mm), from any corner
+/// of the path. No more is lost than steering in the slowest way leaves of a step in parts. What is lost where
+/// something that turns may oppose the motion (`TurningJudge::opposes`), or no more than by what a touched one may come
+/// farther than its nearest point, is `unsure` (exempted).
 ///
 /// **Beside another** character that goes at the same time: that one may have turned the motion aside, held or pushed
 /// it. Contacts that are only reported, or only exact, count neither way (exempted). Nor do the first impact, lost way
@@ -282,8 +278,7 @@ class Judge {
   ~Judge();
   Judge(Judge&&) = delete;
   /// @param wanted what the step was asked for, as `requested` of the step has it: then what the step says of its end
-  /// is
-  ///   judged, too.
+  ///   is judged, too.
   /// @param beside_another see `CompanyJudge::is_beside_another`.
   [[nodiscard]] StepJudgement judge(const TraceStep& step, const Wanted* wanted = nullptr, bool beside_another = false);
   /// The solids that the octagon overlaps where a step begins, in order.

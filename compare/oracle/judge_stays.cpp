@@ -2,14 +2,12 @@
 #include "oracle/judge.hpp"
 
 #include "contains.hpp"
-#include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/crush.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/passing.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace paperproof::compare {
 namespace {

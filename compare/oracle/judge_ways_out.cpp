@@ -3,7 +3,6 @@
 
 #include "oracle/crush.hpp"
 #include "oracle/turning.hpp"
-#include "oracle/way_out.hpp"
 
 #include <algorithm>
 

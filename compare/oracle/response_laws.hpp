@@ -3,7 +3,6 @@
 
 #include "oracle/met_surface.hpp"
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>

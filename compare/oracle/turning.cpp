@@ -2,7 +2,6 @@
 
 #include "contains.hpp"
 #include "oracle/contacts.hpp"
-#include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/second_meeting.hpp"
 #include "oracle/turning_room.hpp"

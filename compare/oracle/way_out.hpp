@@ -25,8 +25,8 @@ struct EndSearch {
   double reach = 0;      ///< No way is longer [m].
   double clearance = 0;  ///< That the ends keep from every obstacle [m].
   double beside = 0;     ///< That they keep from the edges of a shadow [m].
-  bool from_inside_only =
-      false;  ///< Only at the rims of barriers that may be passed: enough where a way begins in one.
+  /// Only at the rims of barriers that may be passed: enough where a way begins in one.
+  bool from_inside_only = false;
 };
 
 /// The displacements of the octagon at whose ends the shortest straight way must be looked for, nearest first; in
