@@ -44,9 +44,8 @@ struct Findings {
 /// @return no steps where the run would begin inside something, and must not.
 [[nodiscard]] Findings run_and_judge(const RandomRun& run, const std::string& name, const RunSettings& settings = {});
 
-/// Makes runs of a family, until its share of the steps is reached. @param each is called with the seed of every run
-/// and
-///   what it came to.
+/// Makes runs of a family, until its share of the steps is reached.
+/// @param each is called with the seed of every run and what it came to.
 [[nodiscard]] Findings run_family(const Family& family, int steps, const RunSettings& settings = {},
                                   const std::function<void(std::uint64_t, const Findings&)>& each = {});
 

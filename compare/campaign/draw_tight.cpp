@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 namespace paperproof::compare {

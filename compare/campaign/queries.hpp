@@ -4,7 +4,6 @@
 #include "campaign/families.hpp"
 #include "oracle/exact.hpp"
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

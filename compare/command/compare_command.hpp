@@ -38,8 +38,7 @@ struct CompareArguments {
 void check_contenders(const std::vector<std::string>& names, std::string_view asked = "--contender");
 
 /// @return the exit status: 0; 1 if octagon_sweep in double broke its guarantee or a contender failed; else 2 if an
-/// input
-///   could not be used (`keep_going`).
+///   input could not be used (`keep_going`).
 /// @throws InputError before any output file is touched; std::runtime_error if one cannot be written.
 int compare_scenes(CompareArguments arguments);
 

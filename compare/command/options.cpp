@@ -3,7 +3,7 @@
 #include "command/compare_command.hpp"
 #include "command/option_checks.hpp"
 #include "runs/peers.hpp"
-#include "scenes/input_error.hpp"
+#include "scenes/load.hpp"
 
 #include <fmt/format.h>
 

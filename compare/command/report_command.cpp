@@ -13,10 +13,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace paperproof::compare {
 namespace {
 

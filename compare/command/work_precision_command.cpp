@@ -5,7 +5,6 @@
 #include "runs/environment.hpp"
 #include "runs/view.hpp"
 #include "scenes/load.hpp"
-#include "studies/front.hpp"
 #include "studies/motions.hpp"
 #include "studies/work_precision.hpp"
 #include "words.hpp"

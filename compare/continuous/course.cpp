@@ -6,7 +6,6 @@
 #include "continuous/roots.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace paperproof::compare::continuous {
 namespace {

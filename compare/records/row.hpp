@@ -115,8 +115,8 @@ struct Row {
 #include "records/metric_table.hpp"
 
   std::optional<FirstTunnel> first_tunnel;
-  std::map<std::string, int>
-      broken;  ///< Steps that broke a clause, promised or not, by its name: see records/clause.hpp.
+  /// Steps that broke a clause, promised or not, by its name: see records/clause.hpp.
+  std::map<std::string, int> broken;
   std::map<std::string, int> exempted;  ///< What was not held against it, how often: see oracle/exemptions.hpp.
   /// Where a ledger was kept, by `cause.kind`: the events on which it and the Box2D twin differ. See `Ledger`.
   std::map<std::string, Disagreements> disagreements;

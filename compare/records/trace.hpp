@@ -130,8 +130,8 @@ struct TraceStep {
   CharacterIndex character = 0;
   /// Its place in the order of this step, from 0 on: while one moves the others stand. None: all move at once.
   std::optional<CharacterIndex> turn{};
-  std::vector<CharacterIndex>
-      moving{};  ///< With `turn`: the others that went along their ways in it. All others stood.
+  /// With `turn`: the others that went along their ways in it. All others stood.
+  std::vector<CharacterIndex> moving{};
   Input input{};
   std::optional<Vec2d> up{};       ///< In this step, where it is not the header's.
   std::optional<Vec2d> gravity{};  ///< The same [m/s²].
@@ -162,8 +162,8 @@ struct TraceStep {
   std::string refused{};             ///< Why the step was refused; nothing but the input is valid then.
   bool stuck = false;                ///< The contender reported that it is stuck inside something.
   bool dropped = false;              ///< Displacement was left when the iterations ran out.
-  bool capped =
-      false;  ///< The wanted way is longer than the contender's maker documents as the most in a step: 2 m of Box2D.
+  /// The wanted way is longer than the contender's maker documents as the most in a step: 2 m of Box2D.
+  bool capped = false;
 };
 
 /// Unit vector against which a character falls in a step.

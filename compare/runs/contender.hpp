@@ -5,8 +5,6 @@
 #include "runs/scene_plan.hpp"
 #include "scenes/scene.hpp"
 
-#include <paperproof/techniques.hpp>
-
 #include <memory>
 #include <optional>
 #include <span>

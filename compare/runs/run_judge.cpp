@@ -1,9 +1,6 @@
 #include "runs/run_judge.hpp"
 
 #include "contains.hpp"
-#include "oracle/claims.hpp"
-#include "oracle/contacts.hpp"
-#include "oracle/legs.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/up.hpp"
 #include "records/verdict.hpp"
@@ -14,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace paperproof::compare {
 

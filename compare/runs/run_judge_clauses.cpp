@@ -2,7 +2,6 @@
 #include "runs/run_judge.hpp"
 
 #include "contains.hpp"
-#include "oracle/claims.hpp"
 #include "oracle/legs.hpp"
 #include "oracle/response_laws.hpp"
 #include "oracle/turning.hpp"

@@ -1,9 +1,8 @@
 /// What rests, stands or creeps, and what carries it.
 #include "runs/run_judge.hpp"
 
-#include "contains.hpp"
-#include "oracle/contacts.hpp"
-#include "oracle/legs.hpp"
+#include "oracle/exemptions.hpp"
+#include "oracle/later_parts.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/up.hpp"
 #include "runs/run_judge_limits.hpp"

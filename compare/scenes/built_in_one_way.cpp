@@ -1,8 +1,6 @@
 /// What holds from one side only, as a truth table: scene 31.
 #include "scenes/built_in.hpp"
 
-#include <cmath>
-
 namespace paperproof::compare {
 
 namespace {

@@ -1,7 +1,6 @@
 #include "scenes/step_times.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace paperproof::compare {
 

@@ -7,8 +7,7 @@
 /// 2. the class (`type` in older files): `platform`, `one_way` are one-way; `solid`, `collision`, `wall`, `slope`,
 ///    `ground`, `block`, `static` are solid;
 /// 3. the name of a layer or group: `collision`, `collisions`, `solid`, `solids`, `wall`, `walls`, `platforms` make
-/// what
-///    is in it solid, `one_way`, `one_way_platforms` one-way.
+///    what is in it solid, `one_way`, `one_way_platforms` one-way.
 /// Letter case, spaces, `_` and `-` in these words do not matter. What is not marked is decoration. Where nothing at
 /// all is marked, every tile that has collision shapes in its tileset is solid by these.
 ///
@@ -18,10 +17,10 @@
 /// A solid ellipse as wide as high is a circle; another one, and a capsule (Tiled 1.12: a rectangle with half circles
 /// at its ends), becomes a polygon at most 1/8 px inside of its curve, and a note counts these. An object made from a
 /// template is refused where it is marked, as templates are not read; points, texts and objects without a size are left
-/// out with a note. A tile object or rectangle in a layer named `moving
-/// platforms` becomes a mover: `change_x` or `change_y` is its speed in pixels per 1/60 s (y up), `boundary_left`,
-/// `_right`, `_top`, `_bottom` its turning points in pixels from the map's lower left corner (one that begins beyond
-/// them turns where it began); without a pair of turning points it is left out with a note.
+/// out with a note. A tile object or rectangle in a layer named `moving platforms` becomes a mover: `change_x` or
+/// `change_y` is its speed in pixels per 1/60 s (y up), `boundary_left`, `_right`, `_top`, `_bottom` its turning points
+/// in pixels from the map's lower left corner (one that begins beyond them turns where it began); without a pair of
+/// turning points it is left out with a note.
 ///
 /// **Where the character begins.** At the first object whose name or class is `spawn`, `spawn point`, `player`,
 /// `main player`, `player start`, `player spawn`, `start` or `hero`; else at the first object in a layer of such a

@@ -5,7 +5,6 @@
 #include <paperproof/techniques.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <string>
