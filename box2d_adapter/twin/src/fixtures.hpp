@@ -52,12 +52,10 @@ struct SceneryFixtures {
 /// segment.
 ///
 /// - An outline is a one-sided chain loop. A solid too thin or too small for one (`spaced` in solid_union.hpp) gets
-/// every
-///   edge of its own outline as a two-sided edge: Box2D's edges have no smallest length, and nothing passes them. A
-///   void that thin is filled: nothing fits into it.
+///   every edge of its own outline as a two-sided edge: Box2D's edges have no smallest length, and nothing passes them.
+///   A void that thin is filled: nothing fits into it.
 /// - A piece is a polygon set vertex by vertex: `b2PolygonShape::Set` would weld points within 2.5 mm and turn thin
-/// paper
-///   into a box of 2 m. Pieces of more than 8 vertices are cut as a fan.
+///   paper into a box of 2 m. Pieces of more than 8 vertices are cut as a fan.
 /// - A chain segment is a two-sided edge; a one-way segment a one-sided edge whose ghost vertices are its neighbours
 ///   where these block the same way, and its own continuation where not.
 /// @param scenery gives the convex pieces.
