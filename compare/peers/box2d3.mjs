@@ -41,6 +41,8 @@ function rimOf({half, radius: withSlop}) {
 class World {
   constructor({box2d, clipper}, run, parts) {
     Object.assign(this, {box2d, run, parts});
+    // For what is copied at once: objects of WebAssembly are not collected.
+    this.scratch = {vector: new box2d.b2Vec2(0, 0), transform: new box2d.b2Transform()};
     const def = box2d.b2DefaultWorldDef();
     def.gravity.Set(0, 0);  // the wanted velocity has it
     def.enableSleep = false;
@@ -48,7 +50,10 @@ class World {
     this.bodies = parts.map((part) => this.#addPart(part, clipper));
     if (asMover) {
       this.capsule = capsuleIn(run.points);
+      this.mover = new box2d.b2Capsule();
+      this.mover.radius = this.capsule.radius;
       this.filter = box2d.b2DefaultQueryFilter();
+      this.planes = [];
       return;
     }
     const body = box2d.b2DefaultBodyDef();
@@ -61,7 +66,8 @@ class World {
   }
 
   vector([x, y]) {
-    return new this.box2d.b2Vec2(x, y);
+    this.scratch.vector.Set(x, y);
+    return this.scratch.vector;
   }
 
   #surface() {
@@ -105,7 +111,7 @@ class World {
   }
 
   #transform([x, y], angle) {
-    const transform = new this.box2d.b2Transform();
+    const {transform} = this.scratch;
     transform.p.Set(x, y);
     transform.q.SetAngle(angle);
     return transform;
@@ -144,38 +150,36 @@ class World {
     if (asMover) this.#moveCapsule();
   }
 
-  #planes(mover) {
-    const planes = [];
-    this.box2d.b2World_CollideMover(this.world, mover, this.filter, (shape, result) => {
+  /** Those of the round before end with it. */
+  #findPlanes() {
+    for (const {plane} of this.planes) plane.delete();
+    this.planes = [];
+    this.box2d.b2World_CollideMover(this.world, this.mover, this.filter, (shape, result) => {
       const plane = new this.box2d.b2CollisionPlane();
       plane.plane.offset = result.plane.offset;
       plane.plane.normal.Copy(result.plane.normal);
       plane.pushLimit = 3e38;  // rigid
       plane.push = 0;
       plane.clipVelocity = true;
-      planes.push({plane, shape});
+      this.planes.push({plane, shape});
       return true;
     });
-    return planes;
   }
 
   /** The sample's loop: five rounds, until one moves by less than a centimetre. */
   #moveCapsule() {
-    const {box2d, asked: {wanted, dt}, capsule: {radius, half}} = this;
+    const {box2d, mover, asked: {wanted, dt}, capsule: {half}} = this;
     const target = [this.place[0] + wanted[0] * dt, this.place[1] + wanted[1] * dt];
     const way = [];
     this.from = this.place;
-    let planes;
     for (let round = 0; round < 5; ++round) {
-      const mover = new box2d.b2Capsule();
       mover.center1.Set(this.place[0], this.place[1] - half);
       mover.center2.Set(this.place[0], this.place[1] + half);
-      mover.radius = radius;
-      planes = this.#planes(mover);
+      this.#findPlanes();
       const rest = this.vector([target[0] - this.place[0], target[1] - this.place[1]]);
-      const {translation} = box2d.b2SolvePlanes(rest, planes.map(({plane}) => plane));
+      const {translation} = box2d.b2SolvePlanes(rest, this.planes.map(({plane}) => plane));
       // The binding solves copies and keeps their pushes: a plane has pushed where the way ends on it, with the slop.
-      for (const {plane} of planes) {
+      for (const {plane} of this.planes) {
         const {normal, offset} = plane.plane;
         plane.push = normal.x * translation.x + normal.y * translation.y - offset + slop < 1e-4 ? 1 : 0;
       }
@@ -185,8 +189,8 @@ class World {
       way.push(this.place);
       if (Math.hypot(...delta) < 0.01) break;
     }
-    const left = box2d.b2ClipVector(this.vector(wanted), planes.map(({plane}) => plane));
-    this.moved = {way, velocity: [left.x, left.y], pushing: planes.filter(({plane}) => plane.push > 0)};
+    const left = box2d.b2ClipVector(this.vector(wanted), this.planes.map(({plane}) => plane));
+    this.moved = {way, velocity: [left.x, left.y], pushing: this.planes.filter(({plane}) => plane.push > 0)};
   }
 
   /** b2World_OverlapShape, of the octagon less half a millimetre (so much does it count as overlap) or the capsule without the slop. */

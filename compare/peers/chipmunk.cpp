@@ -16,6 +16,7 @@
 #include <iostream>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ using nlohmann::json;
 using std::chrono::steady_clock;
 
 constexpr double scale = 32;  ///< [px/m]
-constexpr double radius =
-    0.01;  ///< Of the octagon's corners [m]. The manual: it keeps a polygon from sticking at seams.
+/// Of the octagon's corners [m]. The manual: it keeps a polygon from sticking at seams.
+constexpr double radius = 0.01;
 
 cpVect pixels(const json& point) { return cpv(point[0].get<double>() * scale, point[1].get<double>() * scale); }
 json metres(const cpVect& v) { return {v.x / scale, v.y / scale}; }
@@ -41,7 +42,7 @@ std::vector<cpVect> pixels_of(const json& points) {
   return result;
 }
 
-/// In a space without friction; bodies do not turn, as their moment is infinite. @param dt, @param wanted of the step.
+/// In a space without friction; bodies do not turn, as their moment is infinite.
 class World {
  public:
   explicit World(const json& run)

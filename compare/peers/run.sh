@@ -47,8 +47,8 @@ peers=(
 )
 options=(--rows "$out/rows.jsonl" --report "$out/report.html")
 for peer in "${peers[@]}"; do options+=(--peer "$peer"); done
-[[ ${1-} != holes ]] || exec python3 compare/peers/holes.py build/release/bin/paperproof "${peers[@]}"
 paperproof=build/release/bin/paperproof
+[[ ${1-} != holes ]] || exec python3 compare/peers/holes.py "$paperproof" "${peers[@]}"
 if (($#)); then
   # Times are the peers' own; those of the others, by a clock of another kind, are not measured here.
   "$paperproof" compare "$@" --contender octagon_sweep --no-timing "${options[@]}"

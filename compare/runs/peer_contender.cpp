@@ -16,8 +16,8 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -167,9 +167,7 @@ class PeerContender final : public Contender {
 
   /// The judge looks at this one then: a capsule that fits into the octagon stands deeper than the octagon would.
   static std::vector<Vec2d> shape_said(const Json& said) {
-    std::vector<Vec2d> points;
-    std::transform(said.begin(), said.end(), std::back_inserter(points), point_of);
-    const CharacterShape shape(points);
+    const CharacterShape shape(points_of(said));
     return {shape.hull().begin(), shape.hull().end()};
   }
 
