@@ -55,7 +55,7 @@ Column<FieldLine> largest(std::string heading, double unit, Of of) {
 }
 
 /// Everybody's hops and times are those of the walk over tiles.
-bool is_on_seams(const Row& row) { return is_of(row, std::string(field_title) + "seams"); }
+bool is_on_seams(const Row& row) { return is_of(row, std::string(field_title).append(field_seams)); }
 
 /// The mean time of a step [ns]. @param machine of a peer, by its own clock; empty: by this command's.
 Column<FieldLine> mean_time(std::string heading, std::string machine) {

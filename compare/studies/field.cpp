@@ -34,7 +34,6 @@ struct Group {
   std::vector<FieldScene> scenes;
 };
 
-constexpr std::string_view seams = "seams";
 constexpr FieldAxes minute_hour_day{"steps=3600", "steps=216000", "steps=5184000"};
 
 /// A map of SuperTux.
@@ -49,7 +48,7 @@ std::vector<Group> groups() {
        {{"paper",
          {"speed=10,20,40,80,160 thickness=0.001,0.1", "speed=5:640:log15 thickness=0,0.001,0.01,0.1 phase=0,0.25,0.5",
           "speed=5:640:log36 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3 phase=0:0.9:lin10"}}}},
-      {seams,
+      {field_seams,
        "A walk over flush tiles of a metre.",
        {{"tiles", {"speed=1.7,7.3,11.3", "speed=0.5:12:lin24", "speed=0.12:12:lin100"}}}},
       {"slopes",
@@ -108,7 +107,7 @@ constexpr std::array faults{
           }},
     Fault{inside, "inside {} mm", 1e-3,
           [](const Row& row, bool) { return beyond(row.max_penetration_m, skin_of(row)); }},
-    // Where more was wanted than its maker documents nothing else counts.
+    // Where more was wanted than its maker documents none of the others below counts.
     Fault{0.05, "beyond its limit", 1,
           [](const Row& row, bool) { return falls_short(row, Axis::validity) ? std::optional(0.0) : std::nullopt; }},
     Fault{least_unsafe, "hangs {} of its steps", 1, [](const Row& row, bool) { return beyond(row.hanging_steps, 0); }},
@@ -120,12 +119,8 @@ constexpr std::array faults{
     Fault{0.1, "off {} m", 1, [](const Row& row, bool) { return beyond(row.error_law_max_m, most_off); }},
 };
 
-}  // namespace
-
-std::string in_short(double number) { return fmt::format(fmt::runtime(number >= 10 ? "{:.0f}" : "{:.2g}"), number); }
-
-double skin_of(const Row& row) { return row.skin_m.value_or(is_reference(row.contender) ? box2d_skin : 0); }
-
+/// Says of a run the worst that it does: `worst`, in a word and a figure, and `badness`.
+/// @param on_seams its ground is level: what hops hops at seams.
 void judge_field(Row& row, bool on_seams) {
   if (row.verdict == Verdict::not_applicable) return;
   row.worst = "holds";
@@ -139,6 +134,12 @@ void judge_field(Row& row, bool on_seams) {
       return;
     }
 }
+
+}  // namespace
+
+std::string in_short(double number) { return fmt::format(fmt::runtime(number >= 10 ? "{:.0f}" : "{:.2g}"), number); }
+
+double skin_of(const Row& row) { return row.skin_m.value_or(is_reference(row.contender) ? box2d_skin : 0); }
 
 bool is_unsafe(const Row& row) { return row.badness.value_or(0) >= least_unsafe; }
 
@@ -168,7 +169,7 @@ std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>
       if (!axes.empty()) part.sweep.axes = parse_axes(axes);
       if (one.steps[of_size] > 0) part.sweep.steps = one.steps[of_size];
       part.sweep.contenders = who;
-      part.run = [on_seams = group.name == seams](const Sweep& sweep, std::size_t index) {
+      part.run = [on_seams = group.name == field_seams](const Sweep& sweep, std::size_t index) {
         const Case one_case = sweep.at(index);
         // Costs are those of the walk over tiles, which everybody can make.
         Row row = run_case_beside_motion(one_case, on_seams && one_case.peer.empty());
@@ -190,8 +191,8 @@ std::vector<std::string> field_paragraphs() {
       "rest, or hops at seams, by more than 0.1 mm; loses more than "
       "1 % of the wanted motion to nothing; off the exact way by more than 0.1 m. A peer's way is held against the law "
       "of octagon_sweep and that of a body without friction, and the nearer one counts. Where more is wanted "
-      "than its maker documents, such as 2 m a step of Box2D 2.4, it is beyond its limit, and only what is unsafe "
-      "counts. What a law of response does by design is no fault, and the "
+      "than its maker documents, such as 2 m a step of Box2D 2.4, it is beyond its limit, unless it fails, passes or "
+      "ends inside something. What a law of response does by design is no fault, and the "
       "scenes' own answers are not asked."};
   for (const Group& group : groups()) all.push_back(fmt::format("{}: {}", group.name, group.question));
   return all;

@@ -2,15 +2,20 @@
 /// does.
 #pragma once
 
+#include "records/scene_result.hpp"
 #include "studies/prepared_studies.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace paperproof::compare {
 
 /// Stands before the name of a group in the titles of its parts.
 inline constexpr const char* field_title = "field: ";
+/// The group of the walk over tiles: of hops, and of times, only its rows are looked at.
+inline constexpr std::string_view field_seams = "seams";
 
 /// A part for each scene of a group. Where nobody is named they are octagon_sweep, Box2D and all peers. Maps of
 /// SuperTux are in it where Debian has installed them; in the place of one that is not here is the playground.
@@ -30,9 +35,5 @@ inline constexpr const char* field_title = "field: ";
 
 /// What hole its worst is; nothing where it is none.
 [[nodiscard]] std::optional<ReportEvent::Kind> hole_of(const Row& row);
-
-/// Says of a run the worst that it does: `worst`, in a word and a figure, and `badness`.
-/// @param on_seams its ground is level: what hops hops at seams.
-void judge_field(Row& row, bool on_seams);
 
 }  // namespace paperproof::compare
