@@ -16,12 +16,19 @@ namespace queries {
 using Json = nlohmann::ordered_json;
 using Point = std::array<double, 2>;
 
-/// Points of a question, rounded to `Real`. @param from is the origin: seen from where a way begins, a float is finest.
+/// A point of a question, rounded to `Real`.
+/// @param from is the origin: seen from where a way begins, a float is finest.
+template <class Vector, class Real>
+Vector point(const Json& pair, const Point& from) {
+  const auto [x, y] = pair.get<Point>();
+  return Vector(static_cast<Real>(x - from[0]), static_cast<Real>(y - from[1]));
+}
+
+/// The same of each point of a list.
 template <class Vector, class Real>
 std::vector<Vector> points(const Json& list, const Point& from) {
   std::vector<Vector> result;
-  for (const Point& point : list.get<std::vector<Point>>())
-    result.emplace_back(static_cast<Real>(point[0] - from[0]), static_cast<Real>(point[1] - from[1]));
+  for (const Json& pair : list) result.push_back(point<Vector, Real>(pair, from));
   return result;
 }
 

@@ -73,7 +73,7 @@ std::optional<double> cast(const Vertices& shape, const b2Vec2& way, const Verti
 int main(int, char** arguments) {
   const bool casts = arguments[1] == std::string("cast");
   const auto prepare = [&](const Json& question) {
-    const b2Vec2 way = vertices(Json::array({question["displacement"]}), {0, 0})[0];
+    const auto way = queries::point<b2Vec2, float>(question["displacement"], {0, 0});
     const Vertices shape = vertices(question["points"], {0, 0});
     return [=, solids = pieces(question)] {
       std::optional<double> first;

@@ -9,7 +9,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 out=build/release/queries
 mkdir -p "$out"
-cmake --build build/release --target paperproof queries_sweep queries_box2d24 >"$out/build.log"
+cmake --build build/release --target paperproof queries_sweep queries_box2d24 >"$out/build.log" || {
+  tail -n 40 "$out/build.log" >&2
+  exit 2
+}
 
 shopt -s nullglob # a level that is not there is none: each name is a pattern
 levels=(/usr/share/games/supertux2/levels/world1/{welcome_antarctica,frosted_fields,icy_valley,night_chill,stone_cold}.st[l])

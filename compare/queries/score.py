@@ -93,7 +93,8 @@ def main():
     for path in sys.argv[2:]:
         with open(path, encoding="utf-8") as file:
             said = [json.loads(line) for line in file]
-        method = {"method": path, "tolerance": 0, "float": False, "clock": "native", **(said[0] if "id" not in said[0] else {})}
+        stated = said[0] if said and "id" not in said[0] else {}
+        method = {"method": path, "tolerance": 0, "float": False, "clock": "native", **stated}
         answers = {answer["id"]: answer for answer in said if "id" in answer}
         for kind in ("positive", "negative", "degenerate"):
             asked = [query for query in queries
