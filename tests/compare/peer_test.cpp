@@ -70,6 +70,9 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
            {answers("[[0,0,0.5],[0,0,0.2]]"), "thin_platform", "failed", "do not ascend"},
            {answers("[[0,0,0.5]]"), "thin_platform", "failed", "does not end at 1"},
            {answers("[]"), "thin_platform", "failed", "/characters/0/path: expected 1 or more"},
+           {answers(R"([[0,0,1]]},{\"path\":[[0,0,1]])"), "thin_platform", "failed", "answers for 2 of 1 characters"},
+           {answers(R"([[0,0,1]],\"ground\":{\"collider\":\"moon\"})"), "thin_platform", "failed",
+            "names a collider that there is not: moon"},
        }) {
     place.write("peer.sh", line.command + "\n");
     const json row = last_row(runs("compare " + line.scene + alone + "--json --peer 'sh peer.sh'"));

@@ -70,6 +70,8 @@ for column, value in (("missed", None), ("missed", 2), ("early", -2)):
 code, counted = with_change(lambda answers: answers[free[0]["id"]].update(contact=0.5))
 assert counted["negative"]["early"] == 1 and code == 0, counted
 assert with_change(lambda answers: answers.pop(some))[0] == 1, "an answer that is not there"
+code, counted = score("")
+assert code == 1 and not any(kind["answered"] for kind in counted.values()), "no answer at all"
 for off, column in ((1e-3, "missed"), (-1e-3, "early")):
     for tolerance, beyond in ((2e-3, 0), (5e-4, 1)):
         counted = with_change(lambda answers: answers[some].update(contact=answers[some]["contact"] + off / length),
