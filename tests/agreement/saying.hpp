@@ -19,8 +19,8 @@ namespace paperproof::test {
 struct Saying {
   Eigen::Matrix2d vector = Eigen::Matrix2d::Identity();
   Vec2d elsewhere{0, 0};  ///< By so much [m].
-  std::map<ColliderIndex, ColliderIndex>
-      colliders{};  ///< Those of the other way, by those of the run; empty: the same.
+  /// Those of the other way, by those of the run; empty: the same.
+  std::map<ColliderIndex, ColliderIndex> colliders{};
 
   [[nodiscard]] Vec2d of(const Vec2d& v) const { return vector * v; }
   [[nodiscard]] Vec2d of_place(const Vec2d& p) const { return of(p) + elsewhere; }
