@@ -82,7 +82,7 @@ bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const Trac
       return true;
     const double down = character.snap + std::min(risen, 0.0);
     const double back = (at.position + farthest(scenery.points(), ahead) - offset - *low).dot(ahead);
-    return character.snap > 0 && height <= character.snap && down > 0 &&
+    return character.snap > 0 && risen <= contact_reach && height <= character.snap && down > 0 &&
            leads_to_ground(header, scenery, at, {-(back + passes_by) * ahead}, down + contact_reach, up);
   });
 }

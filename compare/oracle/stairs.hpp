@@ -13,7 +13,8 @@ namespace paperproof::compare::detail {
 ///   `step_height` above this place and above where the step began, and goes no farther across than a slope of the
 ///   climb limit would.
 /// - Down, if the part is no higher than `snap`. The way goes straight back until the character is past the lowest
-///   point that it touches, and straight down, to at most `snap` below this place and below where the step began.
+///   point that it touches, and straight down, to at most `snap` below this place and below where the step began. So
+///   it stands only where the step has not risen.
 ///
 /// Where the step began goes along with what is ridden. A walker stands there as on level ground. Of what turns this is
 /// not asked.
