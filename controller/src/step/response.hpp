@@ -111,13 +111,13 @@ struct Desired {
   return best;
 }
 
-/// Rule 2 at one surface.
+/// Rule 2 at one surface. A motion along what moves enters it by rounding: that is no impact.
 /// @param u is changed. @param steered what steering adds across; what brakes is taken from it.
 inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, Vec2& u, Real& steered) {
   const Vec2& n = at.normal;
   const Real pressing = u.x() - at.rest.x();
   const bool is_ceiling = n.y() < 0;
-  if (at.margin(u) >= 0 || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
+  if (at.margin(u) >= -at.rounding || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
   if (steered * n.x() > 0) {
     const Real braked = std::abs(steered) < std::abs(pressing) ? steered : -pressing;
     u.x() += braked;

@@ -94,7 +94,7 @@ template <class Points>
 
 /// Whether a walker rests on a stair: on a corner or a side that is too steep to walk on, and
 /// - no higher than `step_height`, and just beyond its foot would stand, so much higher at most than the step began;
-/// - or no higher than `snap`, and past it there is ground, so much lower at most.
+/// - or no higher than `snap`, and past it there is ground, so much lower at most. No climb ends so.
 /// It stands there as on level ground. So a hull that is narrower at the foot rests with its slanted side on the corner
 /// of a stair, and so does a foot on the side of a kerb that leans back.
 [[nodiscard]] PAPERPROOF_COLD inline bool rests_on_stair(Step& step, const TouchedSurface& steep) {
@@ -123,7 +123,7 @@ template <class Points>
   const Vec2 flank = furthest(step.space.hull(), step.up.in_world({side, 0}));
   const Real past = step.up.across_of(Vec2(bottom + n * radius - flank - at)) - side * little;
   const Real down = step.settings.snap + std::min(risen, Real(0));
-  return std::max(height, tolerances.touch) <= step.settings.snap && down > 0 &&
+  return risen <= tolerances.touch && std::max(height, tolerances.touch) <= step.settings.snap && down > 0 &&
          lead_to_ground(step, {{past, 0}, {0, -down}});
 }
 

@@ -38,8 +38,9 @@ template <class MotionOf>
         surface.mover != no_mover &&
         (carries(surface) || surface.mover == step.moving.carrier || (surface.mover == first.mover && carries(first)));
     const Vec2 rest = is_carried_along ? motion : Vec2(surface.normal * dot(surface.normal, motion));
+    const Real rounding = along_plane * (length_of(desired.unsteered) + length_of(motion) + length_of(origin));
     add_plane({step.up.seen(surface.normal), dot(surface.normal, Vec2(motion - origin)), walkable(step, surface.normal),
-               step.up.seen(Vec2(rest - origin))},
+               step.up.seen(Vec2(rest - origin)), rounding},
               planes);
   }
   const std::optional<Desired> result =

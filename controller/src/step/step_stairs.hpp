@@ -84,12 +84,12 @@ PAPERPROOF_COLD inline void climb_stairs(Step& step, const Vec2& wanted, Real sp
   if (!step.climbs || step.result.status != StepStatus::moved || is_passed_through(step)) return;
   for (int stair = 0; stair < most_stairs; ++stair) {
     const Real left = step.up.across_of(Vec2(wanted - (step.position - Vec2(step.request.state.position))));
-    const bool is_steered = left * step.up.across_of(step.request.velocity) > 0 && std::abs(left) > tolerances.touch;
+    const bool goes_on = left * speed > 0 && std::abs(left) > tolerances.touch;
     const bool is_stopped = std::ranges::any_of(step.result.contacts, [&](const auto& contact) {
       return step.up.across_of(contact.normal) * left < 0 && step.up.up_of(contact.normal) >= -along_plane &&
              !walkable(step, contact.normal);
     });
-    if (!is_steered || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
+    if (!goes_on || !is_stopped || step.result.path.size() + most_legs > step.memory.most_corners) return;
     end_motion(step);
     const std::size_t corner = step.result.path.size() - 1;
     note_reported(step);
