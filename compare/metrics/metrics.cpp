@@ -88,7 +88,7 @@ void Metrics::match(const View& view, Matches& matches, Breaches& breaches) cons
       continue;
     }
     const bool excused = !right && !ghost && anywhere([&](const Moment& moment) {
-      return contains(promises_ ? moment.band : moment.dont_care, touch.first);
+      return promises_ ? contains(moment.band, touch) : contains(moment.dont_care, touch.first);
     });
     if (excused) {
       ++(promises_ ? matches.band : matches.reach);

@@ -88,7 +88,7 @@ class Metrics {
     int step = 0;
     std::vector<Touch> deflected{};
     std::vector<Touch> ahead{};
-    std::vector<ColliderIndex> band{};
+    std::vector<Touch> band{};
     bool beside_another = false;
   };
   struct Matches {

@@ -346,7 +346,7 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     const bool deflected = met_after_another(contact, others) || (turned_aside && ran_into(contact));
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
-    if (promises_ && near && has_face(contact)) judgement.contact_band.push_back(contact.collider);
+    if (promises_ && near && has_face(contact)) judgement.contact_band.emplace_back(contact.collider, contact.side);
     if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }
   std::sort(judgement.dont_care.begin(), judgement.dont_care.end());

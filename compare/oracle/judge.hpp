@@ -57,8 +57,8 @@ struct StepJudgement {
   std::vector<ExactContact> contacts;  ///< What should have been reported.
   /// Within reach of what the contender calls touching: neither right nor wrong.
   std::vector<ColliderIndex> dont_care;
-  /// Of the `dont_care`, those that are between where §6 of the guarantee begins to hit and where it lets go.
-  std::vector<ColliderIndex> contact_band;
+  /// Reported contacts that are between where §6 of the guarantee begins to hit and where it lets go.
+  std::vector<std::pair<ColliderIndex, Side>> contact_band;
   /// Reported contacts that no requested motion has, but what an exact contact leaves of it: right all the same.
   std::vector<std::pair<ColliderIndex, Side>> deflected;
   /// Reported contacts that are no farther than 1e-6 m, and met by the requested motion only after this step.

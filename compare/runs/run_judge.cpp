@@ -209,9 +209,10 @@ void RunJudge::judge_carrying(std::span<const TraceStep> records) {
 void RunJudge::leave_bodies_out(StepJudgement& judgement) const {
   const auto is_body = [this](ColliderIndex collider) { return header_.is_body(collider); };
   const auto of_body = [&](const auto& touch) { return is_body(touch.first); };
-  for (std::vector<ColliderIndex>* found : {&judgement.end_overlap, &judgement.dont_care, &judgement.contact_band})
+  for (std::vector<ColliderIndex>* found : {&judgement.end_overlap, &judgement.dont_care})
     std::erase_if(*found, is_body);
-  for (std::vector<std::pair<ColliderIndex, Side>>* found : {&judgement.deflected, &judgement.ahead, &judgement.ghosts})
+  for (std::vector<std::pair<ColliderIndex, Side>>* found :
+       {&judgement.contact_band, &judgement.deflected, &judgement.ahead, &judgement.ghosts})
     std::erase_if(*found, of_body);
   std::erase_if(judgement.contacts, [&](const ExactContact& contact) { return is_body(contact.collider); });
 }

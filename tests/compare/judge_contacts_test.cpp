@@ -84,7 +84,7 @@ TEST(JudgeOfContacts, what_a_rim_turns_aside_meets_the_other_wall_of_a_shaft) {
   const Touches right{{1, Side::right}};
   TraceStep fall = step({{0, rim + 1}, {0, rim}, {aside, rim - 2 * aside}, {aside, rim - 0.5}}, Vec2d(0, -1.5),
                         {contact(0, lower_left(), 0.4), contact(1, {-1, 0}, 0.5)});
-  EXPECT_EQ(judged(promising(shaft(0, aside + gap)), fall).contact_band, Colliders{0});
+  EXPECT_EQ(judged(promising(shaft(0, aside + gap)), fall).contact_band, Touches({{0, Side::left}}));
   EXPECT_EQ(judged(promising(shaft(0, aside + gap)), fall).deflected, right);
   fall.contacts.erase(fall.contacts.begin());
   EXPECT_TRUE(judged(promising(shaft(0, aside + gap)), fall).deflected.empty()) << "nothing turned it";
@@ -132,7 +132,7 @@ TEST(JudgeOfContacts, a_wall_that_is_held_is_met_or_not_by_the_rounding_of_a_sla
     TraceStep rest =
         step({{0, standing}, {0, standing}}, -up / 128, {contact(0, {0, 1}, 6e-5), contact(1, {-1, 0}, 1)});
     rest.up = up;
-    EXPECT_EQ(judged(corner, rest).contact_band, slanted ? Colliders{1} : Colliders{});
+    EXPECT_EQ(judged(corner, rest).contact_band, slanted ? Touches({{1, Side::right}}) : Touches{});
   }
 }
 

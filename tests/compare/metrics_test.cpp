@@ -169,10 +169,12 @@ TEST(Metrics, contacts_within_the_skin_count_neither_way) {
   run[1].judged.dont_care = {1};
   EXPECT_FALSE(row_of(run).contact_precision);
   EXPECT_EQ(row_of(run, promising).contact_precision, 0) << "who promises has no reach";
-  run[0].judged.contact_band = {0};
+  run[0].judged.contact_band = {{0, Side::bottom}};
   run[1].judged.deflected = {{1, Side::left}};
   EXPECT_EQ(row_of(run, promising).contact_precision, 1) << "one in the band, and one that is right";
   EXPECT_EQ(row_of(run, promising).contact_band, 1);
+  run[0].judged.contact_band = {{0, Side::left}};
+  EXPECT_EQ(row_of(run, promising).contact_precision, 0.5) << "the band of another side excuses nothing";
   run[1].judged.deflected.clear();
   run[0].judged.ghosts = {{0, Side::bottom}};
   EXPECT_EQ(row_of(run).contact_precision, 0) << "a ghost is wrong within the skin too";
