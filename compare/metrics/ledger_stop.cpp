@@ -113,8 +113,8 @@ bool StepLedger::follows_our_law() const {
   step.unsteered = step.wanted - m_.steered / dt_ * right_of(up);
   step.side_hit_ends_rise = mine_.header->character.side_hit_ends_rise;
   const auto follows = [&](bool grounded) {
-    const bool walks = begins_as_walk(*mine_.header, m_, grounded, step.wanted);
-    return !velocity_fault(step, met_surfaces(mine_solids_, m_.contacts, walks), m_.velocity);
+    const Wanted wanted{.velocity = step.wanted, .from_ground = grounded};
+    return !velocity_fault(step, met_surfaces(mine_solids_, m_.contacts, wanted), m_.velocity);
   };
   if (m_.respawn) return follows(m_.from && m_.from->grounded);
   if (before_ != nullptr) return follows(before_->mine.step.grounded);

@@ -53,10 +53,7 @@ bool EndJudge::meets_ground(const Vec2d& displacement) const {
   return false;
 }
 
-bool EndJudge::walks() const {
-  const Vec2d own = wanted_.velocity - wanted_.carried / dt_;
-  return !wanted_.jumped && begins_as_walk(header_, step_, wanted_.from_ground, own);
-}
+bool EndJudge::walks() const { return begins_as_walk(header_, step_, wanted_); }
 
 bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
 
@@ -82,7 +79,7 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
     };
     const bool on_ground = any_face(holds);
     const bool on_stair = walks() && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-                            return is_stair(header_, scenery_, step_, end(), part);
+                            return is_stair(header_, scenery_, step_, wanted_.carried, end(), part);
                           });
     judgement.ground_refuted = !on_ground && !on_stair && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
     judgement.hovers = judgement.hovers || (on_ground && !stands_on_ground());
@@ -262,7 +259,7 @@ bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
   const Place landing(above + ahead - (down - contact_reach / 2) * up_, step_.movers, 1);  // not in it by rounding
   const std::vector<NearPart> parts = scenery_.near_parts(landing, contact_reach);
   return down < rise - 2 * contact_reach && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-           return is_stair(header_, scenery_, step_, landing, part);
+           return is_stair(header_, scenery_, step_, wanted_.carried, landing, part);
          });
 }
 

@@ -35,8 +35,8 @@ Reach reach_of(const TraceHeader& header) {
 }
 
 HangingJudge::HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                           const WhatTurns& turns, const Vec2d& up, bool walks)
-    : header_(header), scenery_(scenery), step_(step), turns_(turns), up_(up), walks_(walks) {}
+                           const WhatTurns& turns, const Vec2d& up, const Wanted* walk)
+    : header_(header), scenery_(scenery), step_(step), turns_(turns), up_(up), walk_(walk) {}
 
 bool HangingJudge::HalfPlane::holds(const Vec2d& d) const {
   return normal.dot(d) - bound >= -normal_rounding * (d.norm() + std::abs(bound));
@@ -193,7 +193,8 @@ bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double withi
 bool HangingJudge::is_ground(std::size_t corner, const NearPart& part) const {
   return std::any_of(part.faces.begin(), part.faces.end(),
                      [&](const NearFace& face) { return is_walkable(face.normal, header_, up_); }) ||
-         (walks_ && is_stair(header_, scenery_, step_, Place(step_.path[corner], step_.movers), part));
+         (walk_ != nullptr &&
+          is_stair(header_, scenery_, step_, walk_->carried, Place(step_.path[corner], step_.movers), part));
 }
 
 /// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of

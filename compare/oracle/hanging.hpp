@@ -3,6 +3,7 @@
 
 #include "oracle/crush.hpp"
 #include "oracle/exact.hpp"
+#include "oracle/intent.hpp"
 #include "records/trace.hpp"
 
 namespace paperproof::compare::detail {
@@ -28,9 +29,9 @@ enum class Bounds : std::uint8_t { safe, nominal };
 class HangingJudge {
  public:
   /// @param up of the character in this step, a unit vector: it falls against that.
-  /// @param walks the step begins as a walk, which stairs hold: see `is_stair`.
+  /// @param walk what a step wants that begins as a walk, which stairs hold: see `is_stair`.
   HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const WhatTurns& turns,
-               const Vec2d& up = {0, 1}, bool walks = false);
+               const Vec2d& up = {0, 1}, const Wanted* walk = nullptr);
 
   /// @param made what the step went [m].
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach, Bounds bounds = Bounds::safe) const;
@@ -72,7 +73,7 @@ class HangingJudge {
   const TraceStep& step_;
   const WhatTurns& turns_;
   Vec2d up_;
-  bool walks_;
+  const Wanted* walk_;
 };
 
 }  // namespace paperproof::compare::detail

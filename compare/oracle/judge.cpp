@@ -285,9 +285,9 @@ void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const 
       wanted != nullptr ? detail::later_parts(header_, step, *wanted) : detail::LaterParts{};
   std::optional<TraceStep> whole;
   if (later.any()) whole.emplace(step).requested += later.way;
-  const bool walks = promises_ && wanted != nullptr && !wanted->jumped &&
-                     begins_as_walk(header_, step, wanted->from_ground, wanted->velocity);
-  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, turns, up_in(step, header_), walks);
+  const bool walks = promises_ && wanted != nullptr && begins_as_walk(header_, step, *wanted);
+  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, turns, up_in(step, header_),
+                                     walks ? wanted : nullptr);
   if (promises_ && wanted != nullptr) {
     const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, turns, later);
     end.judge_ground(hanging, starts_free, judgement);

@@ -74,7 +74,9 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
     const PathPoint& atop = step.path[std::min(k + 1, step.path.size() - 1)];
     const Vec2d made = seen(atop.position - step.path[k - 2].position, up);
     const bool leads_on = made.y() > guaranteed_touch && made.x() * walk.dot(right_of(up)) > 0;
-    if (leads_on && is_stopped(k - 2)) ++climbed;
+    std::size_t stopped = k - 1;  // what stopped it may have gone on since
+    while (leads_on && stopped > 0 && !is_stopped(stopped - 1)) --stopped;
+    if (leads_on && stopped > 0) ++climbed;
   }
   return std::min(climbed, most_stairs);
 }
@@ -150,7 +152,8 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
         }
         add(at);
       }
-      if (first_.from_ground && is_stair(header_, scenery_, step_, Place(step_.path[corner], step_.movers), part))
+      if (first_.from_ground &&
+          is_stair(header_, scenery_, step_, first_.carried, Place(step_.path[corner], step_.movers), part))
         add({.normal = {0, 1}, .velocity = seen(part.moved, up_) / dt_, .walkable = true});
     }
   return surfaces;
@@ -406,8 +409,7 @@ double LegJudge::leg_error() const {
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
   law.sides = sides_of(header_, up_);
   const SolidsInStep solids(header_, scenery_, step_);
-  const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
-  const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks, first_.stays_on());
+  const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, first_);
   std::vector<Vec2d> outcomes{law.wanted};
   std::size_t met = 0;
   double off = 0;

@@ -20,9 +20,9 @@ namespace paperproof::compare::detail {
 /// Who begins inside of what turns is put aside by at most so many times the depth.
 inline constexpr double most_of_depth = 4;
 
-/// How many stairs a walk climbs, at most 4: beside a face that stops it, too steep to walk on, a leg goes straight up
-/// by no more than `step_height`, the next one takes no time, and after a third it is farther and higher than it was;
-/// and the step ends on ground.
+/// How many stairs a walk climbs, at most 4: in the step it came to a face that stops it, too steep to walk on; a leg
+/// goes straight up by no more than `step_height`, the next one takes no time, and after a third it is farther and
+/// higher than it was; and the step ends on ground.
 [[nodiscard]] int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
                                  const WhatTurns& turns, const Wanted& wanted);
 

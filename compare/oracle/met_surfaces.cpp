@@ -89,22 +89,23 @@ struct Touching {
   }
 };
 
-/// The colliders that are a stair there.
-std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const PathPoint& at) {
-  const ExactScenery& there = solids.at(at.fraction);
-  const Place place(at, solids.step().movers);
-  std::vector<ColliderIndex> stairs;
-  for (const NearPart& part : there.near_parts(place, touched))
-    if (detail::is_stair(solids.header(), there, solids.step(), place, part)) stairs.push_back(part.collider);
-  return stairs;
-}
-
 bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
     return part.faces.front().separation <= touched && is_walked_on(part.faces.front().normal, solids.header(), up);
   });
+}
+
+/// The colliders that are a stair there. Who touches ground stands on that.
+std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const Vec2d& carried, const PathPoint& at) {
+  if (touches_ground(solids, at)) return {};
+  const ExactScenery& there = solids.at(at.fraction);
+  const Place place(at, solids.step().movers);
+  std::vector<ColliderIndex> stairs;
+  for (const NearPart& part : there.near_parts(place, touched))
+    if (detail::is_stair(solids.header(), there, solids.step(), carried, place, part)) stairs.push_back(part.collider);
+  return stairs;
 }
 
 }  // namespace
@@ -184,10 +185,11 @@ Vec2d velocity_of(const SolidsInStep& solids, const Contact& touch) {
          solids.moved(touch.collider, touch.point, touch.fraction) / length_of(solids.step(), solids.header());
 }
 
-bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted) {
+bool begins_as_walk(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
   const Vec2d up = up_in(step, header);
   const double steepest = std::tan(header.character.max_climb_degrees * std::numbers::pi / 180);
-  return grounded && wanted.dot(up) <= std::abs(wanted.dot(right_of(up))) * steepest;
+  const Vec2d own = wanted.velocity - wanted.carried / length_of(step, header);
+  return wanted.from_ground && !wanted.jumped && own.dot(up) <= std::abs(own.dot(right_of(up))) * steepest;
 }
 
 std::vector<Vec2d> sides_of(const TraceHeader& header, const Vec2d& up) {
@@ -199,9 +201,11 @@ std::vector<Vec2d> sides_of(const TraceHeader& header, const Vec2d& up) {
   return sides;
 }
 
-std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts, bool walks,
-                                     std::optional<ColliderIndex> ridden) {
+std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts,
+                                     const Wanted& wanted) {
   const TraceStep& step = solids.step();
+  const std::optional<ColliderIndex> ridden = wanted.stays_on();
+  bool walks = begins_as_walk(solids.header(), step, wanted);
   const Vec2d up = up_in(step, solids.header());
   std::vector<MetSurface> surfaces;
   const std::vector<ColliderDef>& colliders = solids.header().scenery.colliders;
@@ -246,7 +250,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     };
     while (corner != path.end()) {
       const bool on_stair = may_stand_on_stairs && !one.walkable && one.normal.dot(up) > 0 &&
-                            contains(stairs_at(solids, *corner), touch.collider);
+                            contains(stairs_at(solids, wanted.carried, *corner), touch.collider);
       one.climbs = touches_ground(solids, *corner);
       one.is_beside = touching.is_beside(*corner);
       const auto leaves = std::find_if_not(corner + 1, path.end(), is_touched);
@@ -265,7 +269,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     }
   }
   if (may_stand_on_stairs && step.grounded)
-    for (const ColliderIndex collider : stairs_at(solids, step.path.back())) {
+    for (const ColliderIndex collider : stairs_at(solids, wanted.carried, step.path.back())) {
       surfaces.push_back(level(collider));
       surfaces.back().met = 1;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "oracle/exact.hpp"
+#include "oracle/intent.hpp"
 #include "oracle/met_surface.hpp"
 #include "records/trace.hpp"
 
@@ -66,16 +67,14 @@ class SolidsInStep {
 
 /// Whether a step begins as a walk on the ground, so that what rises in it is a climb: a rise that is steeper than any
 /// walkable ground is a jump.
-/// @param grounded at the end of the step before. @param wanted in the step [m/s].
-[[nodiscard]] bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted);
+[[nodiscard]] bool begins_as_walk(const TraceHeader& header, const TraceStep& step, const Wanted& wanted);
 
 /// See `ControlledStep`.
 [[nodiscard]] std::vector<Vec2d> sides_of(const TraceHeader& header, const Vec2d& up);
 
 /// The surfaces of the contacts, in their order, for the law of octagon_sweep.
 /// @param contacts of the step: those reported, or of these the ones that exact arithmetic confirms.
-/// @param walks see `begins_as_walk`. @param ridden what the step rides from its begin on.
 [[nodiscard]] std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact> contacts,
-                                                   bool walks, std::optional<ColliderIndex> ridden = {});
+                                                   const Wanted& wanted);
 
 }  // namespace paperproof::compare

@@ -41,14 +41,13 @@ bool leads_to_ground(const TraceHeader& header, const ExactScenery& scenery, con
 
 }  // namespace
 
-bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Place& at,
-              const NearPart& part) {
+bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Vec2d& carried,
+              const Place& at, const NearPart& part) {
   const Vec2d up = up_in(step, header);
   const CharacterDef& character = header.character;
   if (character.snap == 0 && character.step_height == 0) return false;
   const ColliderDef& collider = scenery.scenery().colliders[part.collider];
   const Vec2d offset = collider.mover == no_mover || at.movers.empty() ? Vec2d::Zero() : at.offset(collider.mover);
-  const Vec2d carried = step.ride ? Vec2d(step.ride->velocity * length_of(step, header)) : Vec2d(Vec2d::Zero());
   const double risen = (at.position - step.path.front().position - carried * at.fraction).dot(up);
   const double climb = character.max_climb_degrees * std::numbers::pi / 180;
   return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {

@@ -18,7 +18,8 @@ namespace paperproof::compare::detail {
 ///
 /// Where the step began goes along with what is ridden. A walker stands there as on level ground. Of what turns this is
 /// not asked.
+/// @param carried the way that what is ridden takes it in the step [m]: not what the walker climbs onto.
 [[nodiscard]] bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                            const Place& at, const NearPart& part);
+                            const Vec2d& carried, const Place& at, const NearPart& part);
 
 }  // namespace paperproof::compare::detail

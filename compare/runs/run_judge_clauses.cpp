@@ -112,8 +112,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * right_of(up);
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   step.sides = sides_of(header_, up);
-  const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
-  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks, wanted.stays_on());
+  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, wanted);
   // What turns has no one normal in a step, nor has the ground that is left one velocity: there only its size is
   // judged.
   const auto turns = [](const MetSurface& at) { return at.spread > hardly_turns; };
