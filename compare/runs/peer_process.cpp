@@ -13,9 +13,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -33,6 +33,18 @@ std::string ending_of(int status) {
   return fmt::format("ended with status {}", WEXITSTATUS(status));
 }
 
+/// Leads a group of processes, and ends it with itself once nobody reads what the group writes to its standard error:
+/// who started it has ended, perhaps by a signal that nothing catches.
+[[noreturn]] void end_group_with_reader(int errors) {
+  setpgid(0, 0);
+  dup2(errors, STDIN_FILENO);
+  close_range(STDIN_FILENO + 1, std::numeric_limits<unsigned>::max(), 0);  // other peers are to read their end
+  pollfd reader{STDIN_FILENO, 0, 0};
+  while (poll(&reader, 1, -1) < 0) continue;
+  kill(0, SIGKILL);
+  _exit(0);
+}
+
 }  // namespace
 
 PeerProcess::PeerProcess(const std::string& command) {
@@ -40,10 +52,13 @@ PeerProcess::PeerProcess(const std::string& command) {
   std::array<int, 2> said{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, talk.data()) != 0 || pipe2(said.data(), O_CLOEXEC) != 0)
     throw std::runtime_error(fmt::format("no peer can be started: {}", std::strerror(errno)));
-  child_ = fork();
+  guard_ = fork();
+  if (guard_ == 0) end_group_with_reader(said[1]);
+  setpgid(guard_, guard_);
+  child_ = guard_ < 0 ? guard_ : fork();
   if (child_ < 0) throw std::runtime_error(fmt::format("no peer can be started: {}", std::strerror(errno)));
   if (child_ == 0) {
-    setpgid(0, 0);  // what it starts ends with it
+    if (setpgid(0, guard_) != 0) _exit(127);
     dup2(talk[1], STDIN_FILENO);
     dup2(talk[1], STDOUT_FILENO);
     dup2(said[1], STDERR_FILENO);
@@ -60,12 +75,11 @@ PeerProcess::PeerProcess(const std::string& command) {
 
 PeerProcess::~PeerProcess() {
   close(talk_);  // it reads the end of its input
-  if (child_ > 0) {
-    const bool ended = wait_for_end().has_value();
-    kill(-child_, SIGKILL);
-    if (!ended) waitpid(child_, nullptr, 0);
-  }
-  if (said_ >= 0) close(said_);
+  const bool ended = ends_in_time();
+  kill(-guard_, SIGKILL);
+  if (!ended) waitpid(child_, nullptr, 0);
+  waitpid(guard_, nullptr, 0);
+  close(said_);
 }
 
 std::string PeerProcess::ask(const std::string& line, std::chrono::milliseconds patience) {
@@ -105,9 +119,8 @@ void PeerProcess::wait(short events, Clock::time_point until) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
     if (left.count() <= 0) give_up("says nothing");
     std::array<pollfd, 2> ends{pollfd{talk_, events, 0}, pollfd{said_, POLLIN, 0}};
-    const bool listens = said_ >= 0;
-    if (poll(ends.data(), listens ? 2 : 1, static_cast<int>(left.count())) < 0) continue;
-    if (listens && ends[1].revents != 0) read_errors();
+    if (poll(ends.data(), ends.size(), static_cast<int>(left.count())) < 0) continue;
+    if (ends[1].revents != 0) read_errors();
     if (ends[0].revents != 0) return;
   }
 }
@@ -119,30 +132,23 @@ void PeerProcess::read_errors() {
     errors_.append(part.data(), static_cast<std::size_t>(got));
     if (errors_.size() > most_errors) errors_.erase(0, errors_.size() - most_errors);
   }
-  if (got == 0) {  // it has closed it
-    close(said_);
-    said_ = -1;
-  }
 }
 
-/// @return its status, once it has ended by itself; nothing where it goes on.
-std::optional<int> PeerProcess::wait_for_end() {
+/// @return whether it has ended by itself.
+bool PeerProcess::ends_in_time() {
   int status = 0;
-  for (const Clock::time_point until = Clock::now() + time_to_end; Clock::now() < until;) {
-    if (waitpid(child_, &status, WNOHANG) == child_) return status;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return std::nullopt;
+  for (const Clock::time_point until = Clock::now() + time_to_end; !status_ && Clock::now() < until;)
+    if (waitpid(child_, &status, WNOHANG) == child_)
+      status_ = status;
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return status_.has_value();
 }
 
 /// @param reason empty: its output has ended.
 void PeerProcess::give_up(std::string reason) {
-  if (reason.empty()) {
-    const std::optional<int> status = wait_for_end();
-    reason = status ? ending_of(*status) : "closed its output";
-    if (status) kill(-std::exchange(child_, -1), SIGKILL);  // what it started
-  }
-  if (said_ >= 0) read_errors();
+  if (reason.empty()) reason = ends_in_time() ? ending_of(*status_) : "closed its output";
+  read_errors();
   throw std::runtime_error(one_line("the peer " + reason + (errors_.empty() ? "" : ": " + errors_)));
 }
 

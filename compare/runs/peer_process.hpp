@@ -9,7 +9,8 @@
 
 namespace paperproof::compare {
 
-/// Runs a command in a shell, and ends it with everything that it started. Not thread-safe.
+/// Runs a command in a shell, and ends it with everything that it started; so does the end of this process, however it
+/// comes. Not thread-safe.
 class PeerProcess {
  public:
   /// @throws std::runtime_error where no process can be started.
@@ -29,12 +30,14 @@ class PeerProcess {
   void send(const std::string& text, Clock::time_point until);
   void wait(short events, Clock::time_point until);
   void read_errors();
-  [[nodiscard]] std::optional<int> wait_for_end();
+  [[nodiscard]] bool ends_in_time();
   [[noreturn]] void give_up(std::string reason);
 
+  pid_t guard_ = -1;  ///< Leads the group of all that the command starts.
   pid_t child_ = -1;
-  int talk_ = -1;  ///< Its standard input and output.
-  int said_ = -1;  ///< Its standard error.
+  std::optional<int> status_;  ///< Of the child, once it has ended.
+  int talk_ = -1;              ///< Its standard input and output.
+  int said_ = -1;              ///< Its standard error.
   std::string unread_;
   std::string errors_;  ///< The end of them.
 };

@@ -98,6 +98,18 @@ while read step; do echo "{\"characters\":[{\"path\":[[0,0.7,1]]}]}"; done)");
   EXPECT_TRUE(holds(several.out, "stands in lift_up: p 1 does not say that it can: movers\n"));
 }
 
+/// Descriptor 9 is open as long as anything runs that the peer started.
+TEST_F(Peer, ends_with_all_that_it_started_however_the_command_ends) {
+  place.write("stays.sh", "sleep 99; exit\n");
+  const std::string peer = " --no-reference --peer 'sh stays.sh' 9>&1 >/dev/null 2>&1; } | timeout 20 cat #";
+  const auto ended_by = [&](const std::string& end) { return "{ timeout --foreground -s " + end + " 1"; };
+  const std::string compare = "compare thin_platform --contender octagon_sweep";
+  for (const char* end : {"INT", "TERM", "HUP", "KILL"})
+    EXPECT_EQ(place.run(compare + peer, ended_by(end)).status, 0) << end;
+  const std::string sweep = "sweep paper --vary speed=10,20 --contender octagon_sweep --jobs 2";
+  EXPECT_EQ(place.run(sweep + peer, ended_by("KILL")).status, 0);
+}
+
 TEST_F(Peer, that_keeps_its_skin_exactly_touches) {
   place.write("stands.py", R"(import json, sys
 sys.stdin.readline()
