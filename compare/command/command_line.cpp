@@ -133,9 +133,10 @@ void add_run_options(CLI::App& command, RunArguments& run) {
   add_option(command, "--log", run.log_path, "FILE", "Write how far the work is to this file, a line every 5 s");
   add_option(command, "--jobs", run.jobs, "N", "Processes at a time; one for each core where it is not given")
       .check(expect_whole_number(1024));
-  add_option(command, "--limit", run.limit_s, "SECONDS",
-             "A case that takes longer than this fails; where not given 60 s in a sweep, 10 minutes in `study "
-             "disagreement`, an hour in other studies, and a day on their full grid")
+  add_option(
+      command, "--limit", run.limit_s, "SECONDS",
+      "A case that takes longer than this fails, with a minute more where peers are to greet; where not given 60 s "
+      "in a sweep, 10 minutes in `study disagreement`, an hour in other studies, and a day on their full grid")
       .check(expect_whole_number(1'000'000));
   add_option(command, "--shard", run.shard, "K/N",
              "Every N-th case, from the K-th on; `merge` puts the parts together");

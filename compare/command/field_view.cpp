@@ -3,6 +3,7 @@
 #include "records/case.hpp"
 #include "report/row_pictures.hpp"
 #include "runs/environment.hpp"
+#include "runs/peers.hpp"
 #include "runs/spot_check.hpp"
 #include "runs/view.hpp"
 #include "studies/processes.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr const char* ours = "octagon_sweep";
 constexpr std::size_t checks_of_peer = 3;
-constexpr std::chrono::seconds longest_check{60};
+constexpr std::chrono::seconds longest_check = longest_greeting + std::chrono::seconds(60);
 constexpr double millimetres = 1e3;
 
 double badness(const Row& row) { return row.badness.value_or(-1); }

@@ -143,8 +143,9 @@ void StudyRun::run() {
     progress.show(fmt::format("{} of {} cases,", done_, count_),
                   static_cast<double>(job + 1) / static_cast<double>(jobs.count));
   };
-  run_in_processes(jobs,
-                   {processes_for(arguments_.jobs), std::chrono::seconds(arguments_.limit_s.value_or(cases_.limit_s))});
+  std::chrono::seconds limit(arguments_.limit_s.value_or(cases_.limit_s));
+  if (!peers().empty()) limit += longest_greeting;
+  run_in_processes(jobs, {processes_for(arguments_.jobs), limit});
   progress.clear();
 }
 

@@ -24,8 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// An engine may have to be loaded, and compiled.
-constexpr std::chrono::minutes patience_at_first{1};
 constexpr std::chrono::seconds patience{10};
 
 /// What a scene may have, and not every engine.
@@ -150,7 +148,7 @@ class PeerContender final : public Contender {
 
   /// The peer hears the scene, and says who it is.
   void greet(const Scene& scene) {
-    const Json greeting = ask({{"paperproof_peer", 1}, {"run", trace_header_json(header_)}}, "name", patience_at_first);
+    const Json greeting = ask({{"paperproof_peer", 1}, {"run", trace_header_json(header_)}}, "name", longest_greeting);
     engine_ = greeting["name"].get<std::string>() + ' ' + greeting["version"].get<std::string>();
     const Json can = greeting.value("can", Json::array());
     for (const Feature& feature : features)

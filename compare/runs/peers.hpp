@@ -3,11 +3,15 @@
 
 #include "records/row.hpp"
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace paperproof::compare {
+
+/// An engine may have to be loaded, and compiled, before it greets.
+inline constexpr std::chrono::seconds longest_greeting{60};
 
 struct Peer {
   std::string name;     ///< As a contender: letters, digits and underscores.

@@ -98,6 +98,12 @@ while read step; do echo "{\"characters\":[{\"path\":[[0,0.7,1]]}]}"; done)");
   EXPECT_TRUE(holds(several.out, "stands in lift_up: p 1 does not say that it can: movers\n"));
 }
 
+TEST_F(Peer, may_greet_later_than_a_case_may_take) {
+  place.write("late.sh", R"(sleep 1.5; echo '{"refuses":"it is late"}')");
+  runs("sweep paper --contender octagon_sweep --limit 1 --quiet --rows r.jsonl --peer 'sh late.sh'");
+  EXPECT_EQ(json_lines(written("r.jsonl")).back()["reason"], "it is late");
+}
+
 /// Descriptor 9 is open as long as anything runs that the peer started.
 TEST_F(Peer, ends_with_all_that_it_started_however_the_command_ends) {
   place.write("stays.sh", "sleep 99; exit\n");
