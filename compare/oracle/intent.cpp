@@ -1,5 +1,6 @@
 #include "oracle/intent.hpp"
 
+#include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/met_surfaces.hpp"
 #include "oracle/up.hpp"
@@ -25,6 +26,15 @@ bool touches_from_above(const TraceStep& step, const Vec2d& up) {
   const auto looks_up = [&up](const auto& contact) { return contact.normal.dot(up) > 0; };
   return std::any_of(step.contacts.begin(), step.contacts.end(), looks_up) ||
          std::any_of(step.met.begin(), step.met.end(), looks_up);
+}
+
+bool is_wall_ahead(const TraceHeader& header, const ExactScenery& solids, const Place& at, const Vec2d& up,
+                   double move) {
+  const Vec2d there = right_of(up) * std::copysign(header.character.wall_reach, move);
+  const std::vector<ExactImpact> impacts = solids.impacts(at, there);
+  return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
+    return detail::side_along(impact.normal, up) == (move < 0 ? Side::left : Side::right);
+  });
 }
 
 void Intent::start_anew(const TraceStep& step) {

@@ -2,6 +2,7 @@
 /// says.
 #pragma once
 
+#include "oracle/exact.hpp"
 #include "records/trace.hpp"
 
 #include <functional>
@@ -32,6 +33,11 @@ struct Wanted {
 /// Whether it says that it touched something from above.
 [[nodiscard]] bool touches_from_above(const TraceStep& step, const Vec2d& up);
 
+/// Whether a wall is beside the character in the direction of `move`, within the character's `wall_reach`.
+/// @param solids of the header: what turns is none of them.
+[[nodiscard]] bool is_wall_ahead(const TraceHeader& header, const ExactScenery& solids, const Place& at,
+                                 const Vec2d& up, double move);
+
 /// The discrete law of motion (§4 of the design), for one character: horizontal speed approaches the input's by
 /// acceleration times dt, a jump that is allowed sets the upward speed, gravity is added, the fall is limited, and the
 /// displacement is the velocity times dt (semi-implicit Euler). On ground that carries, all of it is relative to the
@@ -43,8 +49,7 @@ struct Wanted {
 /// who lands in one may jump in the next. Feed it every step of one character in order. Not thread-safe.
 class Intent {
  public:
-  /// Whether a wall is beside the character in the direction of `move`, within the character's `wall_reach`: for the
-  /// rule that it cannot jump toward a wall.
+  /// See `is_wall_ahead`: for the rule that it cannot jump toward a wall.
   using WallAhead = std::function<bool(const TraceStep& step, double move)>;
 
   /// @param header must outlive this.

@@ -176,7 +176,7 @@ class Box2dContender final : public Contender {
     if (input.up != Vec2d::UnitY()) throw StepRefused("Box2D's twin stands upright, and the run ends there");
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
-      wishes_[k] = {intent_.wanted(twins_[k], input.players[k], input), input.players[k].drop};
+      wishes_[k] = {intent_.wanted(twins_[k], world_.position(k), input.players[k], input), input.players[k].drop};
     if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
     take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
@@ -189,7 +189,7 @@ class Box2dContender final : public Contender {
     input.movers = step.movers;
     EngineStep ended{.velocity = step.velocity, .grounded = step.grounded};
     if (step.ground) ended.ground = EngineGround{step.ground->collider, step.ground->normal};
-    intent_.take_over(ended, input, twin);
+    intent_.take_over(ended, input, step.contacts, twin);
   }
 
   void take_turns(const StepInput& input) {

@@ -1,5 +1,8 @@
 #include "runs/engine_intent.hpp"
 
+#include "oracle/intent.hpp"
+#include "oracle/turning.hpp"
+
 #include <paperproof/controller.hpp>
 
 namespace paperproof::compare {
@@ -17,20 +20,34 @@ void clear(TraceStep& record) {
   record.stuck = record.dropped = record.capped = false;
 }
 
-Vec2d EngineIntent::wanted(EngineCharacter& who, const Input& player, const StepInput& input) const {
+Vec2d EngineIntent::wanted(EngineCharacter& who, const Vec2d& at, const Input& player, const StepInput& input) {
   who.state.velocity -= who.state.ride.velocity;
   const Vec2d carried = velocity_of_ground(who.state.ride.ground, who.ground_normal, input);
-  const DesiredVelocity own = desired_velocity(header_.character, input.gravity, player, input.dt, who.state);
+  const double move = player.move.value_or(0);
+  const bool may_press = player.jump || who.state.jump_pending;
+  bool wall_ahead = false;
+  if (header_.character.no_jump_toward_wall && may_press && who.state.grounded && move != 0) {
+    if (!solids_) solids_ = std::make_unique<ExactScenery>(detail::TurningJudge::exact_part(header_), header_.points);
+    wall_ahead = is_wall_ahead(header_, *solids_, {at, input.movers, 0}, input.up, move);
+  }
+  const DesiredVelocity own =
+      desired_velocity(header_.character, input.gravity, player, input.dt, who.state, wall_ahead);
   who.steered = own.steered;
   return carried + own.velocity;
 }
 
 /// A character that comes to rest on what carries is carried at once; one with a speed of its own keeps it, as for the
 /// controller.
-void EngineIntent::take_over(const EngineStep& step, const StepInput& input, EngineCharacter& who) const {
+void EngineIntent::take_over(const EngineStep& step, const StepInput& input, std::span<const Contact> contacts,
+                             EngineCharacter& who) const {
   CharacterState& state = who.state;
   state.velocity = step.velocity;
   state.grounded = step.grounded;
+  state.wall_left = state.wall_right = false;
+  for (const Contact& contact : contacts) {
+    state.wall_left = state.wall_left || contact.side == Side::left;
+    state.wall_right = state.wall_right || contact.side == Side::right;
+  }
   const bool comes_to_rest = state.ride.ground == Ride::none && state.velocity.x() == 0;
   state.ride = {};
   if (step.ground) {

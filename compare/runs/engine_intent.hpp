@@ -1,8 +1,10 @@
 /// What a character wants that another engine moves: the same as ours would in its place.
 #pragma once
 
+#include "oracle/exact.hpp"
 #include "runs/contender.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace paperproof::compare {
@@ -37,15 +39,17 @@ class EngineIntent {
   explicit EngineIntent(const TraceHeader& header) : header_(header) {}
 
   /// The velocity that is wanted in this step [m/s]. On ground that carries it is relative to that, as it is for the
-  /// controller. Notes what was steered.
-  [[nodiscard]] Vec2d wanted(EngineCharacter& who, const Input& player, const StepInput& input) const;
-  /// @param input of the step that ended.
-  void take_over(const EngineStep& step, const StepInput& input, EngineCharacter& who) const;
+  /// controller. Notes what was steered. @param at where the character is.
+  [[nodiscard]] Vec2d wanted(EngineCharacter& who, const Vec2d& at, const Input& player, const StepInput& input);
+  /// @param input of the step that ended. @param contacts in it.
+  void take_over(const EngineStep& step, const StepInput& input, std::span<const Contact> contacts,
+                 EngineCharacter& who) const;
 
  private:
   [[nodiscard]] Vec2d velocity_of_ground(ColliderIndex ground, const Vec2d& normal, const StepInput& input) const;
 
   const TraceHeader& header_;
+  std::unique_ptr<ExactScenery> solids_;  ///< Made where a wall may forbid a jump.
 };
 
 }  // namespace paperproof::compare

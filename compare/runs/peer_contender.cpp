@@ -89,7 +89,7 @@ class PeerContender final : public Contender {
     if (input.up != Vec2d::UnitY()) throw StepRefused("a peer stands upright, and the run ends there");
     std::vector<Vec2d> wanted;
     for (std::size_t k = 0; k < characters_.size(); ++k)
-      wanted.push_back(intent_.wanted(characters_[k], input.players[k], input));
+      wanted.push_back(intent_.wanted(characters_[k], places_[k].position, input.players[k], input));
     const Json answer = answer_to(question_of(input, wanted));
     if (answer["characters"].size() != characters_.size())
       throw std::runtime_error(
@@ -228,22 +228,6 @@ class PeerContender final : public Contender {
         throw std::runtime_error("the times of the peer's way do not ascend");
     if (record.path.back().fraction != 1) throw std::runtime_error("the peer's way does not end at 1");
     places_[k].position = record.path.back().position;
-    EngineStep ended{.velocity = (record.path.back().position - record.path.front().position) / input.dt,
-                     .grounded = said.value("grounded", false)};
-    if (said.contains("velocity")) ended.velocity = point_of(said["velocity"]);
-    if (said.contains("ground"))
-      ended.ground = EngineGround{collider_named(said["ground"]["collider"]),
-                                  point_of(said["ground"].value("normal", Json{0, 1}))};
-    intent_.take_over(ended, input, characters_[k]);
-    const CharacterState& state = characters_[k].state;
-    record.velocity = state.velocity;
-    record.grounded = state.grounded;
-    record.jumping = state.jumping;
-    record.ride = recorded_ride(state.ride);
-    record.stuck = said.value("stuck", false);
-    for (const Json& id : said.value("dropped_through", Json::array()))
-      record.dropped_through.push_back(collider_named(id));
-    std::sort(record.dropped_through.begin(), record.dropped_through.end());
     for (const Json& contact : said.value("contacts", Json::array())) {
       const Vec2d normal = point_of(contact["normal"]);
       record.contacts.push_back({.collider = collider_named(contact["collider"]),
@@ -253,6 +237,22 @@ class PeerContender final : public Contender {
                                  .separation = contact.value("separation", 0.0),
                                  .side = side_of_normal(normal.x(), normal.y())});
     }
+    EngineStep ended{.velocity = (record.path.back().position - record.path.front().position) / input.dt,
+                     .grounded = said.value("grounded", false)};
+    if (said.contains("velocity")) ended.velocity = point_of(said["velocity"]);
+    if (said.contains("ground"))
+      ended.ground = EngineGround{collider_named(said["ground"]["collider"]),
+                                  point_of(said["ground"].value("normal", Json{0, 1}))};
+    intent_.take_over(ended, input, record.contacts, characters_[k]);
+    const CharacterState& state = characters_[k].state;
+    record.velocity = state.velocity;
+    record.grounded = state.grounded;
+    record.jumping = state.jumping;
+    record.ride = recorded_ride(state.ride);
+    record.stuck = said.value("stuck", false);
+    for (const Json& id : said.value("dropped_through", Json::array()))
+      record.dropped_through.push_back(collider_named(id));
+    std::sort(record.dropped_through.begin(), record.dropped_through.end());
   }
 
   [[nodiscard]] ColliderIndex collider_named(const std::string& id) const {

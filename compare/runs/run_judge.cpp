@@ -79,15 +79,6 @@ bool RunJudge::is_beside_another(const TraceStep& turn, const Follower& follower
   return went_near(turn.movers) || went_near(before);
 }
 
-bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
-  const Vec2d up = up_in(record, header_);
-  const Vec2d there = right_of(up) * std::copysign(header_.character.wall_reach, move);
-  for (const ExactImpact& impact : scenery().impacts({record.path.front(), record.movers}, there))
-    if (side_of_normal(impact.normal.dot(right_of(up)), impact.normal.dot(up)) == (move < 0 ? Side::left : Side::right))
-      return true;
-  return false;
-}
-
 /// What one of them does in its turn is the step of a character alone among movers.
 void RunJudge::begin_turns(const TraceStep& record) {
   in_turns_.emplace(header_, record.movers.size());
@@ -123,7 +114,9 @@ void RunJudge::add(std::span<TraceStep> all) {
     if (company_)
       all[k].start_overlap_characters = record.start_overlap_characters =
           company_->overlapped(starts, record.character);
-    const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
+    const auto wall_ahead = [this](const TraceStep& step, double move) {
+      return is_wall_ahead(header_, scenery(), {step.path.front(), step.movers}, up_in(step, header_), move);
+    };
     const int parts = header_.substeps * parts_of(record.vertex_ways);
     follower.wanted = follower.intent.begin(record, parts, wall_ahead);
     judge_wish(record, follower.wanted, follower);

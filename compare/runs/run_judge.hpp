@@ -81,7 +81,6 @@ class RunJudge {
   [[nodiscard]] bool is_beside_what_turns(const TraceStep& record) const;
   [[nodiscard]] bool stands(const TraceStep& record) const;
   [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;
-  [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
   void write_faults(Row& row) const;
 
   [[nodiscard]] bool is_beside_another(const TraceStep& turn, const Follower& follower) const;

@@ -17,11 +17,13 @@ std::string command_of(const std::string& script) {
 json last_row(const Finished& finished) { return json::parse(finished.out).at("rows").back(); }
 
 TEST_F(Peer, that_says_what_box2d_did_is_judged_like_it) {
-  for (const char* scene : {"thin_platform", "lift_up", "lift_sideways", "skier_no_snap", "conveyor"}) {
+  for (const char* scene : {"thin_platform", "lift_up", "lift_sideways", "skier_no_snap", "conveyor", "jump_into_wall",
+                            "jump_beside_wall", "jump_into_corner"}) {
     const std::string run = std::string("compare ") + scene + " --json ";
     const json box2d = last_row(runs(run + "--contender box2d --no-reference --no-timing --trace t"));
     const json peer = last_row(
         runs(run + alone + command_of(std::string("tests/compare/parrot.py t.") + scene + ".box2d.float.jsonl")));
+    EXPECT_FALSE(holds(peer.value("reason", ""), "another motion")) << peer["reason"];
     EXPECT_EQ(peer["engine"], "parrot 1");
     EXPECT_EQ(peer["ns_per_step_own_clock"], 1000);
     for (const char* key : {"verdict", "reason", "scalar", "steps", "tunnels", "steps_ending_inside", "contact_steps",
