@@ -39,9 +39,9 @@ int count_in(const std::vector<Row>& rows, const Counts& counts) {
 }
 
 template <class Counts>
-Column<FieldLine> count(std::string heading, Counts counts) {
+Column<FieldLine> count(std::string heading, Counts counts, bool trouble = false) {
   return {std::move(heading),
-          [=](const FieldLine& line) -> Cell { return std::to_string(count_in(line.second, counts)); }};
+          [=](const FieldLine& line) -> Cell { return std::to_string(count_in(line.second, counts)); }, trouble};
 }
 
 /// The largest of a number over all rows of a contender, in another unit; rows that `of` has nothing for are left out.
@@ -83,6 +83,8 @@ std::vector<Column<FieldLine>> metric_columns() {
   return {{"contender", name_in},
           count("runs", was_judged),
           count("cannot", [](const Row& row) { return row.verdict == Verdict::not_applicable; }),
+          count(
+              "failed", [](const Row& row) { return row.verdict == Verdict::failed; }, true),
           count("through", [](const Row& row) { return row.tunnels.value_or(0) > 0; }),
           count("clipped", [](const Row& row) { return row.clipped.value_or(0) > 0; }),
           largest("inside [mm]", millimetres, beyond_skin),

@@ -8,8 +8,10 @@
 #include "records/rows_json.hpp"
 #include "records/rows_reader.hpp"
 #include "report/report.hpp"
+#include "report/row_pictures.hpp"
 #include "runs/environment.hpp"
 #include "runs/peers.hpp"
+#include "runs/view.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "studies/processes.hpp"
@@ -49,6 +51,19 @@ void write_page(std::optional<OutputFile>& file, ChartPage page, int jobs) {
 
 }  // namespace
 
+void Failures::add(const Row& row) {
+  if (row.verdict != Verdict::failed) return;
+  First& first = entry_of(all_, who_ran(row));
+  if (++first.rows == 1) first.reason = row.reason;
+}
+
+std::string Failures::text() const {
+  std::string text;
+  for (const auto& [who, first] : all_)
+    text += shortened(fmt::format("{} failed in {}: {}", who, counted(first.rows, "run"), first.reason)) + '\n';
+  return text.empty() ? text : '\n' + text;
+}
+
 int measure_here(const RunArguments& arguments, const std::string& name,
                  const std::function<Measurements(const std::function<void(double)>& tell)>& measure) {
   claim_outputs(arguments);
@@ -58,10 +73,14 @@ int measure_here(const RunArguments& arguments, const std::string& name,
   Progress progress(!arguments.quiet);
   const Measurements found = measure([&](double share) { progress.show(name + ",", share); });
   progress.clear();
-  for (const Row& row : found.rows) rows.add(row);
+  Failures failures;
+  for (const Row& row : found.rows) {
+    rows.add(row);
+    failures.add(row);
+  }
   rows.finish();
   write_page(page, found.page, 0);
-  if (!arguments.quiet) print_out(found.text);
+  if (!arguments.quiet) print_out(found.text + failures.text());
   return std::any_of(found.rows.begin(), found.rows.end(), is_our_failure);
 }
 
@@ -123,6 +142,7 @@ bool StudyRun::goes_on() {
 
 void StudyRun::note(const Row& row) {
   trouble_ = trouble_ || is_our_failure(row) || breaks_guarantee(row);
+  failures_.add(row);
   visit_(shard_.case_of(done_), row);
   ++done_;
 }
@@ -152,7 +172,7 @@ void StudyRun::run() {
 int StudyRun::finish(const std::function<ChartPage()>& page, const std::string& text, bool fails) {
   rows_->finish();
   if (page_) write_page(page_, page(), arguments_.jobs);
-  if (!arguments_.quiet) print_out(text);
+  if (!arguments_.quiet) print_out(text + failures_.text());
   return trouble_ || fails ? 1 : 0;
 }
 

@@ -11,6 +11,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -24,6 +26,21 @@ struct RunArguments {
   std::optional<std::string> shard;  ///< `K/N`; absent: all.
   bool resume = false;
   bool quiet = false;
+};
+
+/// Why contenders failed.
+class Failures {
+ public:
+  void add(const Row& row);
+  /// A line for each that did: how often, and the first reason.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  struct First {
+    int rows = 0;
+    std::string reason;
+  };
+  std::vector<std::pair<std::string, First>> all_;  ///< By contender.
 };
 
 /// What a study found that measures in this process.
@@ -76,6 +93,7 @@ class StudyRun {
   std::size_t count_;  ///< Cases of this shard.
   std::size_t done_ = 0;
   bool trouble_ = false;
+  Failures failures_;
   nlohmann::ordered_json header_;
   std::optional<RowsFile> rows_;
   std::optional<OutputFile> page_;

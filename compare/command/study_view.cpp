@@ -81,8 +81,7 @@ void StudyView::add(const StudyPart& part, const Row& row) {
     ++score.beyond;
     return;
   }
-  ++(row.tunnels.value_or(0) > 0 ? score.through : score.other);
-  score.failed += row.verdict == Verdict::failed;
+  ++(row.verdict == Verdict::failed ? score.failed : row.tunnels.value_or(0) > 0 ? score.through : score.other);
   if (score.first_bad.empty()) score.first_bad = at;
 }
 
@@ -115,6 +114,7 @@ std::vector<Column<StudyView::Scored>> StudyView::score_columns(Bad bad) {
                     {"to", [](const Scored& scored) { return fmt::format("{:.6f}", scored.second.rate().high); }}});
   columns.insert(columns.end(),
                  {{"other faults", count(&Score::other)},
+                  {"failed", count(&Score::failed), true},
                   {"beyond limits", count(&Score::beyond)},
                   {"cannot run", count(&Score::cannot)},
                   {"predicates that fail", [](const Scored& scored) { return in_words(scored.second.fails); }},

@@ -33,8 +33,8 @@ class StudyView {
     int holds = 0;
     int through = 0;
     int beyond = 0;  ///< Beyond the contender's own limits, and nothing else.
-    int other = 0;   ///< Ends inside something, or is flagged or failed for another reason.
-    int failed = 0;  ///< Among the others.
+    int other = 0;   ///< Ends inside something, or is flagged for another reason.
+    int failed = 0;
     int cannot = 0;
     std::map<std::string, int> fails;  ///< Predicates that do not hold, in how many cases.
     std::string first_bad;             ///< Where the first case is that does not hold.

@@ -210,7 +210,8 @@ class SceneRun {
   ReportScene collect() {
     for (const auto& lane : lanes_) lane->finish();
     for (const auto& lane : twins_) lane->finish();
-    for (std::size_t i = 0; i < lanes_.size(); ++i) errors_[i].write(lanes_[i]->row());
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+      if (was_judged(lanes_[i]->row())) errors_[i].write(lanes_[i]->row());
     for (Pair& pair : pairs_) {
       write_agreement(pair.agreements, pair.mine->row());
       for (Ledger& ledger : pair.ledgers) {

@@ -100,6 +100,27 @@ while read step; do echo "{\"characters\":[{\"path\":[[0,0.7,1]]}]}"; done)");
   EXPECT_TRUE(holds(several.out, "stands in lift_up: p 1 does not say that it can: movers\n"));
 }
 
+TEST_F(Peer, that_fails_is_told_with_its_reason_wherever_it_runs) {
+  place.write("fails.py", R"(import json, sys
+sys.stdin.readline()
+print(json.dumps({"name": "p", "version": "1", "can": ["movers"]}), flush=True)
+sys.stdin.readline()
+print(json.dumps({"characters": [{"path": [[0, 9, 1]]}]}), flush=True)
+sys.exit("no more"))");
+  const std::string peer = " --contender octagon_sweep --rows r.jsonl --peer 'python3 fails.py'";
+  const auto told = [&](const std::string& run, const std::string& words) {
+    const Finished finished = runs(run + peer);
+    EXPECT_TRUE(holds(finished.out, words)) << finished.out;
+    return finished.out;
+  };
+  const std::string why = ": step 1: the peer ended with status 1: no more";
+  const std::string swept = told("sweep paper --vary speed=10,20", "fails failed in 2 runs" + why);
+  EXPECT_TRUE(holds(swept, " failed "));
+  told("work-precision flight", "fails failed in 6 runs" + why);
+  for (const json& row : json_lines(written("r.jsonl")))
+    EXPECT_TRUE(row.value("contender", "") != "fails" || !row.contains("error_max_m")) << row;
+}
+
 TEST_F(Peer, may_greet_later_than_a_case_may_take) {
   place.write("late.sh", R"(sleep 1.5; echo '{"refuses":"it is late"}')");
   runs("sweep paper --contender octagon_sweep --limit 1 --quiet --rows r.jsonl --peer 'sh late.sh'");
