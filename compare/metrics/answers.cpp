@@ -228,6 +228,11 @@ std::string AnswerCheck::words(const Watch& watch) const {
   return told(answer, number(value_of(watch))) + " instead of " + wanted;
 }
 
+void AnswerCheck::ask_no_contacts() {
+  std::erase_if(watches_,
+                [](const Watch& watch) { return watch.answer.of == Of::contact || watch.answer.of == Of::contacts; });
+}
+
 void AnswerCheck::write(Row& row) const {
   if (watches_.empty()) return;
   const Watch* worst = nullptr;

@@ -26,6 +26,8 @@ class AnswerCheck {
   /// @throws std::invalid_argument for an answer with an id that is not in the header.
   AnswerCheck(const std::vector<Answer>& answers, const TraceHeader& header);
   void add(const TraceStep& step);
+  /// Of a contender that may leave contacts out: when and how often it meets something is not asked.
+  void ask_no_contacts();
   void write(Row& row) const;
 
  private:

@@ -220,8 +220,10 @@ void Lane::note_events(std::size_t character) {
 
 void Lane::write_metrics() {
   judge_->write(row_);
+  const std::optional<PeerNotes> peer = contender_->peer_notes();
+  if (answers_ && peer && row_.contact_steps == 0) answers_->ask_no_contacts();
   if (answers_) answers_->write(row_);
-  if (const std::optional<PeerNotes> peer = contender_->peer_notes()) {
+  if (peer) {
     row_.engine = peer->engine;
     row_.ns_per_step_own_clock = peer->ns_per_step;
     row_.machine = peer->machine;

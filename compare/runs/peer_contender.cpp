@@ -230,6 +230,8 @@ class PeerContender final : public Contender {
     places_[k].position = record.path.back().position;
     for (const Json& contact : said.value("contacts", Json::array())) {
       const Vec2d normal = point_of(contact["normal"]);
+      if (header_.path_exact && !contact.contains("fraction"))
+        throw std::runtime_error("a contact of the peer has no fraction, and its way is exact");
       record.contacts.push_back({.collider = collider_named(contact["collider"]),
                                  .point = contact.contains("point") ? point_of(contact["point"]) : places_[k].position,
                                  .normal = normal,

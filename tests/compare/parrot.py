@@ -1,6 +1,6 @@
 """A peer that says again what a trace has. It ends with status 1 where it is asked for another motion.
 
-usage: parrot.py TRACE
+usage: parrot.py TRACE [WHAT IT LEAVES OUT OF CONTACTS, OR contacts]
 """
 import json
 import sys
@@ -19,5 +19,7 @@ for step, line in zip(steps, sys.stdin):
     if "ride" in step:
         normals = [c["normal"] for c in step["contacts"] if c["collider"] == step["ride"]["collider"]]
         said["ground"] = {"collider": step["ride"]["collider"], "normal": normals[0] if normals else [0, 1]}
-    said["contacts"] = [{key: value for key, value in contact.items() if key != "side"} for contact in step["contacts"]]
+    left_out = ["side", *sys.argv[2:]]
+    if "contacts" not in left_out:
+        said["contacts"] = [{key: contact[key] for key in contact if key not in left_out} for contact in step["contacts"]]
     print(json.dumps({"characters": [said], "ns": 1000}), flush=True)

@@ -100,6 +100,17 @@ while read step; do echo "{\"characters\":[{\"path\":[[0,0.7,1]]}]}"; done)");
   EXPECT_TRUE(holds(several.out, "stands in lift_up: p 1 does not say that it can: movers\n"));
 }
 
+TEST_F(Peer, is_asked_when_it_meets_something_only_where_it_names_contacts) {
+  runs("compare thin_platform --contender octagon_sweep --no-reference --no-timing --trace t");
+  const auto row_without = [&](const std::string& what) {
+    const std::string file = "tests/compare/parrot.py t.thin_platform.octagon_sweep.double.jsonl ";
+    return last_row(runs("compare thin_platform --json" + std::string(alone) + command_of(file + what)));
+  };
+  EXPECT_EQ(row_without("")["verdict"], "holds");
+  EXPECT_EQ(row_without("contacts")["verdict"], "holds");
+  EXPECT_EQ(row_without("fraction")["reason"], "step 4: a contact of the peer has no fraction, and its way is exact");
+}
+
 TEST_F(Peer, that_fails_is_told_with_its_reason_wherever_it_runs) {
   place.write("fails.py", R"(import json, sys
 sys.stdin.readline()
