@@ -384,7 +384,7 @@ void RunJudge::write_faults(Row& row) const {
   const auto fault = [&](Axis axis, Verdict verdict, const std::string& words) {
     add_fault(row, axis, verdict, words);
   };
-  const auto on_steps = [&](const std::optional<int>& steps, const char* what) {
+  const auto on_steps = [&](const std::optional<int>& steps, const std::string& what) {
     if (steps.value_or(0) > 0)
       fault(Axis::progress, Verdict::flagged, fmt::format("{} on {}", what, counted(*steps, "step")));
   };
@@ -413,7 +413,7 @@ void RunJudge::write_faults(Row& row) const {
           fmt::format("a crush with room to give way on {}", counted(*row.crushes_refuted, "step")));
   on_steps(row.hanging_steps, "hangs");
   on_steps(row.stuck_refuted, "says it is stuck beside a way out");
-  on_steps(row.ground_refuted, "says it is grounded with nothing under it");
+  on_steps(row.ground_refuted, no_ground(header_));
   if (const double share = row.wanted_motion_lost.value_or(0); share > most_motion_lost)
     fault(Axis::progress, Verdict::flagged,
           fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * share));

@@ -76,8 +76,7 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
                ? fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost)
                : fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss);
   });
-  check(Clause::ground_invented, judged.ground_refuted,
-        [] { return std::string("says it is grounded with nothing under it"); });
+  check(Clause::ground_invented, judged.ground_refuted, [&] { return no_ground(header_); });
   check(Clause::ground_missed, judged.ground_missed,
         [] { return std::string("stands on ground, and says it does not"); });
   check(Clause::ground_missed, judged.ground_left,

@@ -1,6 +1,8 @@
 /// What the parts of `RunJudge` share.
 #pragma once
 
+#include "oracle/hanging.hpp"
+
 #include <paperproof/types.hpp>
 
 #include <fmt/format.h>
@@ -22,5 +24,8 @@ inline constexpr double same_speed = 1e-9;
 
 [[nodiscard]] inline bool moves(const MoverMotion& motion) { return motion.from != motion.to; }
 [[nodiscard]] inline std::string metres(double length) { return fmt::format("{:.3g} m", length); }
+[[nodiscard]] inline std::string no_ground(const TraceHeader& header) {
+  return "says it is grounded with nothing under it within " + metres(detail::reach_of(header).contact);
+}
 
 }  // namespace paperproof::compare::run_judge

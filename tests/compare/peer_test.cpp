@@ -111,6 +111,22 @@ TEST_F(Peer, is_asked_when_it_meets_something_only_where_it_names_contacts) {
   EXPECT_EQ(row_without("fraction")["reason"], "step 4: a contact of the peer has no fraction, and its way is exact");
 }
 
+TEST_F(Peer, whose_ground_is_too_far_hears_how_near_it_must_be) {
+  place.write("hovers.py", R"(import json, sys
+sys.stdin.readline()
+print(json.dumps({"name": "p", "version": "1", "skin": 0.01, "path_exact": sys.argv[1] == "exact"}), flush=True)
+for step in sys.stdin:
+    print(json.dumps({"characters": [{"path": [[0, 0.625 + float(sys.argv[2]), 1]], "velocity": [0, 0],
+                                      "grounded": True}]}), flush=True))");
+  const auto reason_at = [&](const std::string& how) {
+    return last_row(runs("compare rest --json --peer 'python3 hovers.py " + how + "'" + alone)).value("reason", "");
+  };
+  EXPECT_FALSE(holds(reason_at("exact 0.0099"), "nothing under it"));
+  EXPECT_TRUE(holds(reason_at("exact 0.0101"), "says it is grounded with nothing under it within 0.01 m on"));
+  EXPECT_FALSE(holds(reason_at("sampled 0.0199"), "nothing under it"));
+  EXPECT_TRUE(holds(reason_at("sampled 0.0201"), "says it is grounded with nothing under it within 0.02 m on"));
+}
+
 TEST_F(Peer, that_fails_is_told_with_its_reason_wherever_it_runs) {
   place.write("fails.py", R"(import json, sys
 sys.stdin.readline()
