@@ -3,6 +3,7 @@
 #include "command/compare_command.hpp"
 #include "report/row_pictures.hpp"
 #include "runs/environment.hpp"
+#include "runs/peers.hpp"
 #include "runs/view.hpp"
 #include "scenes/load.hpp"
 #include "studies/motions.hpp"
@@ -63,8 +64,8 @@ int work_precision_command(const PrecisionArguments& arguments) {
     rows.insert(rows.end(), found.curves.begin(), found.curves.end());
     std::string text =
         "slope of log error over log knob, with its 95 % interval, where the three finest points or more lie on a "
-        "line; * on the front: no other has less error in less time\n\n" +
-        slopes(found) + '\n';
+        "line; * on the front: no other has less error in less time" +
+        std::string(peers().empty() ? "" : "; peers are not timed, and on none") + "\n\n" + slopes(found) + '\n';
     for (const std::string& sentence : found.sentences) text += sentence + '\n';
     return Measurements{rows, page_of(rows, found.sentences), text};
   });

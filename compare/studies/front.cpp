@@ -78,10 +78,11 @@ std::optional<Slope> slope_within_a_regime(std::span<const std::optional<std::pa
   return std::nullopt;
 }
 
-bool counts(const Row& row) {
-  return row.error_max_m && time_per_second(row) && !falls_short(row, Axis::safety) &&
-         !falls_short(row, Axis::validity);
+bool has_error(const Row& row) {
+  return row.error_max_m && !falls_short(row, Axis::safety) && !falls_short(row, Axis::validity);
 }
+
+bool counts(const Row& row) { return has_error(row) && time_per_second(row); }
 
 void mark_front(std::vector<Row>& rows) {
   for (Row& row : rows)

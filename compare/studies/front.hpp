@@ -23,8 +23,10 @@ struct Slope {
 [[nodiscard]] std::optional<Slope> slope_within_a_regime(
     std::span<const std::optional<std::pair<double, double>>> log_points);
 
-/// Whether a row has an error and a time, and they mean something: its run passes nothing, ends inside nothing, and
-/// stays within the limits that the contender documents.
+/// Whether a row has an error, and it means something: its run passes nothing, ends inside nothing, and stays within
+/// the limits that the contender documents.
+[[nodiscard]] bool has_error(const Row& row);
+/// The same of error and time.
 [[nodiscard]] bool counts(const Row& row);
 
 /// Sets `on_front` of every row that counts: no other of the rows has less error for less time, or the

@@ -119,7 +119,7 @@ Row curve_of(const Row& first, const std::vector<Row>& points) {
     if (!same_curve(point, first)) continue;
     on_front = on_front || point.on_front.value_or(false);
     logs.emplace_back();
-    if ((counts(point) || point.contender == law_of_steps) && *point.error_max_m > least_error)
+    if (has_error(point) && *point.error_max_m > least_error)
       logs.back() = {std::log(knob_of(point).second), std::log(*point.error_max_m)};
   }
   Row row;

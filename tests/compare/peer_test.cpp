@@ -148,6 +148,17 @@ sys.exit("no more"))");
     EXPECT_TRUE(row.value("contender", "") != "fails" || !row.contains("error_max_m")) << row;
 }
 
+TEST_F(Peer, has_a_slope_of_its_error_and_no_time) {
+  const Finished told =
+      runs("work-precision flight --contender octagon_sweep --rows r.jsonl" + command_of("compare/peers/straight.py"));
+  std::map<std::string, double> slopes;
+  for (const json& row : json_lines(written("r.jsonl")))
+    if (row.contains("slope") && row.value("curve", "") == "dt_s")
+      slopes[row["contender"]] = row["slope"].get<double>();
+  EXPECT_NEAR(slopes.at("straight"), slopes.at("octagon_sweep"), 0.01) << "both fly by the law";
+  EXPECT_TRUE(holds(told.out, "peers are not timed, and on none"));
+}
+
 TEST_F(Peer, may_greet_later_than_a_case_may_take) {
   place.write("late.sh", R"(sleep 1.5; echo '{"refuses":"it is late"}')");
   runs("sweep paper --contender octagon_sweep --limit 1 --quiet --rows r.jsonl --peer 'sh late.sh'");
