@@ -1,5 +1,6 @@
 #include "runs/peer_contender.hpp"
 
+#include "one_line.hpp"
 #include "oracle/exemptions.hpp"
 #include "records/collider_json.hpp"
 #include "records/schema.hpp"
@@ -11,11 +12,13 @@
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
 #include "scenes/validate.hpp"
+#include "words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -93,7 +96,8 @@ class PeerContender final : public Contender {
     const Json answer = answer_to(question_of(input, wanted));
     if (answer["characters"].size() != characters_.size())
       throw std::runtime_error(
-          fmt::format("the peer answers for {} of {} characters", answer["characters"].size(), characters_.size()));
+          fmt::format("the peer answers for {}, and {} asked for", counted(answer["characters"].size(), "character"),
+                      characters_.size() == 1 ? "one is" : fmt::format("{} are", characters_.size())));
     for (std::size_t k = 0; k < characters_.size(); ++k) {
       TraceStep& record = records[k];
       clear(record);
@@ -182,11 +186,21 @@ class PeerContender final : public Contender {
   /// @throws NotApplicable for a refusal.
   Json ask(const Json& question, const char* expected, std::chrono::milliseconds within) {
     const std::string what = engine_.empty() ? "the peer's greeting" : "the peer's answer";
-    const Json answer = strict_json(process_.ask(question.dump(), within), what);
+    if (!engine_.empty() && process_.has_said_more()) throw std::runtime_error("the peer answers before it is asked");
+    const Json answer = json_of(process_.ask(question.dump(), within), what);
     if (const auto fault = protocol().fault(answer)) throw std::runtime_error(what + ": " + *fault);
     if (answer.contains("refuses")) throw NotApplicable(answer["refuses"].get<std::string>());
     if (!answer.contains(expected)) throw std::runtime_error(fmt::format("{} has no {}", what, expected));
     return answer;
+  }
+  /// What is none, as what a library prints, is quoted.
+  static Json json_of(const std::string& said, const std::string& what) {
+    try {
+      return strict_json(said, what);
+    } catch (const std::runtime_error& fault) {
+      throw std::runtime_error(
+          fmt::format("{}; it says \"{}\"", fault.what(), cut_in_the_middle(without_controls(said), 60)));
+    }
   }
   Json answer_to(const Json& question) { return ask(question, "characters", patience); }
 
@@ -224,12 +238,14 @@ class PeerContender final : public Contender {
     for (const Json& corner : said["path"])
       if (const double t = corner[2].get<double>(); t > record.path.back().fraction)
         record.path.push_back({point_of(corner), t});
-      else if (t != 0)
-        throw std::runtime_error("the times of the peer's way do not ascend");
+      else
+        throw std::runtime_error(
+            fmt::format("the times of the peer's way do not ascend from above 0: {:g} comes after {:g}", t,
+                        record.path.back().fraction));
     if (record.path.back().fraction != 1) throw std::runtime_error("the peer's way does not end at 1");
     places_[k].position = record.path.back().position;
     for (const Json& contact : said.value("contacts", Json::array())) {
-      const Vec2d normal = point_of(contact["normal"]);
+      const Vec2d normal = normal_of(contact["normal"]);
       if (header_.path_exact && !contact.contains("fraction"))
         throw std::runtime_error("a contact of the peer has no fraction, and its way is exact");
       record.contacts.push_back({.collider = collider_named(contact["collider"]),
@@ -244,7 +260,7 @@ class PeerContender final : public Contender {
     if (said.contains("velocity")) ended.velocity = point_of(said["velocity"]);
     if (said.contains("ground"))
       ended.ground = EngineGround{collider_named(said["ground"]["collider"]),
-                                  point_of(said["ground"].value("normal", Json{0, 1}))};
+                                  normal_of(said["ground"].value("normal", Json{0, 1}))};
     intent_.take_over(ended, input, record.contacts, characters_[k]);
     const CharacterState& state = characters_[k].state;
     record.velocity = state.velocity;
@@ -255,6 +271,14 @@ class PeerContender final : public Contender {
     for (const Json& id : said.value("dropped_through", Json::array()))
       record.dropped_through.push_back(collider_named(id));
     std::sort(record.dropped_through.begin(), record.dropped_through.end());
+  }
+
+  static Vec2d normal_of(const Json& said) {
+    const Vec2d normal = point_of(said);
+    constexpr double rounding = 1e-3;  // of engines in float
+    if (!(std::abs(normal.norm() - 1) <= rounding))
+      throw std::runtime_error("a normal of the peer is no unit vector: " + said.dump());
+    return normal;
   }
 
   [[nodiscard]] ColliderIndex collider_named(const std::string& id) const {

@@ -83,12 +83,13 @@ PeerProcess::~PeerProcess() {
 }
 
 std::string PeerProcess::ask(const std::string& line, std::chrono::milliseconds patience) {
-  const Clock::time_point until = Clock::now() + patience;
-  send(line + '\n', until);
+  asked_ = Clock::now();
+  patience_ = patience;
+  send(line + '\n');
   std::size_t end = std::string::npos;
   while ((end = unread_.find('\n')) == std::string::npos) {
     if (unread_.size() > longest_line) give_up("said a line that does not end");
-    wait(POLLIN, until);
+    wait(POLLIN);
     std::array<char, 1U << 16U> part{};
     const ssize_t got = read(talk_, part.data(), part.size());
     if (got == 0 || (got < 0 && errno == ECONNRESET)) give_up("");
@@ -99,13 +100,18 @@ std::string PeerProcess::ask(const std::string& line, std::chrono::milliseconds 
   return answer;
 }
 
-void PeerProcess::send(const std::string& text, Clock::time_point until) {
+bool PeerProcess::has_said_more() const {
+  char next = 0;
+  return !unread_.empty() || recv(talk_, &next, 1, MSG_PEEK) > 0;
+}
+
+void PeerProcess::send(const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t put = ::send(talk_, text.data() + done, text.size() - done, MSG_NOSIGNAL);
     if (put >= 0)
       done += static_cast<std::size_t>(put);
     else if (errno == EAGAIN)
-      wait(POLLOUT, until);
+      wait(POLLOUT);
     else if (errno == EPIPE || errno == ECONNRESET)
       return;  // it has ended, and may have answered before
     else if (errno != EINTR)
@@ -114,10 +120,11 @@ void PeerProcess::send(const std::string& text, Clock::time_point until) {
 }
 
 /// Until it has said or can take something; it must not wait for anyone to read its errors.
-void PeerProcess::wait(short events, Clock::time_point until) {
+void PeerProcess::wait(short events) {
   while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
-    if (left.count() <= 0) give_up("says nothing");
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(asked_ + patience_ - Clock::now());
+    if (left.count() <= 0)
+      give_up(fmt::format("says nothing for {:g} s", patience_ / std::chrono::duration<double>(1)));
     std::array<pollfd, 2> ends{pollfd{talk_, events, 0}, pollfd{said_, POLLIN, 0}};
     if (poll(ends.data(), ends.size(), static_cast<int>(left.count())) < 0) continue;
     if (ends[1].revents != 0) read_errors();

@@ -24,11 +24,14 @@ class PeerProcess {
   /// of what it wrote to its standard error.
   [[nodiscard]] std::string ask(const std::string& line, std::chrono::milliseconds patience);
 
+  /// Whether it has said more than it was asked for.
+  [[nodiscard]] bool has_said_more() const;
+
  private:
   using Clock = std::chrono::steady_clock;
 
-  void send(const std::string& text, Clock::time_point until);
-  void wait(short events, Clock::time_point until);
+  void send(const std::string& text);
+  void wait(short events);
   void read_errors();
   [[nodiscard]] bool ends_in_time();
   [[noreturn]] void give_up(std::string reason);
@@ -36,8 +39,10 @@ class PeerProcess {
   pid_t guard_ = -1;  ///< Leads the group of all that the command starts.
   pid_t child_ = -1;
   std::optional<int> status_;  ///< Of the child, once it has ended.
-  int talk_ = -1;              ///< Its standard input and output.
-  int said_ = -1;              ///< Its standard error.
+  Clock::time_point asked_;
+  std::chrono::milliseconds patience_{};
+  int talk_ = -1;  ///< Its standard input and output.
+  int said_ = -1;  ///< Its standard error.
   std::string unread_;
   std::string errors_;  ///< The end of them.
 };

@@ -59,7 +59,10 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
   for (const Line& line : {
            Line{"no_such_program", "thin_platform", "failed",
                 "ended with status 127: peer.sh: 1: no_such_program: not found"},
+           {greets + "sleep 30", "thin_platform", "failed", "step 0: the peer says nothing for 10 s"},
            {"echo hello", "thin_platform", "failed", "the peer's greeting:1:1: expected JSON"},
+           {greets + "echo Loading", "thin_platform", "failed", "last read: 'L'; it says \"Loading\""},
+           {R"(echo "{\"refuses\":\"\"}")", "thin_platform", "failed", "/refuses: expected a longer text"},
            {"cat", "thin_platform", "failed", "/: expected exactly one of name, refuses, characters"},
            {"kill -SEGV $$", "thin_platform", "failed", "ended with status 139: Segmentation fault"},
            {R"(echo "{\"name\":\"p\",\"version\":\"1\",\"points\":[[0,0],[1,0],[0,0]]}")", "thin_platform", "failed",
@@ -69,10 +72,15 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
            {greets, "thin_platform", "failed", "step 0: the peer ended with status 0"},
            {answers("[[0,1e999,1]]"), "thin_platform", "failed",
             "the peer's answer:1: /characters/0/path/0/1: expected a finite number"},
-           {answers("[[0,0,0.5],[0,0,0.2]]"), "thin_platform", "failed", "do not ascend"},
+           {answers("[[0,0,0.5],[0,0,0.2]]"), "thin_platform", "failed",
+            "do not ascend from above 0: 0.2 comes after 0.5"},
            {answers("[[0,0,0.5]]"), "thin_platform", "failed", "does not end at 1"},
+           {answers("[[0,9,0],[0,0,1]]"), "thin_platform", "failed", "do not ascend from above 0: 0 comes after 0"},
            {answers("[]"), "thin_platform", "failed", "/characters/0/path: expected 1 or more"},
-           {answers(R"([[0,0,1]]},{\"path\":[[0,0,1]])"), "thin_platform", "failed", "answers for 2 of 1 characters"},
+           {answers(R"([[0,0,1]]},{\"path\":[[0,0,1]])"), "thin_platform", "failed",
+            "the peer answers for 2 characters, and one is asked for"},
+           {answers(R"([[0,0,1]],\"contacts\":[{\"collider\":\"paper\",\"normal\":[0,5]}])"), "thin_platform", "failed",
+            "a normal of the peer is no unit vector: [0,5]"},
            {answers(R"([[0,0,1]],\"ground\":{\"collider\":\"moon\"})"), "thin_platform", "failed",
             "names a collider that there is not: moon"},
        }) {
@@ -146,6 +154,13 @@ sys.exit("no more"))");
   told("work-precision flight", "fails failed in 6 runs" + why);
   for (const json& row : json_lines(written("r.jsonl")))
     EXPECT_TRUE(row.value("contender", "") != "fails" || !row.contains("error_max_m")) << row;
+}
+
+TEST_F(Peer, may_not_answer_before_it_is_asked) {
+  place.write("twice.sh", R"(echo '{"name":"p","version":"1"}'; read scene
+while read step; do for line in 1 2; do echo '{"characters":[{"path":[[0,9,1]]}]}'; done; done)");
+  const json row = last_row(runs("compare thin_platform --json --peer 'sh twice.sh'" + std::string(alone)));
+  EXPECT_TRUE(holds(row["reason"].get<std::string>(), ": the peer answers before it is asked")) << row["reason"];
 }
 
 TEST_F(Peer, has_a_slope_of_its_error_and_no_time) {
