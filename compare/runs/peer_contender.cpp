@@ -93,11 +93,10 @@ class PeerContender final : public Contender {
     std::vector<Vec2d> wanted;
     for (std::size_t k = 0; k < characters_.size(); ++k)
       wanted.push_back(intent_.wanted(characters_[k], places_[k].position, input.players[k], input));
-    const Json answer = answer_to(question_of(input, wanted));
+    const Json answer = ask(question_of(input, wanted), "characters", patience);
     if (answer["characters"].size() != characters_.size())
-      throw std::runtime_error(
-          fmt::format("the peer answers for {}, and {} asked for", counted(answer["characters"].size(), "character"),
-                      characters_.size() == 1 ? "one is" : fmt::format("{} are", characters_.size())));
+      throw std::runtime_error(fmt::format("the peer answers for {}, not for {}",
+                                           counted(answer["characters"].size(), "character"), characters_.size()));
     for (std::size_t k = 0; k < characters_.size(); ++k) {
       TraceStep& record = records[k];
       clear(record);
@@ -202,7 +201,6 @@ class PeerContender final : public Contender {
           fmt::format("{}; it says \"{}\"", fault.what(), cut_in_the_middle(without_controls(said), 60)));
     }
   }
-  Json answer_to(const Json& question) { return ask(question, "characters", patience); }
 
   /// Of each collider that moves, by its id. @param turns empty: nothing turns.
   [[nodiscard]] Json ways_json(std::span<const MoverMotion> movers, std::span<const TurnMotion> turns) const {

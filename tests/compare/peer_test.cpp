@@ -78,7 +78,7 @@ TEST_F(Peer, that_does_not_play_by_the_rules_has_a_row_that_says_why_and_never_a
            {answers("[[0,9,0],[0,0,1]]"), "thin_platform", "failed", "do not ascend from above 0: 0 comes after 0"},
            {answers("[]"), "thin_platform", "failed", "/characters/0/path: expected 1 or more"},
            {answers(R"([[0,0,1]]},{\"path\":[[0,0,1]])"), "thin_platform", "failed",
-            "the peer answers for 2 characters, and one is asked for"},
+            "the peer answers for 2 characters, not for 1"},
            {answers(R"([[0,0,1]],\"contacts\":[{\"collider\":\"paper\",\"normal\":[0,5]}])"), "thin_platform", "failed",
             "a normal of the peer is no unit vector: [0,5]"},
            {answers(R"([[0,0,1]],\"ground\":{\"collider\":\"moon\"})"), "thin_platform", "failed",
