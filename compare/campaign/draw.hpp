@@ -60,6 +60,9 @@ inline constexpr std::array all_lines = all_of<Line>(line_names);
 /// Play with stairs that are climbed, ground that is followed down, and a lift or press that goes to and fro.
 [[nodiscard]] RandomRun draw_stairs(PlayLevel level, std::uint64_t seed);
 
+/// Over kerbs, stairs, slopes, belts, boards, lifts and ferries, with `step_height` and mostly with a `snap`.
+[[nodiscard]] RandomRun draw_course(std::uint64_t seed);
+
 /// Two to sixteen characters in a tight room. A run of fewer than two characters has no steps.
 [[nodiscard]] RandomRun draw_crowd(std::uint64_t seed);
 

@@ -142,6 +142,15 @@ std::vector<Family> tight() {
           {"presses", "ledges", draw_touched_by_ledge, 10000019, 1, {{"contact", 0.2, 0.9}}}};
 }
 
+std::vector<Family> courses() {
+  return {{"courses",
+           "walks",
+           draw_course,
+           14000029,
+           2,
+           {{"climbing", 0.002}, {"riding", 0.1}, {"descending", 0.002}, {"grounded", 0.3}, {"crushed", 0, 0.01}}}};
+}
+
 std::vector<Family> rest() {
   const auto presses = [](const char* name, bool rims) -> Family {
     return {.kind = "presses",
@@ -169,8 +178,9 @@ std::vector<Family> rest() {
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
-    for (std::vector<Family>& some : std::array{still(), any_up(), movers(false), movers(true), turning(), play(),
-                                                play_on_stairs(), slanted(), on_lines(), inside(), tight(), rest()})
+    for (std::vector<Family>& some :
+         std::array{still(), any_up(), movers(false), movers(true), turning(), play(), play_on_stairs(), courses(),
+                    slanted(), on_lines(), inside(), tight(), rest()})
       std::move(some.begin(), some.end(), std::back_inserter(joined));
     return joined;
   }();
