@@ -7,9 +7,9 @@ build_packages=(
   libeigen3-dev                                        # controller
   libbox2d-dev                                         # box2d_adapter
   libpolyclipping-dev                                  # box2d_adapter/twin
-  libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
+  libboost-dev libcli11-dev libfmt-dev libmuparser-dev libpugixml-dev  # compare
   nlohmann-json3-dev zlib1g-dev libzstd-dev liblodepng-dev libjs-chart.js
-  libgtest-dev libmuparser-dev  # tests
+  libgtest-dev  # tests
 )
 # To run every test.
 test_packages=(

@@ -17,8 +17,8 @@
 #include "runs/preparation.hpp"
 #include "runs/row_views.hpp"
 #include "runs/run_case.hpp"
+#include "scenes/built_in.hpp"
 #include "scenes/load.hpp"
-#include "scenes/sets.hpp"
 #include "words.hpp"
 
 #include <paperproof/number_in.hpp>
@@ -132,7 +132,7 @@ class Comparison {
 
   void look_at(const std::string& name, const Scene& scene) {
     outputs_.add_scene(name, scene.name);
-    shows_gallery_ = shows_gallery_ || find_set(name) != nullptr;
+    shows_gallery_ = shows_gallery_ || find_set(name).has_value();
     steps_ += steps_of(scene);
     unscripted_ += scene.moves_at_random && !arguments_.run.random_input;
     ++scene_count_;

@@ -10,10 +10,10 @@
 #include "runs/knobs.hpp"
 #include "runs/preparation.hpp"
 #include "runs/scene_plan.hpp"
+#include "scenes/built_in.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 #include "scenes/parameters.hpp"
-#include "scenes/sets.hpp"
 
 #include <fmt/format.h>
 

@@ -1,136 +1,240 @@
 #include "scenes/built_in.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <array>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "scenes/built_in_texts.hpp"
+#include "scenes/formula.hpp"
+#include "scenes/json_scene.hpp"
+#include "scenes/json_text.hpp"
+#include "scenes/made_in_code.hpp"
 
 namespace paperproof::compare {
+namespace {
 
-const std::vector<BuiltInScene>& built_in_scenes() {
-  static const std::vector<BuiltInScene> all = [] {
-    std::vector<BuiltInScene> scenes;
-    for (auto theme :
-         {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), claim_scenes(), limit_scenes(),
-          one_way_scenes(), moving_scenes(), body_scenes(), crowd_scenes(), extreme_scenes(), play_scenes()}) {
-      scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
-    }
-    return scenes;
-  }();
+/// A file of `built_in/`, read when something in it is first asked for: most runs ask for one scene.
+class File {
+ public:
+  explicit File(std::string_view text) : text_(text) {}
+  const Json& json() {
+    if (json_.is_null()) json_ = Json::parse(text_);
+    return json_;
+  }
+  /// Whether it may have something of that name.
+  [[nodiscard]] bool names(std::string_view name) const {
+    return text_.find(fmt::format("\"{}\"", name)) != std::string_view::npos;
+  }
+
+ private:
+  std::string_view text_;
+  Json json_;
+};
+
+/// In the order of registration.
+std::vector<File>& files() {
+  using namespace built_in_texts;
+  static std::vector<File> all{File(paper_json),  File(angle_json),  File(ground_json),  File(article_json),
+                               File(claims_json), File(limits_json), File(one_way_json), File(moving_json),
+                               File(bodies_json), File(crowd_json),  File(extreme_json), File(play_json),
+                               File(tight_json),  File(motions_json)};
   return all;
 }
 
-Scene flight(double x, double y, double velocity_x, double velocity_y, int steps, double gravity) {
-  Scene scene;
-  scene.gravity = {0, 0 - gravity};
-  scene.steps = steps;
-  scene.start.position = {x, y};
-  scene.start.velocity = {velocity_x, velocity_y};
+const Json& base() {
+  static const Json file = Json::parse(built_in_texts::base_json);
+  return file;
+}
+
+/// What stands under a key; nothing to go through where nothing does.
+const Json& part_of(const Json& object, std::string_view key) {
+  static const Json none;
+  return object.contains(key) ? object.at(key) : none;
+}
+
+/// Null where the file has none of that name under that kind.
+const Json* named_in(const Json& file, std::string_view kind, std::string_view name) {
+  for (const Json& text : part_of(file, kind))
+    if (text.at("name") == name) return &text;
+  return nullptr;
+}
+
+const Json* named(std::string_view kind, std::string_view name) {
+  for (File& file : files())
+    if (file.names(name))
+      if (const Json* text = named_in(file.json(), kind, name)) return text;
+  return nullptr;
+}
+
+/// With all that it shares with others: what every scene begins with, what its file says of all, and what it is like.
+/// @param name of a scene, a family or a motion.
+Json whole(const Json& file, std::string_view name) {
+  const Json* own = nullptr;
+  for (const char* kind : {"scenes", "families", "motions"})
+    if (own == nullptr) own = named_in(file, kind, name);
+  if (own == nullptr) return {};
+  Json text;
+  if (own->contains("like")) {
+    text = whole(file, own->at("like").get<std::string_view>());
+  } else {
+    text = {{"let", Json::object()}, {"scene", base().at("scene")}};
+    for (const char* key : {"let", "scene"}) text[key].merge_patch(file.value(key, Json::object()));
+  }
+  for (const Json& parameter : part_of(*own, "parameters"))
+    text["let"][parameter.at("key").get<std::string>()] = parameter.at("usual");
+  text.merge_patch(*own);
+  return text;
+}
+
+Json whole(std::string_view name) {
+  for (File& file : files())
+    if (file.names(name))
+      if (Json text = whole(file.json(), name); !text.is_null()) return text;
+  throw std::invalid_argument(fmt::format("no built-in scene is called {}", name));
+}
+
+BuiltInScene scene_from(const Json& text) {
+  BuiltInScene scene{text.at("name"), text.at("description"), text.value("family", ""), {}};
+  for (const auto& [key, value] : part_of(text, "set").items()) scene.settings.push_back({key, value});
   return scene;
 }
 
-Scene walk(double x, double y, double move, int steps, double gravity) {
-  Scene scene = flight(x, y, 0, 0, steps, gravity);
-  scene.input = {steer(0, move)};
-  return scene;
+SceneFamily family_from(const Json& text) {
+  SceneFamily family{text.at("name"), text.at("description"), {}};
+  const auto in = [](const Json& object, const char* key) { return object.at(key).get<std::string_view>(); };
+  for (const Json& each : text.at("parameters"))
+    family.parameters.push_back(
+        {in(each, "key"), in(each, "unit"), each.at("least"), each.at("most"), each.at("usual"), in(each, "meaning")});
+  return family;
 }
 
-namespace {
+SceneSet set_from(const Json& text) { return {text.at("name"), text.at("description"), text.at("scenes")}; }
 
-ColliderDef& add(Scene& scene, std::string id, ColliderDef collider) {
-  scene.ids.push_back(std::move(id));
-  return scene.scenery.colliders.emplace_back(std::move(collider));
+/// Of all files, in order.
+template <class From>
+auto all_from(std::string_view kind, const From& from) {
+  std::vector<decltype(from(Json()))> all;
+  for (const Json* text : texts_of(kind)) all.push_back(from(*text));
+  return all;
+}
+
+/// In the order of `Answer::Of`.
+constexpr std::array kinds_of_answers{"place",      "speed",   "farthest", "setback",  "drift", "contact", "contacts",
+                                      "in_the_air", "settled", "crush",    "crushers", "enter", "leave"};
+
+Answer answer_of(const Json& text) {
+  Answer answer;
+  std::string of = text.at("of");
+  if (of == "x" || of == "y" || of == "speed_x" || of == "speed_y") {
+    answer.along = of.back() == 'x' ? Vec2d(1, 0) : Vec2d(0, 1);
+    of = of.size() == 1 ? "place" : "speed";
+  }
+  const auto kind = std::find(kinds_of_answers.begin(), kinds_of_answers.end(), of);
+  if (kind == kinds_of_answers.end()) throw std::invalid_argument("no such answer: " + of);
+  answer.of = static_cast<Answer::Of>(kind - kinds_of_answers.begin());
+  static const std::string file = "a built-in scene";
+  const JsonCursor at(text, file);
+  answer.at_least = -std::numeric_limits<double>::infinity();
+  at.take("is", answer.at_least);
+  at.take("is", answer.at_most);
+  at.take("at_least", answer.at_least);
+  at.take("at_most", answer.at_most);
+  at.take("gaps", answer.per_metre);
+  answer.tolerance = answer.per_metre * Answer::gap;
+  at.take("within", answer.tolerance);
+  at.take("along", answer.along);
+  at.take("after", answer.step);
+  at.take("with", answer.with);
+  at.take("law", answer.by_law);
+  at.take("beyond", answer.clearance);
+  if (const auto character = at.find("character"))
+    answer.character = character->value() == "all" ? Answer::all : static_cast<std::size_t>(character->integer());
+  return answer;
+}
+
+void add_answers(const Json& text, std::vector<Answer>& answers) {
+  const auto add = [&answers](const Json& answer) { answers.push_back(answer_of(answer)); };
+  if (text.contains("ends_at")) {
+    add({{"of", "x"}, {"is", text["ends_at"].at(0)}});
+    add({{"of", "y"}, {"is", text["ends_at"].at(1)}});
+  } else if (text.contains("rests_after")) {
+    add({{"of", "settled"}, {"at_least", 0}, {"at_most", text["rests_after"]}});
+    add({{"of", "speed_x"}, {"is", 0}});
+    add({{"of", "speed_y"}, {"is", 0}});
+  } else {
+    add(text);
+  }
 }
 
 }  // namespace
 
-ColliderDef& add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  return add(scene, std::move(id), {.points = std::move(points)});
+std::vector<const Json*> texts_of(std::string_view kind) {
+  std::vector<const Json*> texts;
+  for (File& file : files())
+    for (const Json& text : part_of(file.json(), kind)) texts.push_back(&text);
+  return texts;
 }
 
-ColliderDef& add_box(Scene& scene, std::string id, double left, double bottom, double right, double top) {
-  return add_polygon(scene, std::move(id), {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
+const std::vector<BuiltInScene>& built_in_scenes() {
+  static const std::vector<BuiltInScene> all = all_from("scenes", scene_from);
+  return all;
 }
 
-ColliderDef& add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  return add(scene, std::move(id), {.shape = ColliderDef::Shape::chain, .points = std::move(points)});
+const std::vector<SceneFamily>& scene_families() {
+  static const std::vector<SceneFamily> all = all_from("families", family_from);
+  return all;
 }
 
-ColliderDef& add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius) {
-  return add(scene, std::move(id), {.shape = ColliderDef::Shape::circle, .points = {centre}, .radius = radius});
+const std::vector<SceneSet>& scene_sets() {
+  static const std::vector<SceneSet> all = all_from("sets", set_from);
+  return all;
 }
 
-ColliderDef& add_ledge(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  ColliderDef& ledge = add_chain(scene, std::move(id), std::move(points));
-  ledge.one_way = Vec2d(0, 1);
-  return ledge;
+std::optional<BuiltInScene> find_built_in(std::string_view name) {
+  const Json* text = named("scenes", name);
+  return text != nullptr ? std::optional(scene_from(*text)) : std::nullopt;
 }
 
-void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop) {
-  scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
-  scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});
+const SceneFamily* find_family(std::string_view name) {
+  static std::map<std::string, SceneFamily, std::less<>> known;
+  if (const auto found = known.find(name); found != known.end()) return &found->second;
+  const Json* text = named("families", name);
+  return text != nullptr ? &known.emplace(name, family_from(*text)).first->second : nullptr;
 }
 
-void let_box2d_move_last(Scene& scene, const Body& body) {
-  move_last(scene, {{}});
-  scene.movers.back().body = body;
+std::optional<SceneSet> find_set(std::string_view name) {
+  const Json* text = named("sets", name);
+  return text != nullptr ? std::optional(set_from(*text)) : std::nullopt;
 }
 
-double fallen(const Scene& scene, int steps) {
-  return -scene.gravity.y() * scene.dt * scene.dt * steps * (steps + 1) / 2;
+std::string_view family_of(std::string_view scene) {
+  const Json* text = named("scenes", scene);
+  if (text == nullptr) return scene;
+  return text->contains("family") ? text->at("family").get<std::string_view>() : "";
 }
 
-double risen(const Scene& scene, int steps) {
-  return scene.character.jump_speed * scene.dt * steps - fallen(scene, steps);
-}
-
-double steps_to_fall(const Scene& scene, double way, double speed) {
-  for (int step = 0;; ++step) {
-    speed -= scene.gravity.y() * scene.dt;
-    if (speed * scene.dt >= way) return step + way / (speed * scene.dt);
-    way -= speed * scene.dt;
+Scene built_in_scene(std::string_view name, std::span<const ParameterSetting> parameters) try {
+  Json text = whole(name);
+  Values values = constants();
+  name_numbers(base().at("let"), values);
+  for (const ParameterSetting& parameter : parameters) {
+    values[parameter.key] = parameter.value;
+    text["let"].erase(parameter.key);
   }
-}
-
-double walked(const Scene& scene, int steps) {
-  double way = 0;
-  for (int step = 1; step <= steps; ++step)
-    way += std::min(scene.character.walk_speed, step * scene.character.acceleration * scene.dt) * scene.dt;
-  return way;
-}
-
-double steps_to_walk(const Scene& scene, double way) {
-  int steps = 0;
-  while (walked(scene, steps + 1) < way) ++steps;
-  const double left = way - walked(scene, steps);
-  return steps + left / (walked(scene, steps + 1) - walked(scene, steps));
-}
-
-double ulp(double x) { return std::nextafter(std::abs(x), HUGE_VAL) - std::abs(x); }
-
-void ends_at(Scene& scene, double x, double y) {
-  scene.answers.push_back(x_is(x));
-  scene.answers.push_back(y_is(y));
-}
-
-void carried_by(Scene& scene, const std::string& mover, int steps, double rounding) {
-  scene.answers.push_back(is(Answer::Of::drift, 0).to(mover).after(steps).within(rounding));
-  scene.answers.push_back(count(Answer::Of::in_the_air, 0).after(steps));
-}
-
-void rests_after(Scene& scene, int steps) {
-  scene.answers.push_back(between(Answer::Of::settled, 0, steps));
-  scene.answers.push_back(is(Answer::Of::speed, 0, {1, 0}));
-  scene.answers.push_back(is(Answer::Of::speed, 0, {0, 1}));
-}
-
-void hold_jump(Scene& scene, int from, int to) {
-  scene.input.push_back(press(from));
-  scene.input.push_back(release(to));
-}
-
-void hold_drop(Scene& scene, int from, int to) {
-  scene.input.push_back({.step = from, .move = std::nullopt, .jump = std::nullopt, .drop = true});
-  scene.input.push_back({.step = to, .move = std::nullopt, .jump = std::nullopt, .drop = false});
+  name_numbers(text["let"], values);
+  Json document = computed(text["scene"], values);
+  document["paperproof_scene"] = 1;
+  document["name"] = name;
+  Scene scene = read_json_scene(document, "", std::string(name));
+  make_in_code(computed(part_of(text, "made"), values), scene);
+  for (const Json& answer : computed(part_of(text, "answers"), values)) add_answers(answer, scene.answers);
+  return scene;
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(fmt::format("built-in scene {}: {}", name, error.what()));
 }
 
 }  // namespace paperproof::compare

@@ -7,11 +7,11 @@
 
 #include "near_names.hpp"
 #include "records/case.hpp"
+#include "scenes/built_in.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
 #include "scenes/picture.hpp"
-#include "scenes/sets.hpp"
 #include "scenes/supertux.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
@@ -26,26 +26,29 @@ void check(const Scene& scene, const std::string& name) {
   for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, name, "", k);
 }
 
-const BuiltInScene* find_built_in(std::string_view name) {
-  const std::vector<BuiltInScene>& known = built_in_scenes();
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& scene) { return scene.name == name; });
-  return found == known.end() ? nullptr : &*found;
+/// All parameters of a family: the last value of each that is set, and the usual value of each other.
+std::vector<ParameterSetting> values_of(const SceneFamily& family, std::span<const ParameterSetting> settings) {
+  std::vector<ParameterSetting> values;
+  for (const ParameterDef& def : family.parameters) {
+    values.push_back({std::string(def.key), def.usual});
+    for (const ParameterSetting& setting : settings)
+      if (setting.key == def.key) values.back().value = setting.value;
+  }
+  return values;
 }
 
-/// @param own those of the member; the family's others have their usual values.
-Scene made_by(const SceneFamily& family, std::span<const ParameterSetting> own) {
-  const ParameterValues values(family.parameters, own);
-  Scene scene = family.make(values);
-  for (const ParameterDef& def : family.parameters) scene.parameters.emplace_back(row_key(def), values[def.key]);
-  return scene;
-}
-
-Scene load_built_in(const BuiltInScene& entry, std::span<const ParameterSetting> more = {}) {
-  std::vector<ParameterSetting> own = entry.settings;
-  own.insert(own.end(), more.begin(), more.end());
-  Scene scene = entry.make != nullptr ? entry.make() : made_by(*find_family(entry.family), own);
-  scene.name = entry.name;
-  scene.description = entry.description;
+/// @param entry nothing for a family by its own name. @param family that it is of, or null.
+Scene load_built_in(const std::optional<BuiltInScene>& entry, const SceneFamily* family,
+                    std::span<const ParameterSetting> more) {
+  std::vector<ParameterSetting> settings;
+  if (entry) settings = entry->settings;
+  settings.insert(settings.end(), more.begin(), more.end());
+  const auto values = family != nullptr ? values_of(*family, settings) : std::vector<ParameterSetting>{};
+  Scene scene = built_in_scene(family != nullptr ? family->name : entry->name, values);
+  scene.name = entry ? entry->name : family->name;
+  scene.description = entry ? entry->description : family->description;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    scene.parameters.emplace_back(row_key(family->parameters[i]), values[i].value);
   return scene;
 }
 
@@ -102,30 +105,20 @@ std::vector<Scene> load_files(const std::string& name_or_path) {
 
 }  // namespace
 
-std::string_view family_of(std::string_view scene) {
-  const BuiltInScene* built_in = find_built_in(scene);
-  return built_in != nullptr ? built_in->family : scene;
-}
-
 std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const ParameterSetting> settings) {
   for (const ParameterSetting& setting : settings) check_setting(name_or_path, setting);
   std::vector<Scene> scenes;
-  if (const SceneSet* set = find_set(name_or_path)) {
+  if (const auto set = find_set(name_or_path)) {
     for (const std::string& name : set->scenes) scenes.push_back(load_scene(name, settings));
     return scenes;
   }
-  const BuiltInScene* built_in = find_built_in(name_or_path);
+  const std::optional<BuiltInScene> built_in = find_built_in(name_or_path);
   const SceneFamily* family = find_family(family_of(name_or_path));
-  const bool is_ours = built_in != nullptr || family != nullptr;
-  if (built_in != nullptr) {
-    scenes.push_back(load_built_in(*built_in, settings));
-  } else if (family != nullptr) {
-    scenes.push_back(made_by(*family, settings));
-    scenes.back().name = name_or_path;
-    scenes.back().description = family->description;
-  } else {
+  const bool is_ours = built_in || family != nullptr;
+  if (is_ours)
+    scenes.push_back(load_built_in(built_in, family, settings));
+  else
     scenes = load_files(name_or_path);
-  }
   const std::string file =
       is_ours ? "" : fmt::format("{}#{}", name_or_path, hash_of(read_file(name_or_path, name_or_path)));
   for (Scene& scene : scenes) {
@@ -134,7 +127,7 @@ std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const 
       if (family == nullptr || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
     note_parameters(scene);
     scene.source = is_ours ? fmt::format("builtin:{}#{}", name_or_path, hash_of_scene(scene)) : file;
-    if (is_ours || !settings.empty()) check(scene, name_or_path);
+    if (!settings.empty()) check(scene, name_or_path);
   }
   return scenes;
 }

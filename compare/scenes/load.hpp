@@ -31,16 +31,10 @@ class InputError : public std::runtime_error {
 
 /// A built-in scene: by itself, or a member of a family with these settings.
 struct BuiltInScene {
-  BuiltInScene(std::string own_name, std::string about, Scene (*made_by)())
-      : name(std::move(own_name)), description(std::move(about)), make(made_by) {}
-  BuiltInScene(std::string own_name, std::string about, std::string_view of, std::vector<ParameterSetting> set = {})
-      : name(std::move(own_name)), description(std::move(about)), family(of), settings(std::move(set)) {}
-
   std::string name;
   std::string description;
-  Scene (*make)() = nullptr;  ///< Null for a member of a family.
-  std::string_view family{};
-  std::vector<ParameterSetting> settings{};
+  std::string family;  ///< Empty where it is none of a family.
+  std::vector<ParameterSetting> settings;
 };
 /// All of them, in the order of registration.
 [[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();

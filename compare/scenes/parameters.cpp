@@ -1,8 +1,8 @@
 #include "scenes/parameters.hpp"
 
 #include "near_names.hpp"
-#include "scenes/built_in.hpp"
 #include "scenes/input_error.hpp"
+#include "scenes/load.hpp"
 
 #include <paperproof/number_in.hpp>
 
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -124,37 +123,6 @@ const ParameterDef* find_parameter(std::span<const ParameterDef> defs, std::stri
 
 std::string row_key(const ParameterDef& parameter) {
   return parameter.unit.empty() ? std::string(parameter.key) : fmt::format("{}_{}", parameter.key, parameter.unit);
-}
-
-ParameterValues::ParameterValues(std::span<const ParameterDef> defs, std::span<const ParameterSetting> settings)
-    : defs_(defs) {
-  for (const ParameterDef& def : defs) values_.push_back(def.usual);
-  for (const ParameterSetting& setting : settings)
-    if (const ParameterDef* def = find_parameter(defs, setting.key))
-      values_[static_cast<std::size_t>(def - defs.data())] = setting.value;
-}
-
-double ParameterValues::operator[](std::string_view key) const {
-  const ParameterDef* def = find_parameter(defs_, key);
-  if (def == nullptr) throw std::logic_error(fmt::format("no parameter {}", key));
-  return values_[static_cast<std::size_t>(def - defs_.data())];
-}
-
-const std::vector<SceneFamily>& scene_families() {
-  static const std::vector<SceneFamily> all = [] {
-    std::vector<SceneFamily> families;
-    for (auto theme : {paper_families(), limit_families(), ground_families(), extreme_families(), body_families(),
-                       angle_families(), tight_families(), moving_families(), play_families(), crowd_families()})
-      families.insert(families.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
-    return families;
-  }();
-  return all;
-}
-
-const SceneFamily* find_family(std::string_view name) {
-  const std::vector<SceneFamily>& all = scene_families();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const SceneFamily& each) { return each.name == name; });
-  return found == all.end() ? nullptr : &*found;
 }
 
 std::span<const ParameterDef> common_parameters() { return common; }

@@ -31,25 +31,11 @@ struct ParameterSetting {
   double value = 0;
 };
 
-/// The parameters of a family with their values.
-class ParameterValues {
- public:
-  /// Parameters that are not set have their usual value.
-  /// @param settings as checked by `check_setting`.
-  ParameterValues(std::span<const ParameterDef> defs, std::span<const ParameterSetting> settings);
-  [[nodiscard]] double operator[](std::string_view key) const;
-
- private:
-  std::span<const ParameterDef> defs_;
-  std::vector<double> values_;
-};
-
 /// A scene with parameters of its own.
 struct SceneFamily {
-  std::string_view name;
-  std::string_view description;
-  std::vector<ParameterDef> parameters;
-  Scene (*make)(const ParameterValues&);
+  std::string name;
+  std::string description;
+  std::vector<ParameterDef> parameters{};
 };
 
 [[nodiscard]] const std::vector<SceneFamily>& scene_families();

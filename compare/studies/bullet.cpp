@@ -3,7 +3,6 @@
 #include "oracle/exemptions.hpp"
 #include "runs/contender.hpp"
 #include "runs/run_case.hpp"
-#include "scenes/built_in.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +14,8 @@ namespace paperproof::compare {
 namespace {
 
 constexpr double usual_step = 1.0 / 60;  ///< [s]
-constexpr double height = 2 * half_height;
+constexpr double pixel = 1.0 / 32;       ///< [m]
+constexpr double height = 40 * pixel;    ///< Of the article's character [m].
 constexpr std::array rows_of_points{0.0, 0.3125, 0.9375, 1.25};
 constexpr double fastest = 3000;  ///< [m/s]
 /// Where points are sparse the speeds that get through begin as windows, some of them narrower than 1 %.

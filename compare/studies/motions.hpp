@@ -3,19 +3,18 @@
 
 #include "scenes/scene.hpp"
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace paperproof::compare {
 
 /// A scene that can be run with steps of any length that divides `longest_step`.
 struct Motion {
-  std::string_view name;
-  std::string_view description;  ///< With the formula where there is a short one.
-  double duration;               ///< [s]
-  Scene (*make)();               ///< Its input counts in steps of `longest_step`.
+  std::string name;
+  std::string description;  ///< With the formula where there is a short one.
+  double duration;          ///< [s]
   /// Where a body without friction goes another way than octagon_sweep's law has it: how. Empty: both go the same way.
-  std::string_view without_friction = "";
+  std::string without_friction;
 };
 
 inline constexpr double longest_step = 1.0 / 15;  ///< [s]

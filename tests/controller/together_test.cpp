@@ -1,5 +1,5 @@
 /// Characters that take turns, where the answer is a formula that tests/situations/together.json cannot say. See also
-/// the scenes of built_in_crowd.cpp, and the random runs of tests/agreement/together_test.cpp.
+/// the built-in scenes of crowd.json, and the random runs of tests/agreement/together_test.cpp.
 #include "controller/together.hpp"
 
 #include <gtest/gtest.h>

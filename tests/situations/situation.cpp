@@ -3,13 +3,11 @@
 #include "records/clause.hpp"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 
 namespace paperproof::test {
@@ -18,20 +16,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// What every formula may name.
-Values constants() {
-  return {
-      {"px", 1.0 / 32},  // of the article's pictures [m]
-      {"half_width", 10.0 / 32},
-      {"half_height", 20.0 / 32},
-      {"half_foot", 5.0 / 32},
-      {"dt", 1.0 / 60},
-      {"gap", 1e-6},  // the largest that may be kept at a contact [m]
-      {"pi", std::numbers::pi},
-      {"degree", std::numbers::pi / 180},
-  };
-}
-
 /// Short names of what is asked for most; everything else is a JSON pointer into the step's record.
 const std::map<std::string, std::string>& short_names() {
   static const std::map<std::string, std::string> names{
@@ -39,45 +23,11 @@ const std::map<std::string, std::string>& short_names() {
   return names;
 }
 
-/// Of `for` or `let`. @throws std::invalid_argument where formulas have that name for something else.
-void name_number(Values& values, const std::string& name, double number) {
-  const std::string of_step = name.starts_with("last_") ? name.substr(5) : name;
-  if (constants().contains(name) || name == "step" || short_names().contains(of_step))
-    throw std::invalid_argument(name + ": formulas have this name for something else");
-  values[name] = number;
-}
-
-/// A list of numbers, or all from one to another by steps of one size.
-std::vector<double> numbers_of(const json& given, const Values& values) {
-  if (given.is_array()) return computed(given, values).get<std::vector<double>>();
-  const json range = computed(given, values);
-  const double from = range.at("from");
-  const double by = range.value("by", 1.0);
-  std::vector<double> numbers(static_cast<std::size_t>(std::lround((range.at("to").get<double>() - from) / by)) + 1);
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = from + static_cast<double>(i) * by;
-  return numbers;
-}
-
-/// The cases of `for`: every combination of the numbers that it lists by name, or each of a list of rows.
-std::vector<Values> cases_of(const ordered_json& given, const Values& others) {
-  std::vector<Values> all{others};
-  if (given.is_array()) {
-    all.assign(given.size(), others);
-    for (std::size_t i = 0; i < given.size(); ++i)
-      for (const auto& [name, number] : given[i].items()) name_number(all[i], name, computed(json(number), all[i]));
-    return all;
-  }
-  for (const auto& [name, numbers] : given.items()) {
-    std::vector<Values> longer;
-    for (const Values& values : all) {
-      for (const double number : numbers_of(json(numbers), values)) {
-        longer.push_back(values);
-        name_number(longer.back(), name, number);
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
+/// @throws std::invalid_argument where formulas have a name of a `for` or a `let` for something else.
+void check_names(const ordered_json& given) {
+  for (const auto& [name, ignored] : (given.is_array() ? given.at(0) : given).items())
+    if (name == "dt" || name == "step" || short_names().contains(name.starts_with("last_") ? name.substr(5) : name))
+      throw std::invalid_argument(name + ": formulas have this name for something else");
 }
 
 /// The numbers that tell a case from the others.
@@ -176,7 +126,7 @@ void check(const json& expected) {
 /// The first and the last step that an expectation speaks of.
 std::pair<int, int> steps_of(const json& expected, const Values& values, int count) {
   const char* key = expected.contains("step") ? "step" : expected.contains("some") ? "some" : "steps";
-  const json given = computed(expected.at(key), values);
+  const json given = compare::computed(expected.at(key), values);
   const auto step = [count](const json& number) {
     const double at = number;
     if (at != std::rint(at)) throw std::invalid_argument(fmt::format("expected a whole number of a step, not {}", at));
@@ -209,13 +159,15 @@ std::string missed_one(const SituationCase& situation, const json& expected, con
   int times = 0;
   for (int step = first; step <= last; ++step) {
     const Values values = in_step(step, records, situation.values);
-    const json part = of.starts_with('=') ? computed(of, values) : part_of(records[static_cast<std::size_t>(step)], of);
-    const std::string here = fault_of(part, computed(expected, values));
+    const json part = of.starts_with('=') ? json(compare::computed(of, values))
+                                          : part_of(records[static_cast<std::size_t>(step)], of);
+    const std::string here = fault_of(part, compare::computed(expected, values));
     times += here.empty();
     if (!here.empty() && fault.empty()) fault = fmt::format("in step {} {} {}", step, of, here);
   }
   if (expected.contains("some")) {
-    const bool holds = expected.contains("times") ? times == computed(expected["times"], situation.values) : times > 0;
+    const bool holds =
+        expected.contains("times") ? times == compare::computed(expected["times"], situation.values) : times > 0;
     if (holds) return {};
     fault = fmt::format("{} of steps {} to {} are as expected; {}", times, first, last, fault);
   }
@@ -224,46 +176,6 @@ std::string missed_one(const SituationCase& situation, const json& expected, con
 }
 
 }  // namespace
-
-double value_of(const std::string& formula, const Values& values) {
-  try {
-    static mu::Parser parser;  // it takes longer to make one than to use it
-    parser.ClearConst();
-    for (const auto& [name, value] : values)
-      if (formula.find(name) != std::string::npos) parser.DefineConst(name, value);
-    parser.SetExpr(formula);
-    return parser.Eval();
-  } catch (const mu::Parser::exception_type& error) {
-    throw std::invalid_argument(formula + ": " + error.GetMsg());
-  }
-}
-
-json computed(const json& document, const Values& values) {
-  if (document.is_string()) {
-    const auto& text = document.get_ref<const std::string&>();
-    return text.starts_with('=') ? json(value_of(text.substr(1), values)) : document;
-  }
-  if (!document.is_structured()) return document;
-  json result = document;
-  if (document.is_array()) {
-    result = json::array();
-    for (const json& part : document) {
-      if (!part.is_object() || !part.contains("each")) {
-        result.push_back(computed(part, values));
-        continue;
-      }
-      for (const Values& each : cases_of(ordered_json(part.at("for")), values))
-        result.push_back(computed(part["each"], each));
-    }
-    return result;
-  }
-  for (json& part : result) part = computed(part, values);
-  if (!result.is_object() || !result.contains("box")) return result;
-  const std::vector<double> box = result["box"];
-  result.erase("box");
-  result["polygon"] = {{box.at(0), box.at(1)}, {box.at(2), box[1]}, {box[2], box.at(3)}, {box[0], box[3]}};
-  return result;
-}
 
 std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& text = situation.text;
@@ -275,11 +187,14 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json given = text.value("for", ordered_json::object());
   const json named = text.value("contender", ordered_json("octagon_sweep"));
   const json contenders = named.is_array() ? named : json::array({named});
-  for (Values& values : cases_of(given, constants())) {
+  check_names(given);
+  Values always = compare::constants();
+  always["dt"] = 1.0 / 60;
+  for (Values& values : compare::cases_of(given, always)) {
     for (const ordered_json* place : {&file, &text}) {
-      const ordered_json lets = place->value("let", ordered_json::object());
-      for (const auto& [name, formula] : lets.items())
-        name_number(values, name, formula.is_number() ? formula.get<double>() : value_of(formula, values));
+      const ordered_json let = place->value("let", ordered_json::object());
+      check_names(let);
+      compare::name_numbers(let, values);
     }
     json scene = json(file.value("scene", ordered_json::object()));
     scene.merge_patch(json(text.value("scene", ordered_json::object())));
@@ -288,7 +203,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
     for (const std::string contender : contenders)
       cases.push_back({.title = title_of(given, values),
                        .values = values,
-                       .scene = computed(scene, values),
+                       .scene = compare::computed(scene, values),
                        .contender = contender,
                        .in_float = text.value("in_float", false),
                        .knobs = text.value("knobs", std::vector<std::string>{}),

@@ -1,23 +1,17 @@
 /// A situation: a scene, what happens in it, and numbers that follow by a formula. README.md has the format.
 #pragma once
 
+#include "scenes/formula.hpp"
+
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
 
 namespace paperproof::test {
 
-/// Numbers by name, for formulas.
-using Values = std::map<std::string, double>;
-
-/// @throws std::invalid_argument with the formula, where it is none. Not thread-safe.
-[[nodiscard]] double value_of(const std::string& formula, const Values& values);
-
-/// The same document with a number for every text that begins with `=`, and the corners of every `box`.
-[[nodiscard]] nlohmann::json computed(const nlohmann::json& document, const Values& values);
+using compare::Values;
 
 /// One situation with the numbers of one of its cases.
 struct SituationCase {

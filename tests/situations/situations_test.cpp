@@ -164,11 +164,5 @@ TEST(Situation, that_no_run_could_miss_is_refused) {
   }
 }
 
-TEST(Situation, repeats_what_each_says) {
-  const json tiles =
-      json::parse(R"([[9, 9], {"for": {"i": {"from": "=first", "to": 2}, "k": [5, 7]}, "each": ["=i", "=k"]}])");
-  EXPECT_EQ(computed(tiles, {{"first", 1}}), json::parse("[[9, 9], [1.0, 5.0], [1.0, 7.0], [2.0, 5.0], [2.0, 7.0]]"));
-}
-
 }  // namespace
 }  // namespace paperproof::test
