@@ -39,8 +39,6 @@ std::string told(const Answer& answer, const std::string& number) {
       return "has the speed " + number + " m/s along " + axis + " " + when;
     case Of::farthest:
       return "comes to " + number + " m along " + axis;
-    case Of::setback:
-      return "goes back " + number + " m against " + axis;
     case Of::drift:
       return "drifts by " + number + " m on" + to;
     case Of::contact:
@@ -137,9 +135,6 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
     case Of::farthest:
       for (const PathPoint& corner : step.path) watch.largest(corner.position.dot(answer.along));
       break;
-    case Of::setback:
-      if (since) watch.go_back(step);
-      break;
     case Of::drift:
       if (since && !until) watch.largest((place_of(watch, step) - watch.anchor).cwiseAbs().maxCoeff());
       if (until && (!always || !watch.seen)) watch.anchor = place_of(watch, step);
@@ -170,14 +165,6 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
     case Of::leave:
       watch.change(step, Change::exit);
       break;
-  }
-}
-
-void AnswerCheck::Watch::go_back(const TraceStep& step) {
-  for (const PathPoint& corner : step.path) {
-    const double place = corner.position.dot(answer.along);
-    peak = seen ? std::max(peak, place) : place;
-    largest(peak - place);
   }
 }
 

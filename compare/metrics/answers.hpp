@@ -38,14 +38,12 @@ class AnswerCheck {
     MoverIndex mover = no_mover;
     bool seen = false;  ///< `value` is one.
     double value = 0;
-    double peak = 0;                  ///< `setback`: the largest place so far.
     Vec2d anchor{Vec2d::Zero()};      ///< `drift`, `settled`: what it is compared with.
     bool grounded = false;            ///< `settled`: the same.
     std::set<ColliderIndex> named{};  ///< `crushers`
 
     void first(double when);
     void largest(double at);
-    void go_back(const TraceStep& step);
     void settle(const TraceStep& step, double reach);
     void change(const TraceStep& step, SensorEvent::Change what);
   };

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 
 namespace paperproof::compare {
 
@@ -16,7 +15,6 @@ struct Answer {
     place,       ///< Position along `along` after `after` steps, relative to the mover `with` where one is named [m].
     speed,       ///< Velocity along `along` after `after` steps [m/s].
     farthest,    ///< The largest position along `along` on the whole way [m].
-    setback,     ///< How far the character ever goes back against `along`, after `after` steps [m].
     drift,       ///< How far its position relative to the mover `with` ever gets from that after `after` steps [m].
     contact,     ///< When a contact, with `with` where it is named, is first reported [steps, with the fraction].
     contacts,    ///< On how many steps there is a contact, with `with` where it is named [steps].
@@ -45,39 +43,6 @@ struct Answer {
   std::string with{};    ///< Id of a collider; any where it is empty.
   bool by_law = false;   ///< Only a contender that moves by the law of octagon_sweep, or can say it, is asked.
   double clearance = 0;  ///< A contender that keeps a larger gap is not asked [m]; 0: all are.
-
-  /// Relative to a mover, or of one collider alone.
-  [[nodiscard]] Answer to(std::string id) && { return with = std::move(id), std::move(*this); }
-  [[nodiscard]] Answer after(int steps) && { return step = steps, std::move(*this); }
-  [[nodiscard]] Answer of_character(std::size_t which) && { return character = which, std::move(*this); }
-  [[nodiscard]] Answer law() && { return by_law = true, std::move(*this); }
-  [[nodiscard]] Answer beyond(double room) && { return clearance = room, std::move(*this); }
-  /// Allows `many` times the gap.
-  [[nodiscard]] Answer gaps(double many) && { return per_metre = many, tolerance = many * gap, std::move(*this); }
-  [[nodiscard]] Answer within(double off) && { return tolerance = off, std::move(*this); }
 };
-
-[[nodiscard]] inline Answer between(Answer::Of of, double at_least, double at_most, const Vec2d& along = {0, 0}) {
-  Answer answer;
-  answer.of = of;
-  answer.at_least = at_least;
-  answer.at_most = at_most;
-  answer.along = along;
-  return answer;
-}
-[[nodiscard]] inline Answer is(Answer::Of of, double value, const Vec2d& along = {0, 0}) {
-  return between(of, value, value, along);
-}
-[[nodiscard]] inline Answer x_is(double value) { return is(Answer::Of::place, value, {1, 0}); }
-[[nodiscard]] inline Answer y_is(double value) { return is(Answer::Of::place, value, {0, 1}); }
-[[nodiscard]] inline Answer farthest(const Vec2d& along, double value) {
-  return is(Answer::Of::farthest, value, along);
-}
-/// A whole number of steps or colliders, exactly.
-[[nodiscard]] inline Answer count(Answer::Of of, int value) { return is(of, value).gaps(0); }
-/// A time of impact in steps. @param approach along the normal [m per step].
-[[nodiscard]] inline Answer contact(double steps, double approach) {
-  return is(Answer::Of::contact, steps).gaps(1 / approach);
-}
 
 }  // namespace paperproof::compare

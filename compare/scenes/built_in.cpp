@@ -123,8 +123,8 @@ auto all_from(std::string_view kind, const From& from) {
 }
 
 /// In the order of `Answer::Of`.
-constexpr std::array kinds_of_answers{"place",      "speed",   "farthest", "setback",  "drift", "contact", "contacts",
-                                      "in_the_air", "settled", "crush",    "crushers", "enter", "leave"};
+constexpr std::array kinds_of_answers{"place",      "speed",   "farthest", "drift",    "contact", "contacts",
+                                      "in_the_air", "settled", "crush",    "crushers", "enter",   "leave"};
 
 Answer answer_of(const Json& text) {
   Answer answer;
@@ -139,6 +139,7 @@ Answer answer_of(const Json& text) {
   static const std::string file = "a built-in scene";
   const JsonCursor at(text, file);
   answer.at_least = -std::numeric_limits<double>::infinity();
+  answer.at_most = -answer.at_least;
   at.take("is", answer.at_least);
   at.take("is", answer.at_most);
   at.take("at_least", answer.at_least);
@@ -156,21 +157,25 @@ Answer answer_of(const Json& text) {
   return answer;
 }
 
-void add_answers(const Json& text, std::vector<Answer>& answers) {
-  const auto add = [&answers](const Json& answer) { answers.push_back(answer_of(answer)); };
-  if (text.contains("ends_at")) {
-    add({{"of", "x"}, {"is", text["ends_at"].at(0)}});
-    add({{"of", "y"}, {"is", text["ends_at"].at(1)}});
-  } else if (text.contains("rests_after")) {
-    add({{"of", "settled"}, {"at_least", 0}, {"at_most", text["rests_after"]}});
-    add({{"of", "speed_x"}, {"is", 0}});
-    add({{"of", "speed_y"}, {"is", 0}});
-  } else {
-    add(text);
-  }
-}
-
 }  // namespace
+
+std::vector<Answer> answers_of(const Json& texts) {
+  std::vector<Answer> answers;
+  const auto add = [&answers](const Json& text) { answers.push_back(answer_of(text)); };
+  for (const Json& text : texts) {
+    if (text.contains("ends_at")) {
+      add({{"of", "x"}, {"is", text["ends_at"].at(0)}});
+      add({{"of", "y"}, {"is", text["ends_at"].at(1)}});
+    } else if (text.contains("rests_after")) {
+      add({{"of", "settled"}, {"at_least", 0}, {"at_most", text["rests_after"]}});
+      add({{"of", "speed_x"}, {"is", 0}});
+      add({{"of", "speed_y"}, {"is", 0}});
+    } else {
+      add(text);
+    }
+  }
+  return answers;
+}
 
 std::vector<const Json*> texts_of(std::string_view kind) {
   std::vector<const Json*> texts;
@@ -231,7 +236,7 @@ Scene built_in_scene(std::string_view name, std::span<const ParameterSetting> pa
   document["name"] = name;
   Scene scene = read_json_scene(document, "", std::string(name));
   make_in_code(computed(part_of(text, "made"), values), scene);
-  for (const Json& answer : computed(part_of(text, "answers"), values)) add_answers(answer, scene.answers);
+  scene.answers = answers_of(computed(part_of(text, "answers"), values));
   return scene;
 } catch (const std::invalid_argument& error) {
   throw std::invalid_argument(fmt::format("built-in scene {}: {}", name, error.what()));

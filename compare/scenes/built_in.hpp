@@ -27,6 +27,9 @@ struct SceneSet {
 /// What the files list under "scenes", "families", "sets" or "motions", in order.
 [[nodiscard]] std::vector<const Json*> texts_of(std::string_view kind);
 
+/// From a list as `answers` of a built-in scene, all numbers computed.
+[[nodiscard]] std::vector<Answer> answers_of(const Json& texts);
+
 /// The scene of that name, with its answers.
 /// @param parameters all that it has, where it is a family.
 [[nodiscard]] Scene built_in_scene(std::string_view name, std::span<const ParameterSetting> parameters);
