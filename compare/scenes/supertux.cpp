@@ -19,39 +19,15 @@ constexpr double tile_pixels = 32;  // also the pixels of a metre
 
 /// The collider of a tile in its cell, y up, or none where the tile blocks nothing.
 std::optional<ColliderDef> collider_of(const SuperTuxTile& tile, int column, int row) {
-  const auto at = [&](double x, double y) { return Vec2d{column + x, 0 - (row + y)}; };
+  const auto at = [&](const Vec2d& point) { return Vec2d{column + point.x(), 0 - (row + point.y())}; };
+  const SuperTuxTile::Kind kind = tile.kind();
+  if (kind == SuperTuxTile::Kind::nothing) return std::nullopt;
+  if (kind == SuperTuxTile::Kind::one_way) {
+    const auto& [from, to, outwards] = tile.side();
+    return ColliderDef{.shape = ColliderDef::Shape::chain, .points = {at(from), at(to)}, .one_way = outwards};
+  }
   ColliderDef collider;
-  switch (tile.kind()) {
-    case SuperTuxTile::Kind::nothing:
-      return std::nullopt;
-    case SuperTuxTile::Kind::solid:
-      collider.points = {at(0, 1), at(1, 1), at(1, 0), at(0, 0)};
-      return collider;
-    case SuperTuxTile::Kind::slope:
-      for (const Vec2d& point : tile.solid_part()) collider.points.push_back(at(point.x(), point.y()));
-      return collider;
-    case SuperTuxTile::Kind::one_way:
-      break;
-  }
-  collider.shape = ColliderDef::Shape::chain;
-  switch (tile.direction()) {
-    case SuperTuxTile::Direction::north:
-      collider.points = {at(0, 0), at(1, 0)};
-      collider.one_way = Vec2d{0, 1};
-      break;
-    case SuperTuxTile::Direction::south:
-      collider.points = {at(0, 1), at(1, 1)};
-      collider.one_way = Vec2d{0, -1};
-      break;
-    case SuperTuxTile::Direction::west:
-      collider.points = {at(0, 0), at(0, 1)};
-      collider.one_way = Vec2d{-1, 0};
-      break;
-    case SuperTuxTile::Direction::east:
-      collider.points = {at(1, 0), at(1, 1)};
-      collider.one_way = Vec2d{1, 0};
-      break;
-  }
+  for (const Vec2d& point : tile.solid_part()) collider.points.push_back(at(point));
   return collider;
 }
 

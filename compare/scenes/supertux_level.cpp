@@ -185,7 +185,6 @@ class LevelReader {
 
   SuperTuxPlatform platform(const SExpression& list) const {
     SuperTuxPlatform platform;
-    platform.name = reader_.text(list, "name");
     platform.sprite = reader_.text(list, "sprite");
     if (platform.sprite.empty()) platform.sprite = "images/objects/flying_platform/flying_platform.sprite";
     platform.running = reader_.flag(list, "running", true);
@@ -206,7 +205,16 @@ SuperTuxTile::Kind SuperTuxTile::kind() const noexcept {
   return (attributes & one_way_bits) != 0 ? Kind::one_way : Kind::solid;
 }
 
+const SuperTuxTile::Side& SuperTuxTile::side() const noexcept {
+  static const std::array<Side, 4> sides{Side{{0, 0}, {1, 0}, {0, 1}},   // north
+                                         Side{{0, 1}, {1, 1}, {0, -1}},  // south
+                                         Side{{0, 0}, {0, 1}, {-1, 0}},  // west
+                                         Side{{1, 0}, {1, 1}, {1, 0}}};  // east
+  return sides[data & 3U];
+}
+
 std::vector<Vec2d> SuperTuxTile::solid_part() const {
+  if (kind() == Kind::solid) return {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   const auto half = static_cast<Half>(data >> 4U & 7U);
   const double left = half == Half::right ? 0.5 : 0;
   const double right = half == Half::left ? 0.5 : 1;

@@ -20,12 +20,15 @@ struct SuperTuxTile {
   /// A slope must be solid too; one-way is written together with solid, and a slope is never one-way.
   [[nodiscard]] Kind kind() const noexcept;
 
-  /// Slopes: the solid part within the unit square, x right, y **down**; convex, vertices in order.
+  /// Solid tiles and slopes: the part within the unit square, x right, y **down**; convex, vertices in order.
   [[nodiscard]] std::vector<Vec2d> solid_part() const;
 
   /// One-way tiles: the side that blocks.
-  enum class Direction : std::uint8_t { north, south, west, east };
-  [[nodiscard]] Direction direction() const noexcept { return static_cast<Direction>(data & 3U); }
+  struct Side {
+    Vec2d from, to;  ///< Within the unit square, y **down**.
+    Vec2d outwards;  ///< y up.
+  };
+  [[nodiscard]] const Side& side() const noexcept;
 };
 
 /// By tile number. Tile 0 is empty and not in it.
@@ -50,7 +53,6 @@ struct SuperTuxTilemap {
 };
 
 struct SuperTuxPlatform {
-  std::string name;
   std::string sprite;
   bool running = true;  ///< Otherwise it waits for a script where its path begins.
   bool hurts = false;   ///< These are not solid.
