@@ -20,9 +20,10 @@ namespace {
 /// A file of `built_in/`, read when something in it is first asked for: most runs ask for one scene.
 class File {
  public:
-  explicit File(std::string_view text) : text_(text) {}
+  File(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
   const Json& json() {
-    if (json_.is_null()) json_ = Json::parse(text_);
+    if (json_.is_null()) json_ = Json::parse(text_, nullptr, false);
+    if (json_.is_discarded()) json_ = parse_json(std::string(text_), name_);  // says what is wrong, and takes longer
     return json_;
   }
   /// Whether it may have something of that name.
@@ -31,6 +32,7 @@ class File {
   }
 
  private:
+  std::string name_;
   std::string_view text_;
   Json json_;
 };
@@ -38,10 +40,12 @@ class File {
 /// In the order of registration.
 std::vector<File>& files() {
   using namespace built_in_texts;
-  static std::vector<File> all{File(paper_json),  File(angle_json),  File(ground_json),  File(article_json),
-                               File(claims_json), File(limits_json), File(one_way_json), File(moving_json),
-                               File(bodies_json), File(crowd_json),  File(extreme_json), File(play_json),
-                               File(tight_json),  File(motions_json)};
+  static std::vector<File> all{
+      {"paper.json", paper_json},     {"angle.json", angle_json},     {"ground.json", ground_json},
+      {"article.json", article_json}, {"claims.json", claims_json},   {"limits.json", limits_json},
+      {"one_way.json", one_way_json}, {"moving.json", moving_json},   {"bodies.json", bodies_json},
+      {"crowd.json", crowd_json},     {"extreme.json", extreme_json}, {"play.json", play_json},
+      {"tight.json", tight_json},     {"motions.json", motions_json}};
   return all;
 }
 
