@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "scenes/built_in_texts.hpp"
@@ -126,6 +126,13 @@ auto all_from(std::string_view kind, const From& from) {
   return all;
 }
 
+/// Nothing where there is none of that name.
+template <class From>
+auto found(std::string_view kind, std::string_view name, const From& from) {
+  const Json* text = named(kind, name);
+  return text != nullptr ? std::optional(from(*text)) : std::nullopt;
+}
+
 /// In the order of `Answer::Of`.
 constexpr std::array kinds_of_answers{"place",      "speed",   "farthest", "drift",    "contact", "contacts",
                                       "in_the_air", "settled", "crush",    "crushers", "enter",   "leave"};
@@ -203,22 +210,9 @@ const std::vector<SceneSet>& scene_sets() {
   return all;
 }
 
-std::optional<BuiltInScene> find_built_in(std::string_view name) {
-  const Json* text = named("scenes", name);
-  return text != nullptr ? std::optional(scene_from(*text)) : std::nullopt;
-}
-
-const SceneFamily* find_family(std::string_view name) {
-  static std::map<std::string, SceneFamily, std::less<>> known;
-  if (const auto found = known.find(name); found != known.end()) return &found->second;
-  const Json* text = named("families", name);
-  return text != nullptr ? &known.emplace(name, family_from(*text)).first->second : nullptr;
-}
-
-std::optional<SceneSet> find_set(std::string_view name) {
-  const Json* text = named("sets", name);
-  return text != nullptr ? std::optional(set_from(*text)) : std::nullopt;
-}
+std::optional<BuiltInScene> find_built_in(std::string_view name) { return found("scenes", name, scene_from); }
+std::optional<SceneFamily> find_family(std::string_view name) { return found("families", name, family_from); }
+std::optional<SceneSet> find_set(std::string_view name) { return found("sets", name, set_from); }
 
 std::string_view family_of(std::string_view scene) {
   const Json* text = named("scenes", scene);

@@ -37,14 +37,14 @@ std::vector<ParameterSetting> values_of(const SceneFamily& family, std::span<con
   return values;
 }
 
-/// @param entry nothing for a family by its own name. @param family that it is of, or null.
-Scene load_built_in(const std::optional<BuiltInScene>& entry, const SceneFamily* family,
+/// @param entry nothing for a family by its own name. @param family that it is of, or nothing.
+Scene load_built_in(const std::optional<BuiltInScene>& entry, const std::optional<SceneFamily>& family,
                     std::span<const ParameterSetting> more) {
   std::vector<ParameterSetting> settings;
   if (entry) settings = entry->settings;
   settings.insert(settings.end(), more.begin(), more.end());
-  const auto values = family != nullptr ? values_of(*family, settings) : std::vector<ParameterSetting>{};
-  Scene scene = built_in_scene(family != nullptr ? family->name : entry->name, values);
+  const auto values = family ? values_of(*family, settings) : std::vector<ParameterSetting>{};
+  Scene scene = built_in_scene(family ? family->name : entry->name, values);
   scene.name = entry ? entry->name : family->name;
   scene.description = entry ? entry->description : family->description;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -113,8 +113,8 @@ std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const 
     return scenes;
   }
   const std::optional<BuiltInScene> built_in = find_built_in(name_or_path);
-  const SceneFamily* family = find_family(family_of(name_or_path));
-  const bool is_ours = built_in || family != nullptr;
+  const std::optional<SceneFamily> family = find_family(family_of(name_or_path));
+  const bool is_ours = built_in || family;
   if (is_ours)
     scenes.push_back(load_built_in(built_in, family, settings));
   else
@@ -124,7 +124,7 @@ std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const 
   for (Scene& scene : scenes) {
     scene.given = name_or_path;
     for (const ParameterSetting& setting : settings)
-      if (family == nullptr || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
+      if (!family || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
     note_parameters(scene);
     scene.source = is_ours ? fmt::format("builtin:{}#{}", name_or_path, hash_of_scene(scene)) : file;
     if (!settings.empty()) check(scene, name_or_path);

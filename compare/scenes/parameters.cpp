@@ -129,8 +129,8 @@ std::span<const ParameterDef> common_parameters() { return common; }
 
 std::vector<ParameterDef> parameters_of(std::string_view scene) {
   std::vector<ParameterDef> all;
-  const SceneFamily* family = find_family(family_of(scene));
-  if (family != nullptr) all = family->parameters;
+  const std::optional<SceneFamily> family = find_family(family_of(scene));
+  if (family) all = family->parameters;
   for (const ParameterDef& def : common)
     if (find_parameter(all, def.key) == nullptr) all.push_back(def);
   return all;

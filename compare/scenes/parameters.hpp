@@ -3,6 +3,7 @@
 
 #include "scenes/scene.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,8 +40,8 @@ struct SceneFamily {
 };
 
 [[nodiscard]] const std::vector<SceneFamily>& scene_families();
-/// Null where there is none of that name.
-[[nodiscard]] const SceneFamily* find_family(std::string_view name);
+/// Nothing where there is none of that name.
+[[nodiscard]] std::optional<SceneFamily> find_family(std::string_view name);
 
 /// Those that every scene has: dt, gravity, speed, scale, origin.
 [[nodiscard]] std::span<const ParameterDef> common_parameters();

@@ -38,12 +38,12 @@ TEST(BuiltInFiles, name_scenes_that_there_are) {
     for (const std::string& scene : set.scenes) EXPECT_TRUE(find_built_in(scene)) << scene;
   for (const BuiltInScene& scene : built_in_scenes()) {
     if (scene.family.empty()) continue;
-    const SceneFamily* family = find_family(scene.family);
-    ASSERT_NE(family, nullptr) << scene.name;
+    const auto family = find_family(scene.family);
+    ASSERT_TRUE(family) << scene.name;
     for (const ParameterSetting& setting : scene.settings) EXPECT_NO_THROW(check_setting(family->name, setting));
   }
   EXPECT_FALSE(find_built_in("tiles")) << "a family";
-  EXPECT_EQ(find_family("flush_tiles"), nullptr) << "a scene";
+  EXPECT_FALSE(find_family("flush_tiles")) << "a scene";
   EXPECT_THROW((void)built_in_scene("nothing", {}), std::invalid_argument);
 }
 
