@@ -62,10 +62,15 @@ PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex pie
 
 [[nodiscard]] inline Vec2 upward(const Step& step) { return step.up.in_world({0, 1}); }
 
-/// Whether ways that take no time, one after another, are free, and the last one ends at walkable ground.
+/// Whether ways that take no time, one after another, are free, and the last one ends at walkable ground: where a mover
+/// takes the character as the step ends, as a climb comes then.
 /// @param ways across and up [m].
-[[nodiscard]] PAPERPROOF_COLD inline bool lead_to_ground(Step& step, std::initializer_list<Vec2> ways) {
+[[nodiscard]] PAPERPROOF_COLD inline bool lead_to_ground(Step& step, MoverIndex mover,
+                                                         std::initializer_list<Vec2> ways) {
   const Vec2 from = step.position;
+  const Real time = step.time;
+  step.position -= step.movers.relative(Vec2::Zero(), mover, time);
+  step.time = 1;
   bool is_free = true;
   bool is_hit = false;
   for (const Vec2& way : ways) {
@@ -77,6 +82,7 @@ PAPERPROOF_INLINE void note_ground(Step& step, GroundState state, PieceIndex pie
     step.position += step.motion.displacement;
   }
   step.position = from;
+  step.time = time;
   return is_free && is_hit &&
          walkable(step, step.space.normal(step.found.stops[0].piece, step.found.stops[0].axes.normal));
 }
@@ -117,14 +123,15 @@ template <class Points>
   const Vec2 foothold = step.up.seen(Vec2(stood_on - furthest(step.space.hull(), Vec2(-steepest)) - at));
   const Real highest = std::max({height, foothold.y(), foothold.y() + risen, tolerances.touch});
   if (highest <= step.settings.step_height &&
-      lead_to_ground(step, {{0, foothold.y() + 2 * little}, {foothold.x() + side * little, 0}, {0, -4 * little}}))
+      lead_to_ground(step, steep.mover,
+                     {{0, foothold.y() + 2 * little}, {foothold.x() + side * little, 0}, {0, -4 * little}}))
     return true;
 
   const Vec2 flank = furthest(step.space.hull(), step.up.in_world({side, 0}));
   const Real past = step.up.across_of(Vec2(bottom + n * radius - flank - at)) - side * little;
   const Real down = step.settings.snap + std::min(risen, Real(0));
   return risen <= tolerances.touch && std::max(height, tolerances.touch) <= step.settings.snap && down > 0 &&
-         lead_to_ground(step, {{past, 0}, {0, -down}});
+         lead_to_ground(step, steep.mover, {{past, 0}, {0, -down}});
 }
 
 }  // namespace paperproof::octagon_sweep::PAPERPROOF_REAL
