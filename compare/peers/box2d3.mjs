@@ -9,7 +9,7 @@
  * mover is that of samples/sample_character.cpp. The mover is a capsule: the largest upright one in the octagon. The judge
  * is told, by eight points on its rim, and looks at those.
  */
-import {installed, loadBox2d3, nearest, outline, serve, words} from "./peer.mjs";
+import {installed, loadBox2d3, nearest, outline, serve, velocityAt, words} from "./peer.mjs";
 
 const asMover = words.includes("mover");
 const slop = 0.005;  // b2_linearSlop
@@ -168,7 +168,7 @@ class World {
 
   /** The sample's loop: five rounds, until one moves by less than a centimetre. */
   #moveCapsule() {
-    const {box2d, mover, asked: {wanted, dt}, capsule: {half}} = this;
+    const {box2d, mover, asked: {wanted, dt}, capsule: {radius, half}} = this;
     const target = [this.place[0] + wanted[0] * dt, this.place[1] + wanted[1] * dt];
     const way = [];
     this.from = this.place;
@@ -189,8 +189,18 @@ class World {
       way.push(this.place);
       if (Math.hypot(...delta) < 0.01) break;
     }
-    const left = box2d.b2ClipVector(this.vector(wanted), this.planes.map(({plane}) => plane));
-    this.moved = {way, velocity: [left.x, left.y], pushing: this.planes.filter(({plane}) => plane.push > 0)};
+    const touching = this.planes.filter(({plane}) => plane.push > 0).map(({plane, shape}) => {
+      const {normal} = plane.plane;
+      const point = [this.place[0] - radius * normal.x, this.place[1] - radius * normal.y - Math.sign(normal.y) * half];
+      return {part: this.#partOf(shape), normal: [normal.x, normal.y], separation: 0, point, plane};
+    });
+    // b2ClipVector knows no plane that moves: each clips in its own frame.
+    const velocity = touching.reduce((left, {part, point, plane}) => {
+      const own = velocityAt(part, point, dt);
+      const {x, y} = box2d.b2ClipVector(this.vector([left[0] - own[0], left[1] - own[1]]), [plane]);
+      return [x + own[0], y + own[1]];
+    }, wanted);
+    this.moved = {way, velocity, touching: touching.map(({plane, ...rest}) => rest)};
   }
 
   /** b2World_OverlapShape, of the octagon less half a millimetre (so much does it count as overlap) or the capsule without the slop. */
@@ -220,12 +230,7 @@ class World {
   }
 
   #answerOfMover() {
-    const {way, velocity, pushing} = this.moved;
-    const {radius, half} = this.capsule;
-    const touching = pushing.map(({plane: {plane: {normal}}, shape}) => ({
-      part: this.#partOf(shape), normal: [normal.x, normal.y], separation: 0,
-      point: [this.place[0] - radius * normal.x, this.place[1] - radius * normal.y - Math.sign(normal.y) * half],
-    }));
+    const {way, velocity, touching} = this.moved;
     // A round's share of the step is that of the wanted way. Where something moves it is at its end already: no corners.
     const length = Math.hypot(...this.asked.wanted) * this.asked.dt || 1;
     const path = [];

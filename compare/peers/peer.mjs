@@ -221,6 +221,14 @@ export function nearest(part, point) {
   return part.colliders.reduce((best, next) => (distance(next) < distance(best) ? next : best)).id;
 }
 
+/** How fast a part goes in this step, where it is touched. */
+export function velocityAt({motion}, [x, y], dt) {
+  if (!motion) return [0, 0];
+  const {from, to, angle: [before, after] = [0, 0]} = motion;
+  const turn = (after - before) / dt;
+  return [(to[0] - from[0]) / dt - turn * (y - to[1]), (to[1] - from[1]) / dt + turn * (x - to[0])];
+}
+
 /** Box2D 3, loaded: npm box2d3-wasm. Its integration test fills in for what Node has since 21. */
 export async function loadBox2d3() {
   globalThis.navigator ??= {hardwareConcurrency: 1};
