@@ -55,7 +55,10 @@ class World {
     body_ = cpSpaceAddBody(space_, cpBodyNew(1, INFINITY));
     cpBodySetUserData(body_, this);
     // A step moves bodies first, and solves velocities then. What is wanted is said in between, as in Chipmunk's demo
-    // of a player; what it moves by is what was solved in the step before.
+    // of a player. The turn begins there: what is solved moves the body within the same step, by Chipmunk's own function.
+    const auto stay = [](cpBody*, cpFloat) {};
+    cpBodySetPositionUpdateFunc(body_, stay);
+    for (const auto& [id, body] : movers_) cpBodySetPositionUpdateFunc(body, stay);
     cpBodySetVelocityUpdateFunc(body_, [](cpBody* body, cpVect, cpFloat, cpFloat) {
       cpBodySetVelocity(body, static_cast<World*>(cpBodyGetUserData(body))->wanted_);
     });
@@ -78,6 +81,7 @@ class World {
     }
     const auto began = steady_clock::now();
     cpSpaceStep(space_, dt_);
+    cpBodyUpdatePosition(body_, dt_);
     const std::chrono::duration<double, std::nano> took = steady_clock::now() - began;
     json answer{{"velocity", metres(cpBodyGetVelocity(body_))}, {"contacts", json::array()}, {"grounded", false}};
     answer["path"] = {{cpBodyGetPosition(body_).x / scale, cpBodyGetPosition(body_).y / scale, 1}};
