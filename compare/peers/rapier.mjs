@@ -2,6 +2,7 @@
  * Rapier (npm @dimforge/rapier2d-compat), driven as its user guide says:
  *
  *     paperproof compare thin_platform --peer 'node compare/peers/rapier.mjs'             # its character controller
+ *     paperproof compare thin_platform --peer 'node compare/peers/rapier.mjs snap'        # the same, following the ground
  *     paperproof compare thin_platform --peer 'node compare/peers/rapier.mjs body'        # a dynamic body, as it comes
  *     paperproof compare thin_platform --peer 'node compare/peers/rapier.mjs body_ccd'    # with CCD on
  *     paperproof compare thin_platform --peer 'node compare/peers/rapier.mjs body_no_ccd' # with none in the world
@@ -12,12 +13,15 @@
  * Sources: rapier.rs/docs/user_guides/javascript, its pages on the character controller, on rigid-bodies (CCD, locked
  * rotations, kinematic bodies) and on colliders; rapier.rs/javascript2d for each call.
  */
-import {convexPieces, installed, nearest, outline, serve, standing, twoSidedEdges, words} from "./peer.mjs";
+import {convexPieces, installed, nearest, outline, serve, standing, twoSidedEdges, velocityAt, words} from "./peer.mjs";
 
 const asBody = words.some((word) => word.startsWith("body"));
 const asOutline = words.includes("outline");
 /** What is kept free [m]: the controller's offset, as in the guide ("must not be zero"), and a body's contact skin. */
 const gap = 0.01;
+const follows = words.includes("snap");
+/** Distance to the ground that it follows where the scene has none, and the least room on a step [m]: the guide's. */
+const [guidesSnap, leastStep] = [0.5, 0.2];
 const flat = (points) => new Float32Array(points.flat());
 const vector = ([x, y]) => ({x, y});
 
@@ -42,12 +46,15 @@ class World {
     if (asBody) shape.setContactSkin(gap);
     this.character = this.world.createCollider(shape, this.body);
     if (asBody) return;
-    // Angles as the scene's; what the law of intent does itself is off: steps, snapping, pushing.
+    // Angles, steps and snapping as the scene has them; pushing is off.
     this.controller = this.world.createCharacterController(gap);
     this.controller.setMaxSlopeClimbAngle((run.max_climb_degrees * Math.PI) / 180);
     this.controller.setMinSlopeSlideAngle((run.max_climb_degrees * Math.PI) / 180);
+    const {step_height: step, snap} = run.character;
     this.controller.disableAutostep();
     this.controller.disableSnapToGround();
+    if (step > 0) this.controller.enableAutostep(step, leastStep, false);
+    if (snap > 0 || follows) this.controller.enableSnapToGround(snap || guidesSnap);
     this.controller.setApplyImpulsesToDynamicBodies(false);
     this.world.step();  // what the controller asks for obstacles is built by a step
   }
@@ -139,7 +146,8 @@ class World {
 
   /**
    * The controller has no velocity; the guide leaves it to the game. Here walkable ground takes what falls, and everything
-   * else what leads into it. The controller takes along what stands on a mover by itself, so such ground is not named.
+   * else what leads into it. The controller takes along what stands on a mover by itself, so such ground is not named, and
+   * what is said is the velocity on it.
    */
   #answerOfController(at) {
     const touching = Array.from({length: this.controller.numComputedCollisions()}, (_, i) => {
@@ -151,10 +159,12 @@ class World {
     });
     const {ground, contacts} = standing(this.run, touching, this.asked);
     let [vx, vy] = this.asked.wanted;
-    for (const {normal: [x, y]} of touching) {
-      const into = Math.min(0, vx * x + vy * y);
-      const highest = Math.max(vy, 0);
-      if (Math.acos(y) > this.controller.maxSlopeClimbAngle()) vx -= into * x;
+    for (const {part, normal: [x, y], point} of touching) {
+      const steep = Math.acos(y) > this.controller.maxSlopeClimbAngle();
+      const [ownX, ownY] = steep ? velocityAt(part, point, this.asked.dt) : [0, 0];
+      const into = Math.min(0, (vx - ownX) * x + (vy - ownY) * y);
+      const highest = Math.max(vy, ownY);
+      if (steep) vx -= into * x;
       vy = Math.min(highest, vy - into * y);
     }
     const said = {path: [[at.x, at.y, 1]], velocity: [vx, vy], grounded: this.controller.computedGrounded(), contacts};

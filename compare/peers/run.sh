@@ -31,6 +31,7 @@ log=$out/run.log
 node="node compare/peers"
 peers=(
   "rapier=$node/rapier.mjs"
+  "rapier_snap=$node/rapier.mjs snap"
   "rapier_no_ccd=$node/rapier.mjs body_no_ccd"
   "rapier_body=$node/rapier.mjs body"
   "rapier_ccd=$node/rapier.mjs body_ccd"
