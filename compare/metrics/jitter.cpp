@@ -10,6 +10,7 @@ namespace paperproof::compare {
 namespace {
 
 constexpr double least_move = 1e-12;  ///< [m]
+constexpr double at_rest = 1e-6;      ///< A change of height that is none [m].
 constexpr std::size_t least_positions = 8;
 constexpr std::size_t most_positions = 4096;
 
@@ -115,7 +116,10 @@ void Smoothness::add(const TraceStep& step, double dt) {
   const Walk now{step.requested.x(), end.x() - step.path.front().position.x(), end.y()};
   if (last_ && last_->wanted == now.wanted) {
     hop_share_ = std::max(hop_share_.value_or(0), std::abs(now.way - last_->way) / std::abs(now.wanted));
-    hop_ = std::max(hop_.value_or(0), std::abs(now.height - last_->height));
+    const double hop = std::abs(now.height - last_->height);
+    if (!rested_ && hop <= at_rest) hop_ = 0;
+    rested_ = rested_ || hop <= at_rest;
+    hop_ = std::max(hop_.value_or(0), hop);
   }
   last_ = now;
 }

@@ -31,7 +31,8 @@ namespace paperproof::compare {
 /// - `log_dimensionless_jerk` of the last 4,096 positions since it was put somewhere.
 /// - `seam_hop_share`, `seam_hop_m`: between two steps that walk over level ground (grounded, on a normal of exactly
 ///   (0, 1) that stands still, with the same wanted motion) the largest change of the horizontal velocity as a share of
-///   the wanted one, and of the height [m]. Seams of flat tiles show here.
+///   the wanted one, and of the height [m]. Seams of flat tiles show here. How the height settles after a fall is no
+///   hop: where it comes to rest at all, changes count from then on.
 class Smoothness {
  public:
   explicit Smoothness(const SceneryDef& scenery);
@@ -53,6 +54,7 @@ class Smoothness {
   std::optional<Walk> last_;
   std::optional<double> hop_share_;
   std::optional<double> hop_;
+  bool rested_ = false;  ///< The height was the same for a step.
 };
 
 }  // namespace paperproof::compare

@@ -157,5 +157,28 @@ TEST(LogDimensionlessJerk, of_a_cubic_is_worked_out_by_hand_and_has_no_unit) {
   EXPECT_FALSE(log_dimensionless_jerk(std::vector<Vec2d>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1)) << "evenly";
 }
 
+TEST(Jitter, how_a_fall_settles_is_no_hop_at_a_seam) {
+  const TraceHeader made = header();
+  Smoothness walk(made.scenery);
+  double x = 0;
+  const auto hop_after = [&](const std::vector<double>& heights) {
+    for (const double height : heights) {
+      TraceStep step;
+      step.path = {{Vec2d(x, height), 0}, {Vec2d(x + 0.1, height), 1}};
+      x += 0.1;
+      step.requested = {0.1, -0.001};
+      step.grounded = true;
+      step.contacts.emplace_back().normal = Vec2d(0, 1);
+      walk.add(step, dt);
+    }
+    Row row;
+    walk.write(row);
+    return row.seam_hop_m.value();
+  };
+  EXPECT_NEAR(hop_after({0.02, 0.018, 0.017}), 2e-3, 1e-12) << "who never rests is not excused";
+  EXPECT_EQ(hop_after({0.017}), 0);
+  EXPECT_NEAR(hop_after({0.0175, 0.017}), 5e-4, 1e-12);
+}
+
 }  // namespace
 }  // namespace paperproof::compare
