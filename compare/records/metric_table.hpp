@@ -149,6 +149,9 @@ METRIC(count, first_difference_box2d_step, contacts, first, "First difference to
        "First step with other sides of contact than the Box2D twin, or further from it than its skin")
 METRIC(measure, error_max_m, study, most, "Error", "m", "Largest distance from the continuous motion")
 METRIC(measure, error_rms_m, study, most, "Error, RMS", "m", "Root mean square distance from the continuous motion")
+METRIC(count, hanging_by_law, study, sum, "Hanging by law", "steps",
+       "Hanging steps on which the exact law of steps, of who promises nothing also that of a body without friction, "
+       "stays as well")
 METRIC(measure, error_law_max_m, study, most, "Error beside the law of steps", "m",
        "Largest distance from the exact law of steps: the error of its collision, without that of its steps")
 METRIC(real, slope, study, one, "Slope", "",

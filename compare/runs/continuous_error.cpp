@@ -12,6 +12,11 @@ namespace {
 /// A scene of more corners is left without: each facet is made with 50 digits, at some ten microseconds.
 constexpr std::size_t most_corners = 20000;
 
+/// So near to an exact course [m] it is there: the largest skin and Box2D's slop.
+constexpr double near_course = 0.025;
+/// Who falls less than this share of what is wanted hangs, as the judge has it.
+constexpr double least_share = 0.5;
+
 bool is_small(const Scene& scene) {
   std::size_t corners = 0;
   for (const ColliderDef& collider : scene.scenery.colliders) corners += collider.points.size();
@@ -61,7 +66,17 @@ void ContinuousError::add(const Vec2d& position, double time) {
   }
 }
 
+void ContinuousError::add_hanging(const Vec2d& from, double asked, double begin, double end) {
+  hanging_by_law_ += std::any_of(beside_.begin(), beside_.end(), [&](const Beside& one) {
+    if (!one.courses->steps) return false;
+    const Vec2d there = one.courses->steps->at(begin);
+    const double fell = there.y() - one.courses->steps->at(end).y();
+    return (from - there).norm() <= near_course && fell < least_share * asked;
+  });
+}
+
 void ContinuousError::write(Row& row) const {
+  if (hanging_by_law_ > 0) row.hanging_by_law = hanging_by_law_;
   const auto nearest = std::min_element(beside_.begin(), beside_.end(),
                                         [](const Beside& a, const Beside& b) { return a.off() < b.off(); });
   if (count_ == 0 || nearest == beside_.end()) return;

@@ -26,8 +26,8 @@ class ContinuousCourses {
   /// Those that a contender's motion may come to as its steps become short: Box2D has a law of its own, all others have
   /// that of design §4; of a peer either is right.
   [[nodiscard]] std::vector<const Courses*> of(std::string_view contender) const;
-  /// When a step ends [s].
-  [[nodiscard]] double end(int step) const { return times_.end(step); }
+  /// When a step ends [s]. Before the first: 0.
+  [[nodiscard]] double end(int step) const { return step < 0 ? 0 : times_.end(step); }
 
  private:
   StepTimes times_;
@@ -43,7 +43,10 @@ class ContinuousError {
 
   /// @param position at the end of a step, at a time [s].
   void add(const Vec2d& position, double time);
-  /// Writes `error_max_m`, `error_rms_m` and `error_law_max_m`.
+  /// @param from where a step that hangs begins. @param asked so far it wanted to fall [m]. @param begin, @param end of
+  ///   the step [s].
+  void add_hanging(const Vec2d& from, double asked, double begin, double end);
+  /// Writes `error_max_m`, `error_rms_m`, `error_law_max_m` and `hanging_by_law`.
   void write(Row& row) const;
 
  private:
@@ -58,6 +61,7 @@ class ContinuousError {
 
   std::vector<Beside> beside_;
   int count_ = 0;
+  int hanging_by_law_ = 0;
 };
 
 }  // namespace paperproof::compare

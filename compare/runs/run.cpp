@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <optional>
 
 namespace paperproof::compare {
@@ -93,16 +94,20 @@ class SceneRun {
     options_.progress(static_cast<double>(done) / static_cast<double>(steps_));
   }
 
+  [[nodiscard]] bool has_shape_of_scene(const Lane& lane) const {
+    const std::span<const Vec2d> hull = scene_.character.shape.hull();
+    const std::vector<Vec2d>& points = lane.header().points;
+    const double rounding = 1e-5 * scene_.character.shape.box().upper.norm();  // of shapes in float
+    return std::equal(hull.begin(), hull.end(), points.begin(), points.end(),
+                      [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
+  }
+
   /// The scene's, where it is run as it is, with its own character: a peer may say that it has another shape. What it
   /// enters and leaves a peer does not say.
   [[nodiscard]] std::vector<Answer> answers(const Lane& lane) const {
     if (!lane.running()) return {};
-    const std::span<const Vec2d> hull = scene_.character.shape.hull();
-    const double rounding = 1e-5 * scene_.character.shape.box().upper.norm();  // of shapes in float
-    const bool same_shape =
-        std::equal(hull.begin(), hull.end(), lane.header().points.begin(), lane.header().points.end(),
-                   [&](const Vec2d& a, const Vec2d& b) { return (a - b).norm() <= rounding; });
-    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && same_shape;
+    const bool as_it_is =
+        steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free && has_shape_of_scene(lane);
     std::vector<Answer> asked = as_it_is ? scene_.answers : std::vector<Answer>{};
     const auto is_sensed = [](const Answer& one) { return one.of == Answer::Of::enter || one.of == Answer::Of::leave; };
     if (find_peer(lane.contender_name()) != nullptr) std::erase_if(asked, is_sensed);
@@ -134,9 +139,17 @@ class SceneRun {
   void begin_errors() {
     errors_.resize(lanes_.size());
     if (!options_.continuous || options_.mode == Mode::lockstep || script_.size() != 1) return;
-    courses_.emplace(scene_, script_.front(), steps_);
-    for (std::size_t i = 0; i < lanes_.size(); ++i)
-      errors_[i] = ContinuousError(courses_->of(lanes_[i]->contender_name()));
+    courses_.emplace_back(scene_, script_.front(), steps_);
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      const bool is_peer = find_peer(lanes_[i]->contender_name()) != nullptr;
+      const bool has_own = is_peer && lanes_[i]->running() && !has_shape_of_scene(*lanes_[i]);
+      if (has_own) {
+        Scene own = scene_;
+        own.character.shape = CharacterShape(lanes_[i]->header().points);
+        courses_.emplace_back(own, script_.front(), steps_);
+      }
+      errors_[i] = ContinuousError((has_own ? courses_.back() : courses_.front()).of(lanes_[i]->contender_name()));
+    }
   }
 
   void respawn_if_lost(Lane& lane, int step) const {
@@ -155,8 +168,13 @@ class SceneRun {
       if (!lane.running()) continue;
       respawn_if_lost(lane, step);
       lane.step(step, input);
-      if (courses_ && lane.running())
-        errors_[i].add(lane.record().path.back().position + lane.record().remainder, courses_->end(step));
+      if (courses_.empty() || !lane.running()) continue;
+      const TraceStep& record = lane.record();
+      const double end = courses_.front().end(step);
+      errors_[i].add(record.path.back().position + record.remainder, end);
+      if (lane.judgement().hangs)
+        errors_[i].add_hanging(record.path.front().position, -record.requested.y(), courses_.front().end(step - 1),
+                               end);
     }
     for (Pair& pair : pairs_)
       if (pair.mine->running() && pair.reference->running())
@@ -327,7 +345,7 @@ class SceneRun {
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<std::unique_ptr<Lane>> twins_;
   std::vector<Pair> pairs_;
-  std::optional<ContinuousCourses> courses_;    ///< None where they are not asked for.
+  std::deque<ContinuousCourses> courses_;       ///< Of the scene's shape, then of others; none: not asked for.
   std::vector<ContinuousError> errors_;         ///< By lane.
   std::chrono::steady_clock::time_point told_;  ///< Of the last call of the progress callback.
 };
