@@ -88,7 +88,7 @@ std::vector<Column<FieldLine>> metric_columns() {
           count("through", [](const Row& row) { return row.tunnels.value_or(0) > 0; }),
           count("clipped", [](const Row& row) { return row.clipped.value_or(0) > 0; }),
           largest("inside [mm]", millimetres, beyond_skin),
-          largest("hanging [steps]", 1, [](const Row& row) { return std::optional<double>(row.hanging_steps); }),
+          largest("hanging [steps]", 1, [](const Row& row) { return std::optional<double>(hanging_of(row)); }),
           largest("restless [per 1000]", 1, [](const Row& row) { return row.contact_toggles; }),
           largest("jitter [mm]", millimetres, [](const Row& row) { return row.rest_peak_to_peak_m; }),
           largest("seam hop [mm]", millimetres,

@@ -55,7 +55,7 @@ class World {
     body_ = cpSpaceAddBody(space_, cpBodyNew(1, INFINITY));
     cpBodySetUserData(body_, this);
     // A step moves bodies first, and solves velocities then. What is wanted is said in between, as in Chipmunk's demo
-    // of a player. The turn begins there: what is solved moves the body within the same step, by Chipmunk's own function.
+    // of a player. Here the round begins there: what is solved moves the body in the same step, by Chipmunk's function.
     const auto stay = [](cpBody*, cpFloat) {};
     cpBodySetPositionUpdateFunc(body_, stay);
     for (const auto& [id, body] : movers_) cpBodySetPositionUpdateFunc(body, stay);

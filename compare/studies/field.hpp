@@ -27,13 +27,16 @@ inline constexpr std::string_view field_seams = "seams";
 /// A number as tables of the field have it: two digits, or all before the point.
 [[nodiscard]] std::string in_short(double number);
 
+/// Steps that hang, without those on which the exact law does as well. Who promises never to hang has no such excuse.
+[[nodiscard]] int hanging_of(const Row& row);
+
 /// The skin of whoever ran: up to this depth it may be inside [m].
 [[nodiscard]] double skin_of(const Row& row);
 
 /// Whether its worst is unsafe: it fails, passes or ends inside something, or hangs.
 [[nodiscard]] bool is_unsafe(const Row& row);
 
-/// What hole its worst is; nothing where it is none.
+/// What hole its worst is, for the engine to be asked; nothing where it is none, or a ledge.
 [[nodiscard]] std::optional<ReportEvent::Kind> hole_of(const Row& row);
 
 }  // namespace paperproof::compare

@@ -19,10 +19,13 @@ done = subprocess.run([paperproof, "study", "field", "--peer", f"ghost={ghost}",
                        "--rows", "r.jsonl", "--report", "p.html"], cwd=place, capture_output=True, text=True, check=True)
 rows = [json.loads(line) for line in (place / "r.jsonl").read_text().splitlines()[1:]]
 assert {row["contender"] for row in rows} == {"octagon_sweep", "box2d", "ghost", "liar"}
+assert {row["verdict"] for row in rows if "badness" not in row} == {"not_applicable"}
+rows = [row for row in rows if "badness" in row]
 for row in rows:
-    unsafe = row["badness"] >= 1
-    assert unsafe == bool(row["tunnels"] or row["max_penetration_m"] > row.get("skin_m", 0.02) or row["hanging_steps"]), row
-    assert (row["badness"] >= 3) == (row["tunnels"] > 0) == row["worst"].startswith("through at"), row
+    unsafe, passes = row["badness"] >= 1, row["tunnels"] or row.get("one_way_violations")
+    hangs = row["hanging_steps"] > (0 if row["contender"] == "octagon_sweep" else row.get("hanging_by_law", 0))
+    assert unsafe == bool(passes or row["max_penetration_m"] > row.get("skin_m", 0.02) or hangs), row
+    assert (row["badness"] >= 3) == bool(passes) == row["worst"].startswith("through"), row
     assert row["contender"] != "octagon_sweep" or (row["worst"], row["badness"]) == ("holds", 0), row
 passages = sorted((row["first_tunnel"]["speed_m_s"], -row["badness"], row["worst"]) for row in rows if row["tunnels"])
 assert len(passages) > 3 and [bad for _, bad, _ in passages] == sorted(bad for _, bad, _ in passages), "the slowest is the worst"
@@ -60,3 +63,10 @@ for who, word in (("ghost", "yes"), ("liar", "no")):
     own = [dict(zip(checks["heading"], line)) for line in checks["rows"] if line[0] == who]
     assert len(own) == 3 and {check["confirmed"] for check in own} == {word}, own
 assert "through at" in done.stdout and "not stated" in done.stdout
+
+# What a body without friction stays at its exact law stays at, too: key and gravity are in balance there.
+balance = subprocess.run([paperproof, "compare", "ledge_corner", "--contender", "octagon_sweep", "--no-timing", "--json"],
+                         capture_output=True, text=True, check=True)
+ours, reference = json.loads(balance.stdout)["rows"]
+assert reference["contender"] == "box2d" and reference["hanging_steps"] == reference["hanging_by_law"] == 90, reference
+assert ours["hanging_steps"] == 0 and "hanging_by_law" not in ours, ours
