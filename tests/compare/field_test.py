@@ -21,10 +21,10 @@ rows = [json.loads(line) for line in (place / "r.jsonl").read_text().splitlines(
 assert {row["contender"] for row in rows} == {"octagon_sweep", "box2d", "ghost", "liar"}
 assert {row["verdict"] for row in rows if "badness" not in row} == {"not_applicable"}
 rows = [row for row in rows if "badness" in row]
+hanging_of = lambda row: row["hanging_steps"] - (0 if row["contender"] == "octagon_sweep" else row.get("hanging_by_law", 0))
 for row in rows:
     unsafe, passes = row["badness"] >= 1, row["tunnels"] or row.get("one_way_violations")
-    hangs = row["hanging_steps"] > (0 if row["contender"] == "octagon_sweep" else row.get("hanging_by_law", 0))
-    assert unsafe == bool(passes or row["max_penetration_m"] > row.get("skin_m", 0.02) or hangs), row
+    assert unsafe == bool(passes or row["max_penetration_m"] > row.get("skin_m", 0.02) or hanging_of(row)), row
     assert (row["badness"] >= 3) == bool(passes) == row["worst"].startswith("through"), row
     assert row["contender"] != "octagon_sweep" or (row["worst"], row["badness"]) == ("holds", 0), row
 passages = sorted((row["first_tunnel"]["speed_m_s"], -row["badness"], row["worst"]) for row in rows if row["tunnels"])
@@ -54,6 +54,10 @@ for y, who in enumerate(grid["ys"]):
         ran = set(re.findall(r'"contender":"(\w+)"', shown))
         assert ran == {who, "octagon_sweep"}, (who, group, ran)
 tables = {table["title"]: table for table in study["tables"]}
+largest = tables["The largest of each metric"]
+for line in (dict(zip(largest["heading"], each)) for each in largest["rows"]):
+    most = max(hanging_of(row) for row in rows if row["contender"] == line["contender"])
+    assert abs(float(line["hanging [steps]"]) - most) <= 0.05 * most, (line, most)
 costs = tables["The cost of the guarantee"]
 costs = {line[0]: dict(zip(costs["heading"], line)) for line in costs["rows"]}
 assert int(costs["octagon_sweep"]["lines of code"]) > 1000
