@@ -79,13 +79,15 @@ void ask_on_the_way(Engine& engine, const std::vector<TraceStep>& steps, const s
     check.engine = before == way.end() || before == last ? "no place before it is free" : "free to " + last->words();
 }
 
-void ask_at_ends(Engine& engine, const std::vector<TraceStep>& steps, SpotCheck& check) {
+/// Until it is free again. @param solid what the judge has it in; empty if it does not say.
+void ask_at_ends(Engine& engine, const std::vector<TraceStep>& steps, const std::string& solid, SpotCheck& check) {
   check.confirmed = "no";
   for (const TraceStep& step : steps) {
-    if (step.step < check.step || check.confirmed == "yes") continue;
+    if (step.step < check.step) continue;
     const Asked asked = engine.ask(step, 1, step.path.back().position);
     check.engine = fmt::format("step {}: {}", step.step, asked.words());
-    if (!asked.free()) check.confirmed = "yes";
+    if (solid.empty() ? !asked.free() : asked.has(solid)) check.confirmed = "yes";
+    if (asked.free() || check.confirmed == "yes") return;
   }
 }
 
@@ -120,9 +122,9 @@ SpotCheck spot_check(const Case& one, ReportEvent::Kind hole) {
   check.judge = event->words;
   try {
     Engine engine(one);
-    if (hole == ReportEvent::Kind::tunnel)
-      ask_on_the_way(engine, run.steps, event->collider ? run.header.ids[*event->collider] : "", check);
-    if (hole == ReportEvent::Kind::inside) ask_at_ends(engine, run.steps, check);
+    const std::string solid = event->collider ? run.header.ids[*event->collider] : "";
+    if (hole == ReportEvent::Kind::tunnel) ask_on_the_way(engine, run.steps, solid, check);
+    if (hole == ReportEvent::Kind::inside) ask_at_ends(engine, run.steps, solid, check);
     if (hole == ReportEvent::Kind::hanging) ask_below(engine, run.steps, check);
   } catch (const std::exception& reason) {
     check.engine = reason.what();
