@@ -28,10 +28,7 @@ b2Body* slope(World& world) {
 
 b2Body* stairs(World& world) {
   b2Body* last = world.box(b2_staticBody, {-20, -1}, 20, 1).GetBody();
-  for (int i = 0; i < 100; ++i) {
-    const auto stair = static_cast<float>(i);
-    last = world.box(b2_staticBody, {0.6F * stair + 0.3F, 0.1F * stair}, 0.3F, 0.1F * stair + 0.2F).GetBody();
-  }
+  for (float x = 0; x < 60; x += 0.6F) last = world.box(b2_staticBody, {x + 0.3F, x / 6}, 0.3F, x / 6 + 0.2F).GetBody();
   return last;
 }
 

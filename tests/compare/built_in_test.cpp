@@ -3,31 +3,25 @@
 #include "records/schema.hpp"
 #include "records/strict_json.hpp"
 #include "scenes/formula.hpp"
+#include "scenes/input_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 namespace paperproof::compare {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(BuiltInFiles, hold_to_their_schema) {
   const std::filesystem::path folder = PAPERPROOF_SOURCE_DIR "/compare/scenes/built_in";
-  const Schema schema(text_of(folder / "built_in.schema.json"));
+  const Schema schema(read_file(folder / "built_in.schema.json", "schema"));
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().filename() == "built_in.schema.json") continue;
     const std::string name = entry.path().filename();
-    EXPECT_EQ(schema.fault(strict_json(text_of(entry.path()), name)).value_or(""), "") << name;
+    EXPECT_EQ(schema.fault(strict_json(read_file(entry.path(), name), name)).value_or(""), "") << name;
     ++files;
   }
   EXPECT_EQ(files, 15);

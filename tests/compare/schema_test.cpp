@@ -3,11 +3,10 @@
 #include "records/metric.hpp"
 #include "records/rows_json.hpp"
 #include "records/strict_json.hpp"
+#include "scenes/input_error.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -92,9 +91,7 @@ TEST(Schema, a_row_whose_numbers_are_not_finite_holds_as_it_is_written) {
 }
 
 TEST(RowsJson, the_schema_that_ships_is_that_of_the_table_of_rows) {
-  std::ifstream file(ROWS_SCHEMA);
-  const std::string shipped{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(shipped, rows_schema_text()) << "`paperproof list schema` prints it";
+  EXPECT_EQ(read_file(ROWS_SCHEMA, "schema"), rows_schema_text()) << "`paperproof list schema` prints it";
 }
 
 TEST(RowsJson, a_row_that_is_read_back_is_written_alike) {

@@ -24,22 +24,19 @@ Row row(const std::string& scene, const std::string& contender, std::optional<do
 
 TEST(Headline, says_the_worst_that_happened_in_plain_words) {
   Row one = row("a", "one");
+  const auto says = [&](auto member, const auto& value) {
+    one.*member = value;
+    return outcome_of(one);
+  };
   EXPECT_EQ(outcome_of(one), "meets nothing");
-  one.first_contact_step = 0;
   one.first_contact_fraction = 0.6;
-  EXPECT_EQ(outcome_of(one), "stopped at 0.600");
-  one.first_contact_step = 12;
-  EXPECT_EQ(outcome_of(one), "stopped at 0.600 of step 12");
-  one.hanging_steps = 7;
-  EXPECT_EQ(outcome_of(one), "hangs on 7 steps");
-  one.steps_ending_inside = 3;
-  EXPECT_EQ(outcome_of(one), "ends inside on 3 steps");
-  one.tunnels = 1;
-  EXPECT_EQ(outcome_of(one), "through");
-  one.tunnels = 2;
-  EXPECT_EQ(outcome_of(one), "through on 2 steps");
-  one.verdict = Verdict::not_applicable;
-  EXPECT_EQ(outcome_of(one), "cannot run");
+  EXPECT_EQ(says(&Row::first_contact_step, 0), "stopped at 0.600");
+  EXPECT_EQ(says(&Row::first_contact_step, 12), "stopped at 0.600 of step 12");
+  EXPECT_EQ(says(&Row::hanging_steps, 7), "hangs on 7 steps");
+  EXPECT_EQ(says(&Row::steps_ending_inside, 3), "ends inside on 3 steps");
+  EXPECT_EQ(says(&Row::tunnels, 1), "through");
+  EXPECT_EQ(says(&Row::tunnels, 2), "through on 2 steps");
+  EXPECT_EQ(says(&Row::verdict, Verdict::not_applicable), "cannot run");
 }
 
 TEST(Headline, trusts_the_one_with_a_guarantee) {
