@@ -78,7 +78,7 @@ export async function serve(engine) {
         !isAbove(gate, points, place, part.motion?.to ?? [0, 0], 0)).map(({gate}) => gate.id))];
     say({characters: [answer], ns});
   }
-  process.exit(0);  // engines with threads would wait
+  process.kill(process.pid, "SIGKILL");  // its exit would wait until the engine is compiled
 }
 
 /** What the engine's own query has at a place, where movers are at the end of their ways. */
