@@ -20,7 +20,6 @@ struct HalfPlane {
   Real least = 0;
   bool walkable = false;
   Vec2 rest{Vec2::Zero()};  ///< The motion of who rests at the surface.
-  Real rounding = 0;        ///< Rounding of what the margin of a motion is made of.
 
   /// How far `w` is on the allowed side.
   [[nodiscard]] Real margin(const Vec2& w) const { return normal.x() * w.x() + normal.y() * w.y() - least; }

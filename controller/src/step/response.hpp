@@ -113,11 +113,13 @@ struct Desired {
 
 /// Rule 2 at one surface. A motion along what moves enters it by rounding: that is no impact.
 /// @param u is changed. @param steered what steering adds across; what brakes is taken from it.
-inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, Vec2& u, Real& steered) {
+/// @param rounding of a margin.
+inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, Vec2& u, Real& steered,
+                         Real rounding) {
   const Vec2& n = at.normal;
   const Real pressing = u.x() - at.rest.x();
   const bool is_ceiling = n.y() < 0;
-  if (at.margin(u) >= -at.rounding || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
+  if (at.margin(u) >= -rounding || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
   if (steered * n.x() > 0) {
     const Real braked = std::abs(steered) < std::abs(pressing) ? steered : -pressing;
     u.x() += braked;
@@ -148,8 +150,9 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
 /// The response to all surfaces that are touched, as above; nothing where they leave no motion.
 /// @param steered what this step's steering added across to what is wanted; what brakes is spent, and taken from it.
 /// @param after_walk the character follows walkable ground that it touches: a rise is the climb of a walk.
+/// @param rounding of the margins: differences of motions in the world, which may be far larger.
 [[nodiscard]] inline std::optional<Desired> respond(const Desired& desired, Real& steered, bool after_walk,
-                                                    std::span<const HalfPlane> touched) {
+                                                    std::span<const HalfPlane> touched, Real rounding) {
   constexpr Real infinite = std::numeric_limits<Real>::infinity();
   Vec2 u = desired.unsteered;
   bool is_free = true;
@@ -160,7 +163,7 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
   }
   if (is_free) return desired;
   for (const HalfPlane& at : touched)
-    if (!at.walkable) end_pressing(at, touched, u, steered);
+    if (!at.walkable) end_pressing(at, touched, u, steered, rounding);
   const bool lands = std::ranges::any_of(touched, [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
   if (!lands && is_momentum(steered, u, touched)) u.x() += std::exchange(steered, Real(0));
   std::optional<Vec2> base;

@@ -31,21 +31,23 @@ template <class MotionOf>
     return walkable(step, touched.normal) && mover_of(step, touched.piece) != no_mover;
   };
   const Vec2 origin = motion_of(first);
+  Real fastest = 0;  // of the surfaces
   if (on_stair) add_plane({{0, 1}, 0, true}, planes);
   for (const TouchedSurface& surface : step.memory.surfaces) {
     const Vec2 motion = motion_of(surface);
+    fastest = std::max(fastest, length_of(motion));
     const bool is_carried_along =
         surface.mover != no_mover &&
         (carries(surface) || surface.mover == step.moving.carrier || (surface.mover == first.mover && carries(first)));
     const Vec2 rest = is_carried_along ? motion : Vec2(surface.normal * dot(surface.normal, motion));
-    const Real rounding = along_plane * (length_of(desired.unsteered) + length_of(motion) + length_of(origin));
     add_plane({step.up.seen(surface.normal), dot(surface.normal, Vec2(motion - origin)), walkable(step, surface.normal),
-               step.up.seen(Vec2(rest - origin)), rounding},
+               step.up.seen(Vec2(rest - origin))},
               planes);
   }
+  const Real rounding = along_plane * (length_of(desired.unsteered) + 2 * fastest);
   const std::optional<Desired> result =
       respond({step.up.seen(Vec2(desired.wanted - origin)), step.up.seen(Vec2(desired.unsteered - origin))}, steered,
-              step.after_walk, planes);
+              step.after_walk, planes, rounding);
   if (!result) return false;
   const auto in_world_again = [&](const Vec2& w) -> Vec2 {
     return (planes.size() == 1 ? in_world(step.up, w, first.normal) : Vec2(step.up.in_world(w))) + origin;

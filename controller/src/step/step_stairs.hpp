@@ -49,7 +49,7 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
 /// Makes the last climb rise no higher than where it ends, if the way there is free: whoever stands on the walker is
 /// lifted no farther.
 /// @param corner of the path at which it begins.
-inline void lower_climb(Step& step, std::size_t corner) {
+PAPERPROOF_COLD inline void lower_climb(Step& step, std::size_t corner) {
   auto& path = step.result.path;
   const Vec2 from = path[corner].position;
   const Vec2 low = from + step.up.in_world({0, step.up.up_of(Vec2(step.position - from))});
