@@ -255,8 +255,7 @@ bool ContactJudge::ran_into(const Contact& contact) const {
   for (std::size_t i = 1; i < step_.path.size(); ++i) {
     const Vec2d leg = step_.path[i].position - step_.path[i - 1].position;
     const double most = climbs_to(i - 1) ? ulp_at(header_, step_.path[i].position) : 0;
-    const double leads = contact.normal.dot(leg);
-    if (leads < most && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
+    if (contact.normal.dot(leg) < most && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
   }
   return false;
 }

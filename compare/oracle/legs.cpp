@@ -65,6 +65,12 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
       return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) { return stops(part, face); });
     });
   };
+  // There or before: what stopped it may have gone on since.
+  const auto was_stopped = [&](std::size_t corner) {
+    while (!is_stopped(corner))
+      if (corner-- == 0) return false;
+    return true;
+  };
   int climbed = 0;
   for (std::size_t k = 2; k < step.path.size(); ++k) {
     const Vec2d leg = seen(step.path[k - 1].position - step.path[k - 2].position, up);
@@ -74,9 +80,7 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
     const PathPoint& atop = step.path[std::min(k + 1, step.path.size() - 1)];
     const Vec2d made = seen(atop.position - step.path[k - 2].position, up);
     const bool leads_on = made.y() > guaranteed_touch && made.x() * walk.dot(right_of(up)) > 0;
-    std::size_t stopped = k - 1;  // what stopped it may have gone on since
-    while (leads_on && stopped > 0 && !is_stopped(stopped - 1)) --stopped;
-    if (leads_on && stopped > 0) ++climbed;
+    if (leads_on && was_stopped(k - 2)) ++climbed;
   }
   return std::min(climbed, most_stairs);
 }

@@ -18,7 +18,7 @@ namespace paperproof::compare::detail {
 ///
 /// Where the step began goes along with what is ridden. A walker stands there as on level ground. Of what turns this is
 /// not asked.
-/// @param carried the way that what is ridden takes it in the step [m]: not what the walker climbs onto.
+/// @param carried how far the ground that it rode when the step began takes it in the step [m].
 [[nodiscard]] bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
                             const Vec2d& carried, const Place& at, const NearPart& part);
 
