@@ -13,6 +13,7 @@
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
 #include "scenes/made_in_code.hpp"
+#include "scenes/validate.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -136,6 +137,7 @@ auto found(std::string_view kind, std::string_view name, const From& from) {
 /// In the order of `Answer::Of`.
 constexpr std::array kinds_of_answers{"place",      "speed",   "farthest", "drift",    "contact", "contacts",
                                       "in_the_air", "settled", "crush",    "crushers", "enter",   "leave"};
+static_assert(kinds_of_answers.size() == static_cast<std::size_t>(Answer::Of::leave) + 1);
 
 Answer answer_of(const Json& text) {
   Answer answer;
@@ -233,7 +235,10 @@ Scene built_in_scene(std::string_view name, std::span<const ParameterSetting> pa
   document["paperproof_scene"] = 1;
   document["name"] = name;
   Scene scene = read_json_scene(document, "", std::string(name));
-  make_in_code(computed(part_of(text, "made"), values), scene);
+  if (text.contains("made")) {
+    make_in_code(computed(text["made"], values), scene);
+    check_scene(scene, scene.name);
+  }
   scene.answers = answers_of(computed(part_of(text, "answers"), values));
   return scene;
 } catch (const std::invalid_argument& error) {

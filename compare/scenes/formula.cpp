@@ -77,7 +77,7 @@ double sprung(double steps, double mass, double stiffness, double damping) {
   return way;
 }
 
-/// The place of a one-digit step in the numbers around `x`.
+/// The distance from |x| to the next double.
 double ulp(double x) { return std::nextafter(std::abs(x), HUGE_VAL) - std::abs(x); }
 
 mu::Parser parser_with_functions() {
@@ -103,8 +103,8 @@ mu::Parser parser_with_functions() {
 }
 
 /// Of a list of numbers, or all from one to another by steps of one size.
-std::vector<double> numbers_of(const Json& given, const Values& values) {
-  const Json range = computed(given, values);
+std::vector<double> numbers_of(const Json& list, const Values& values) {
+  const Json range = computed(list, values);
   if (range.is_array()) return range.get<std::vector<double>>();
   const double from = range.at("from");
   const double by = range.value("by", 1.0);
@@ -166,14 +166,14 @@ void name_numbers(const Json& let, Values& values) {
   }
 }
 
-std::vector<Values> cases_of(const Json& given, const Values& others) {
+std::vector<Values> cases_of(const Json& list, const Values& others) {
   std::vector<Values> all{others};
-  if (given.is_array()) {
-    all.assign(given.size(), others);
-    for (std::size_t i = 0; i < given.size(); ++i) name_numbers(computed(given[i], others), all[i]);
+  if (list.is_array()) {
+    all.assign(list.size(), others);
+    for (std::size_t i = 0; i < list.size(); ++i) name_numbers(computed(list[i], others), all[i]);
     return all;
   }
-  for (const auto& [name, numbers] : given.items()) {
+  for (const auto& [name, numbers] : list.items()) {
     std::vector<Values> longer;
     for (const Values& values : all) {
       for (const double number : numbers_of(numbers, values)) {

@@ -24,7 +24,7 @@ using Values = std::map<std::string, double>;
 void name_numbers(const Json& let, Values& values);
 
 /// The cases of `for`: every combination of the numbers that it lists by name, or each of a list of rows.
-[[nodiscard]] std::vector<Values> cases_of(const Json& given, const Values& others);
+[[nodiscard]] std::vector<Values> cases_of(const Json& list, const Values& others);
 
 /// The same document with a number for every text that begins with `=`, and the corners of every `box`. In other texts
 /// `{formula}` is its number. Lists are without what an `if` leaves out, and have each of what a `for` repeats.

@@ -21,11 +21,6 @@ namespace paperproof::compare {
 
 namespace {
 
-void check(const Scene& scene, const std::string& name) {
-  check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return name; });
-  for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, name, "", k);
-}
-
 /// All parameters of a family: the last value of each that is set, and the usual value of each other.
 std::vector<ParameterSetting> values_of(const SceneFamily& family, std::span<const ParameterSetting> settings) {
   std::vector<ParameterSetting> values;
@@ -127,7 +122,7 @@ std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const 
       if (!family || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
     note_parameters(scene);
     scene.source = is_ours ? fmt::format("builtin:{}#{}", name_or_path, hash_of_scene(scene)) : file;
-    if (!settings.empty()) check(scene, name_or_path);
+    if (!settings.empty()) check_scene(scene, name_or_path);
   }
   return scenes;
 }

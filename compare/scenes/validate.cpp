@@ -91,4 +91,9 @@ void check_start(const Scene& scene, const std::string& where, const std::string
                             remedy.empty() ? "" : "; ", remedy));
 }
 
+void check_scene(const Scene& scene, const std::string& name) {
+  check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return name; });
+  for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, name, "", k);
+}
+
 }  // namespace paperproof::compare

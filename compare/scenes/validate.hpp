@@ -58,4 +58,7 @@ class FreePlaces {
 void check_start(const Scene& scene, const std::string& where, const std::string& remedy = {},
                  std::size_t character = 0);
 
+/// Both, of all colliders and characters. @throws InputError with the name.
+void check_scene(const Scene& scene, const std::string& name);
+
 }  // namespace paperproof::compare
