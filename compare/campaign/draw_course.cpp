@@ -2,7 +2,9 @@
 #include "campaign/drawing.hpp"
 #include "campaign/shapes.hpp"
 
-#include <numbers>
+#include <algorithm>
+#include <string>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
