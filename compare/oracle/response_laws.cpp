@@ -67,11 +67,15 @@ std::optional<Vec2d> walked_towards(double x, double y, double begin, double end
 }
 
 /// An impact ends the momentum that presses into a surface which nobody walks on. Steering against it is spent first.
+/// @param came the velocity that came to all surfaces. @param u what the others have left of it.
 /// @return the velocity that is left.
-Vec2d after_impact(Vec2d u, const MetSurface& at, std::span<const MetSurface> surfaces, double& steering) {
+Vec2d after_impact(const Vec2d& came, Vec2d u, const MetSurface& at, std::span<const MetSurface> surfaces,
+                   double& steering) {
   const Vec2d& n = at.normal;
   const double towards = n.x() < 0 ? 1 : -1;  // across, into the surface
-  if (!enters(u, at) || n.x() == 0 || rises_under(u, at) || !(towards * (u.x() - at.velocity.x()) > 0)) return u;
+  if (!enters(came, at) || !enters(u, at) || n.x() == 0 || rises_under(u, at) ||
+      !(towards * (u.x() - at.velocity.x()) > 0))
+    return u;
   if (towards * steering < 0) {
     const double braked = std::min(towards * (u.x() - at.velocity.x()), -towards * steering);
     u.x() -= towards * braked;
@@ -110,8 +114,9 @@ std::optional<Steered> respond(const Steered& velocity, double& steering, bool c
     if (climbs && !at.walkable) u.y() = std::min(u.y(), at.velocity.y());
   }
   if (is_free) return velocity;
+  const Vec2d came = u;
   for (const MetSurface& at : surfaces)
-    if (!at.walkable) u = after_impact(u, at, surfaces, steering);
+    if (!at.walkable) u = after_impact(came, u, at, surfaces, steering);
   const bool lands =
       std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return at.walkable && enters(u, at); });
   if (!lands && slides_along(steering, u, surfaces)) {
@@ -135,6 +140,11 @@ struct Unknown {
   bool bears_beside = false;           ///< Ground that the character is beside bears it: there is no way to fall.
   Vec2d falls_along = Vec2d::UnitY();  ///< A fall that nothing holds.
 };
+
+/// Farther than rounding tells: else it may have landed.
+bool leaves(const Vec2d& v, const MetSurface& at) {
+  return entering(v, at) > grazing * std::max(1.0, (v - at.velocity).norm());
+}
 
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
 bool is_ground_beside(const MetSurface& at) { return at.walkable && at.is_beside; }
@@ -198,7 +208,7 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     if (held.empty()) continue;
     if (goes_on) fall = now.unsteered.y();
     const Steered came = now;
-    if (unknown.carried && may_carry(held.back()) && enters(came.wanted, held.back()) &&
+    if (unknown.carried && may_carry(held.back()) && !leaves(came.wanted, held.back()) &&
         std::abs(came.wanted.x()) <= grazing * came.wanted.norm()) {
       now = {held.back().velocity, held.back().velocity};
       steering = 0;
