@@ -230,6 +230,12 @@ struct TogetherScratch::Turns {
     });
   }
 
+  /// Whether a way of another, straight and even, leads into where one begins.
+  [[nodiscard]] bool leads_into(std::size_t other, const Vec2d& way, std::size_t i) {
+    const Vec2d from = members[other].from() - members[i].from();
+    return time_near(axes_between(other, i), from, from + way, 0).any();
+  }
+
   /// How another goes while one takes its turn.
   [[nodiscard]] MoverMotion motion_of(std::size_t other, std::size_t i, Try what) {
     const Member& it = members[other];
@@ -237,7 +243,8 @@ struct TogetherScratch::Turns {
     MoverMotion motion{it.to, it.to};
     if (what == Try::past_what_stands) return motion;
     if (it.has_gone && (carries || recedes(other, i))) motion.from = it.from();
-    if (const std::optional<Vec2d>& way = carries ? it.carries : it.pushes) motion.to = it.from() + *way;
+    if (carries && it.carries) motion.to = it.from() + *it.carries;
+    if (!carries && it.pushes && leads_into(other, *it.pushes, i)) motion.to = it.from() + *it.pushes;
     return motion;
   }
 

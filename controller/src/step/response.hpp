@@ -111,15 +111,18 @@ struct Desired {
   return best;
 }
 
-/// Rule 2 at one surface. A motion along what moves enters it by rounding: that is no impact.
-/// @param u is changed. @param steered what steering adds across; what brakes is taken from it.
-/// @param rounding of a margin.
-inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, Vec2& u, Real& steered,
-                         Real rounding) {
+/// Rule 2 at one surface. A motion along what moves enters it by rounding: that is no impact. Nor is it one that only
+/// the end of another leads in: so the order of the surfaces does not matter.
+/// @param came u before rule 2. @param u is changed. @param steered what steering adds across; what brakes is taken
+/// from it. @param rounding of a margin.
+inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched, const Vec2& came, Vec2& u,
+                         Real& steered, Real rounding) {
   const Vec2& n = at.normal;
   const Real pressing = u.x() - at.rest.x();
   const bool is_ceiling = n.y() < 0;
-  if (at.margin(u) >= -rounding || !(pressing * n.x() < 0) || (is_ceiling && u.y() > at.rest.y())) return;
+  if (std::max(at.margin(came), at.margin(u)) >= -rounding || !(pressing * n.x() < 0) ||
+      (is_ceiling && u.y() > at.rest.y()))
+    return;
   if (steered * n.x() > 0) {
     const Real braked = std::abs(steered) < std::abs(pressing) ? steered : -pressing;
     u.x() += braked;
@@ -162,8 +165,9 @@ inline void end_pressing(const HalfPlane& at, std::span<const HalfPlane> touched
     if (after_walk && !at.walkable) u.y() = std::min(u.y(), at.rest.y());
   }
   if (is_free) return desired;
+  const Vec2 came = u;
   for (const HalfPlane& at : touched)
-    if (!at.walkable) end_pressing(at, touched, u, steered, rounding);
+    if (!at.walkable) end_pressing(at, touched, came, u, steered, rounding);
   const bool lands = std::ranges::any_of(touched, [&](const HalfPlane& at) { return at.walkable && at.margin(u) < 0; });
   if (!lands && is_momentum(steered, u, touched)) u.x() += std::exchange(steered, Real(0));
   std::optional<Vec2> base;
