@@ -222,5 +222,49 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
   EXPECT_LE(in_trouble, steps / 10);
 }
 
+/// Any play with the drop button, over random hills of two chains: the hero is never below them. Nor is its middle,
+/// where each has few segments: the hero may drop past the end of one into another, which then lifts it out.
+TEST(OneSidedChain, holds_any_play_over_random_hills) {
+  int in_the_air = 0;
+  int steps = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    std::vector<b2Vec2> hills;
+    const double steepest = random.log_between(0.01, 4);
+    double height = 0;
+    for (double x = 12; x > -12;) {
+      hills.emplace_back(static_cast<float>(x), static_cast<float>(height));
+      const double length = random.between(0.05, 2);
+      x -= length;
+      height = std::clamp(height + length * random.between(-steepest, steepest), -4.0, 4.0);
+    }
+    Game game({.position = {0, 8}});
+    const bool is_cut_often = seed % 2 == 0;
+    for (auto from = hills.begin(), to = from; hills.end() - from > 1; from = to) {
+      to = from + std::min(is_cut_often ? 1 + random.below(4) : std::ssize(hills) / 2, hills.end() - from - 1);
+      game.chain({from, to + 1});
+    }
+    Input input;
+    for (int i = 0; i < 400; ++i) {
+      if (random.chance(0.05)) input.move = random.integer(-1, 1);
+      if (random.chance(input.jump ? 0.3 : 0.02)) input.jump = !input.jump;
+      input.drop = random.chance(0.3);
+      game.go(input);
+      if (std::abs(game.x()) > 10) break;
+      ++steps;
+      in_the_air += !game.hero.grounded();
+      const auto to = std::ranges::find_if(hills, [&](const b2Vec2& hill) { return hill.x <= game.x(); });
+      const Vec2d left(to[0].x, to[0].y);
+      const Vec2d right(to[-1].x, to[-1].y);
+      const double ground = left.y() + (right.y() - left.y()) * (game.x() - left.x()) / (right.x() - left.x());
+      ASSERT_GE(is_cut_often ? game.hero.position().y() : game.feet(), ground - 1e-6)
+          << "seed " << seed << ", frame " << i;
+    }
+  }
+  EXPECT_GT(steps, 4000);
+  EXPECT_GT(in_the_air, steps / 10);
+  EXPECT_LT(in_the_air, steps * 9 / 10);
+}
+
 }  // namespace
 }  // namespace paperproof::box2d::hero_test
