@@ -65,7 +65,10 @@ decltype(auto) with_shape(const json& body, const Use& use) {
   }
   if (body.contains("polygon")) {
     b2PolygonShape polygon;
-    polygon.Set(points.data(), count);
+    if (count == 4 && points[0] == -points[2] && points[0].x == points[3].x)
+      polygon.SetAsBox(points[2].x, points[2].y);  // its corners in Box2D's own order
+    else
+      polygon.Set(points.data(), count);
     return use(polygon);
   }
   const b2Vec2 before = points.at(0) + points[0] - points.at(1);
@@ -167,7 +170,8 @@ class Play {
 
   void add(const json& text) {
     b2Fixture& made = with_shape(text, [&](const b2Shape& shape) -> b2Fixture& {
-      return game_.add(named(text.value("type", "static"), types), {0, 0}, shape, text.value("density", 1.0F));
+      return game_.add(named(text.value("type", "static"), types), vector_of<b2Vec2>(text.value("at", json{0, 0})),
+                       shape, text.value("density", 1.0F));
     });
     made.SetSensor(text.value("sensor", false));
     made.GetBody()->SetBullet(text.value("bullet", false));
@@ -176,7 +180,9 @@ class Play {
     surfaces_[&made] = {named(text.value("blocks", "as_in_box2d"), blockings), text.value("surface_speed", 0.0)};
     const std::string id = text.at("id");
     fixtures_[id] = &made;
-    put({{id, text}});
+    json rest = text;
+    rest.erase("at");
+    put({{id, rest}});
   }
 
   /// Bodies come to be somewhere at once, or get another speed.
