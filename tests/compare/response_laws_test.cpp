@@ -1,9 +1,10 @@
 /// What becomes of a velocity that met surfaces: both laws in closed form.
-#include "oracle/engine_laws.hpp"
 #include "oracle/response_laws.hpp"
+#include "oracle/engine_laws.hpp"
 
 #include "campaign/random.hpp"
 #include "campaign/shapes.hpp"
+#include "scenes/formula.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,22 +34,51 @@ bool has(const std::vector<Vec2d>& outcomes, const Vec2d& velocity) {
   return distance_from(outcomes, velocity) <= 1e-12;
 }
 
-using Velocities = std::vector<Vec2d>;
 using Surfaces = std::vector<MetSurface>;
 
-TEST(FrictionlessLaw, loses_the_part_into_what_holds_relative_to_it) {
-  const Surfaces slope{surface(-half, half)};
-  const Surfaces corner{surface(0, 1), surface(-1, 0)};
-  const Surfaces lift{{.normal = {0, 1}, .velocity = {0, 2}}};
-  for (const auto& [what, wanted, surfaces, made, not_made] :
-       {std::tuple{"not by the law of the controller", Vec2d(1, 0), slope, Vec2d(0.5, 0.5), Vec2d(1, 1)},
-        {"it ends between two that both hold", Vec2d(2, -3), corner, Vec2d(0, 0), Vec2d(-2, 0)},
-        {"the floor may be met alone", Vec2d(2, -3), corner, Vec2d(2, 0), Vec2d(-2, 0)},
-        {"relative to what moves", Vec2d(1, 0), lift, Vec2d(1, 2), Vec2d(1, 0.5)}}) {
-    EXPECT_TRUE(has(frictionless_outcomes(wanted, surfaces), made)) << what;
-    EXPECT_FALSE(has(frictionless_outcomes(wanted, surfaces), not_made)) << what;
+/// The rows of laws.json, with all numbers computed: README.md says what they are.
+Json rows_of(const char* law) {
+  static const Json file =
+      computed(Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/laws.json")), constants());
+  return file.at(law);
+}
+Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
+
+Surfaces surfaces_of(const Json& row) {
+  static const std::map<std::string, bool MetSurface::*> flags{
+      {"walkable", &MetSurface::walkable},   {"is_side", &MetSurface::is_side},   {"ridden", &MetSurface::ridden},
+      {"is_beside", &MetSurface::is_beside}, {"past_rim", &MetSurface::past_rim}, {"returned", &MetSurface::returned}};
+  static const std::map<std::string, double MetSurface::*> numbers{
+      {"met", &MetSurface::met}, {"left", &MetSurface::left}, {"stands_at", &MetSurface::stands_at}};
+  Surfaces all;
+  for (const Json& told : row.at("surfaces")) {
+    MetSurface& at = all.emplace_back(MetSurface{.normal = vector_of(told.at("normal"))});
+    for (const auto& [key, value] : told.items()) {
+      if (key == "velocity")
+        at.velocity = vector_of(value);
+      else if (key == "turning")
+        at.turning = value.get<MoverIndex>();
+      else if (flags.contains(key))
+        at.*flags.at(key) = value;
+      else if (key != "normal")
+        at.*numbers.at(key) = value;
+    }
   }
-  EXPECT_EQ(frictionless_outcomes({-1, 0}, slope).size(), 1U) << "what leaves a surface stays as it is";
+  return all;
+}
+
+void expect_outcomes(const std::vector<Vec2d>& outcomes, const Json& row) {
+  const std::string what = row.at("what");
+  for (const Json& made : row.value("makes", Json::array()))
+    EXPECT_LE(distance_from(outcomes, vector_of(made)), row.value("within", 1e-12)) << what;
+  for (const Json& not_made : row.value("makes_not", Json::array()))
+    EXPECT_FALSE(has(outcomes, vector_of(not_made))) << what;
+  if (row.contains("outcomes")) EXPECT_EQ(outcomes.size(), row["outcomes"]) << what;
+}
+
+TEST(FrictionlessLaw, loses_the_part_into_what_holds_relative_to_it) {
+  for (const Json& row : rows_of("frictionless"))
+    expect_outcomes(frictionless_outcomes(vector_of(row.at("wanted")), surfaces_of(row)), row);
 }
 
 /// Between a wall and a slope of 45 degrees each round halves what is left: cos² of the angle between the normals.
@@ -85,60 +117,14 @@ TEST(TiltedLaw, is_a_push_along_nearly_the_normal_that_ends_the_entering) {
 
 /// What one surface makes, and two without motion, is in `RandomLaw`.
 TEST(ControlledLaw, makes_of_what_was_wanted) {
-  const Vec2d up(0, 1);
-  const Surfaces wedge{surface(-0.8, 0.6), ground()};
-  const Surfaces in_turn{wedge[0], {.normal = up, .walkable = true, .met = 0.5}};
-  const Surfaces past_wall{{.normal = {1, 0}, .left = 0.5}, {.normal = up, .walkable = true, .met = 0.5}};
-  const Surfaces rims{surface(0.8, 0.6), surface(-0.8, 0.6)};
-  const Surfaces left_rims{{.normal = {0.8, 0.6}, .left = 1}, {.normal = {-0.8, 0.6}, .left = 1}};
-  // A slope down to a rim, where the other one is met.
-  const Surfaces slid_to_rim{{.normal = {0.8, 0.6}, .left = 0.5, .past_rim = true},
-                             {.normal = {-0.8, 0.6}, .met = 0.5, .left = 1}};
-  const Surfaces past_corner{{.normal = up, .walkable = true, .left = 1, .is_beside = true},
-                             {.normal = {-0.8, 0.6}, .left = 1}};
-  const Surfaces pressed{ground(), {.normal = {half, -half}, .velocity = {0.5, -0.5}}};
-  const Surfaces aside{{.normal = up, .velocity = {3, 0}, .walkable = true}};
-  const Surfaces ridden{{.normal = up, .velocity = {3, 0}, .walkable = true, .ridden = true}};
-  const Surfaces lift{{.normal = up, .velocity = {2, 1}, .walkable = true}};
-  const Surfaces at_end{{.normal = up, .walkable = true, .met = 1}};
-  const Surfaces side{{.normal = {-1, 0}, .is_side = true}};
-  using Row = std::tuple<const char*, Surfaces, Vec2d, double, Velocities, Velocities>;
-  const std::vector<Row> rows{
-      {"between ground and what pushes along it", pressed, {-1, -0.5}, 0, {{1, 0}}, {{-1, 0}}},
-      {"a lift carries at once who lands", aside, {0, -0.5}, 0, {{3, 0}}, {}},
-      {"and not who rides it and walks against it", ridden, {0, -0.5}, 0, {{0, 0}}, {{3, 0}}},
-      {"a landing without speed across up", lift, {0, -3}, 0, {{2, 1}}, {}},
-      {"what rounding leaves across a turned up is no speed", lift, {6e-16, -3}, 0, {{2, 1}}, {}},
-      {"a landing with speed across up", lift, {0.5, -3}, 0, {{0.5, 1}}, {{2, 1}}},
-      {"between ground and a steep surface", {surface(-half, half), ground()}, {0, -0.5}, 1, {{0, 0}}, {{1, 0}}},
-      // The steep one leaves the fall, which slides away and down to the ground. The ground leaves a run into it.
-      {"a run into a wedge", in_turn, {2, -1}, 0, {{-0.48, 0}}, {{0, 0}}},
-      {"both met at one place", wedge, {2, -1}, 0, {{0, 0}, {-0.48, 0}}, {{2, 0}}},
-      {"rims on both sides", rims, {0, -1}, 0, {{0, 0}}, {}},
-      {"rims that are left behind hold no fall", left_rims, {0, -1}, 0, {{0, -1}}, {{0, 0}}},
-      {"nor do those between which a slide ends", slid_to_rim, {0, -1}, 0, {{0, -0.64}}, {{-0.3072, -0.2304}}},
-      {"the corner of ground may, and may not", past_corner, {0, -1}, 0, {{0, -1}, {0, 0}}, {}},
-      {"alone it does", {past_corner[0]}, {0, -1}, 0, {{0, 0}}, {{0, -1}}},
-      {"a slide ends on the floor", {surface(half, half), ground()}, {0, -4}, 0, {{2, 0}}, {{2, 2}}},
-      {"a wall takes steering", {surface(1, 0), ground()}, {0, -4}, -1, {{0, 0}}, {}},
-      {"it is there again when the wall is left", past_wall, {0, -4}, -1, {{-1, 0}}, {{0, 0}}},
-      {"touched only where the step ends", at_end, {1, -3}, 0, {{1, -3}, {1, 0}}, {}},
-      {"a rise goes on at a side", side, {3, 5}, 0, {{0, 5}}, {}},
-  };
-  for (const auto& [what, surfaces, unsteered, steering, made, not_made] : rows) {
-    const ControlledStep step{.wanted = unsteered + Vec2d(steering, 0), .unsteered = unsteered};
-    for (const Vec2d& v : made) EXPECT_TRUE(has(controlled_outcomes(step, surfaces), v)) << what;
-    for (const Vec2d& v : not_made) EXPECT_FALSE(has(controlled_outcomes(step, surfaces), v)) << what;
+  for (const Json& row : rows_of("controlled")) {
+    const Vec2d unsteered = vector_of(row.at("unsteered"));
+    ControlledStep step{.wanted = unsteered + Vec2d(row.value("steering", 0.0), 0),
+                        .unsteered = unsteered,
+                        .side_hit_ends_rise = row.value("side_hit_ends_rise", false)};
+    for (const Json& side : row.value("sides", Json::array())) step.sides.push_back(vector_of(side));
+    expect_outcomes(controlled_outcomes(step, surfaces_of(row)), row);
   }
-  const Surfaces ceiling{surface(0.6, -0.8)};
-  const Vec2d rise(0.8 - 1.8e8, 0.6 + 2.4e8);
-  EXPECT_LE(distance_from(controlled_outcomes({rise, rise}, ceiling), {0.8, 0.6}), 1e-6) << "however fast it came";
-  const ControlledStep slanted{.wanted = {0, -1}, .unsteered = {0, -1}, .sides = {{0.6, -0.8}}};
-  EXPECT_TRUE(has(controlled_outcomes(slanted, left_rims), {0.48, -0.64})) << "along a side, where up is slanted";
-  EXPECT_FALSE(has(controlled_outcomes(slanted, rims), {0.48, -0.64}));
-  const ControlledStep ruled{.wanted = {3, 5}, .unsteered = {3, 5}, .side_hit_ends_rise = true};
-  EXPECT_TRUE(has(controlled_outcomes(ruled, side), {0, 0})) << "the article's rule";
-  EXPECT_FALSE(has(controlled_outcomes(ruled, side), {0, 5}));
   // A corner of 31 and 59 degrees, gravity not along up: from rest nothing goes up the slope.
   const double s = std::sin(0.54), c = std::cos(0.54);
   const ControlledStep rests{{-0.056, -0.5}, {-0.056, -0.5}};
@@ -170,20 +156,8 @@ TEST(ControlledBounds, hold_nobody_between_a_face_and_itself_at_another_time) {
 
 TEST(LeaveNoMotion, holds_of_what_closes_or_presses_out_too_fast) {
   constexpr double any = std::numeric_limits<double>::infinity();
-  const auto leave_none = [](const Surfaces& surfaces, double most) { return leave_no_motion(surfaces, most); };
-  MetSurface press{.normal = {1, 0}, .velocity = {1, 0}};
-  MetSurface wall{.normal = {-1, 0}};
-  EXPECT_TRUE(leave_none({press, wall}, any));
-  EXPECT_FALSE(leave_none({press}, any)) << "it goes along";
-  EXPECT_FALSE(leave_none({wall, {.normal = {1, 0}, .velocity = {-1, 0}}}, any)) << "they part";
-  const MetSurface slope{.normal = {-std::sin(60 * degree), std::cos(60 * degree)}};
-  EXPECT_TRUE(leave_none({press, slope}, 1.99));
-  EXPECT_FALSE(leave_none({press, slope}, 2.01)) << "up the slope, at twice the speed of the press";
-  const MetSurface ceiling{.normal = {0, -1}};
-  EXPECT_TRUE(leave_none({press, slope, ceiling}, any));
-  press.turning = wall.turning = 0;
-  wall.stands_at = 1;
-  EXPECT_FALSE(leave_none({press, wall}, any)) << "one mover, at two times";
+  for (const Json& row : rows_of("leave_no_motion"))
+    EXPECT_EQ(leave_no_motion(surfaces_of(row), row.value("most", any)), row.at("of").get<bool>()) << row.at("what");
 }
 
 /// Of an upright character whose climb limit is 50 degrees, at surfaces that rest.
