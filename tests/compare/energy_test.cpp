@@ -1,10 +1,12 @@
 /// Energy and jitter on made-up traces with known answers.
 #include "metrics/energy.hpp"
 #include "metrics/jitter.hpp"
+#include "scenes/formula.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 namespace paperproof::compare {
@@ -22,89 +24,44 @@ TraceHeader header() {
   return made;
 }
 
-/// What happens to one character, by its positions and velocities.
-class Motion {
- public:
-  Motion() : energy_(header(), gravity) {}
+Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
 
-  /// As it is wanted without input, unless `wanted` is given.
-  Motion& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {},
-             const std::vector<Vec2d>& touched = {}) {
-    TraceStep step;
-    step.path = {{position_, 0}, {position, 1}};
-    step.requested = wanted.value_or(velocity_ + gravity * dt) * dt;
-    step.velocity = velocity;
-    step.grounded = grounded;
-    for (const Vec2d& normal : touched) step.contacts.emplace_back().normal = normal;
-    energy_.add(step, dt);
-    position_ = position;
-    velocity_ = velocity;
-    return *this;
-  }
-  Motion& falls(int steps) {
-    for (int n = 0; n < steps; ++n) {
-      const Vec2d velocity = velocity_ + gravity * dt;
-      to(position_ + velocity * dt, velocity);
+/// What energy.json has happen to one character: README.md says how. @return what it gains [J/kg].
+double gained(const Json& moves) {
+  Energy energy(header(), gravity);
+  Vec2d position(0, 0);
+  Vec2d velocity(0, 0);
+  for (const Json& move : moves) {
+    for (int n = move.value("falls", 1); n > 0; --n) {
+      const Vec2d fallen = velocity + gravity * dt;
+      TraceStep step;
+      step.path = {{position, 0}, {position, 1}};
+      step.requested = (move.contains("wanted") ? vector_of(move["wanted"]) : fallen) * dt;
+      velocity = move.contains("falls") ? fallen : vector_of(move.value("at", Json{0, 0}));
+      position = move.contains("falls") ? Vec2d(position + velocity * dt) : vector_of(move.at("to"));
+      step.path.back().position = position;
+      step.velocity = velocity;
+      step.grounded = move.value("grounded", false);
+      if (move.contains("touched")) step.contacts.emplace_back().normal = vector_of(move["touched"]);
+      energy.add(step, dt);
     }
-    return *this;
   }
-  [[nodiscard]] Row row() const {
-    Row made;
-    energy_.write(made);
-    return made;
+  Row row;
+  energy.write(row);
+  return row.energy_gained_j_kg.value();
+}
+
+TEST(EnergyGained, is_what_no_jump_no_steering_and_no_walk_put_in) {
+  Values values = constants();
+  values["dt"] = dt;
+  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/energy.json"));
+  for (const Json& row : computed(file, values)) {
+    const double expected = row.at("gained");
+    if (row.contains("within"))
+      EXPECT_NEAR(gained(row.at("moves")), expected, row["within"].get<double>()) << row.at("what");
+    else
+      EXPECT_DOUBLE_EQ(gained(row.at("moves")), expected) << row.at("what");
   }
-  [[nodiscard]] double gained() const { return row().energy_gained_j_kg.value(); }
-
- private:
-  Energy energy_;
-  Vec2d position_{0, 0};
-  Vec2d velocity_{0, 0};
-};
-
-TEST(EnergyGained, is_none_in_free_flight_which_loses_half_of_g_h_squared_a_step) {
-  EXPECT_EQ(Motion().to({0, 0}, {3, 20}).falls(100).gained(), 0);
-}
-
-TEST(EnergyGained, is_the_rise_above_the_least_since_something_was_put_in) {
-  // 0.5 m up for nothing, 10 m/s² · 0.5 m; then down, and 1 m up.
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, 0.5}, {0, 0}).gained(), 5);
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, -2}, {0, 0}).to({0, -1}, {0, 0}).gained(), 10);
-  // From 0 to 3 m/s, 9/2.
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, 0}, {3, 0}).gained(), 4.5);
-  // Little by little is no less.
-  Motion creep;
-  creep.to({0, 0}, {0, 0});
-  for (int n = 1; n <= 100; ++n) creep.to({0, 0.001 * n}, {0, 0});
-  EXPECT_NEAR(creep.gained(), 1, 1e-12);
-}
-
-TEST(EnergyGained, counts_no_jump_and_no_steering_but_what_follows) {
-  const Vec2d jump(0, 8);
-  EXPECT_EQ(Motion().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).falls(30).gained(), 0);
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).to(jump * dt, {0, 9}).gained(),
-                   81. / 2 - 64. / 2);
-  EXPECT_EQ(Motion().to({0, 0}, {0, 0}, true).to({0.1, 0}, {6, 0}, true, Vec2d(6, -0.1)).gained(), 0);
-  // It ends a step on the ground, still falling; and jumps up less fast than it fell. Unasked it is a gain.
-  const Vec2d fall(0, -9);
-  EXPECT_EQ(Motion().to({0, 0}, fall, true).to(jump * dt, jump, false, jump).gained(), 0);
-  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, fall, true).to({0, 1}, {0, 9}).gained(), 10);
-}
-
-TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
-  Motion uphill;
-  uphill.to({0, 0}, {6, 0}, true, Vec2d(6, 0));
-  for (int n = 1; n <= 10; ++n) uphill.to({0.1 * n, 0.1 * n}, {6, 6}, true);
-  EXPECT_EQ(uphill.gained(), 0);
-  uphill.to({1.2, 1.1}, {7, 6}, true);
-  EXPECT_DOUBLE_EQ(uphill.gained(), 49. / 2 - 36. / 2);
-  // Over the top of a slope within a step: it is walked on, and neither the beginning nor the end is grounded.
-  const auto over = [](const Vec2d& normal) {
-    return Motion().to({0, 0}, {6, -3}).to({0.1, 0.1}, {6, 5}, false, {}, {normal}).gained();
-  };
-  EXPECT_EQ(over({-std::sqrt(0.5), std::sqrt(0.5)}), 0);
-  EXPECT_DOUBLE_EQ(over({-0.8, 0.6}), (25. - 9) / 2 + 1) << "steeper than 50 degrees";
-  // A frictionless slope turns a fall into horizontal speed, and takes energy: no gain.
-  EXPECT_EQ(Motion().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
 }
 
 template <class Function>
