@@ -25,14 +25,4 @@ inline ColliderDef with_hole(ColliderDef solid, const ColliderDef& hole) {
 }
 inline Scenery level(std::vector<ColliderDef> colliders) { return Scenery(SceneryDef{std::move(colliders)}); }
 
-/// Steps `world` under gravity until `steps` are done; the velocity that was left carries over as in a run.
-template <class EachStep>
-void run(ReferenceWorld& world, Vec2d velocity, int steps, const EachStep& each_step) {
-  for (int i = 0; i < steps; ++i) {
-    const TwinStep& step = world.step(velocity + gravity * frame, frame);
-    velocity = step.velocity;
-    each_step(step);
-  }
-}
-
 }  // namespace paperproof::box2d::test
