@@ -52,82 +52,6 @@ TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
 
 TraceStep resting(const Vec2d& at, const std::optional<Vec2d>& requested = {}) { return step({at, at}, requested); }
 
-/// What two characters do in one step, and what is said of the first one.
-class Two {
- public:
-  explicit Two(bool path_exact = true) : judge_(with_two(path_exact)) {}
-
-  StepJudgement operator()(TraceStep one, TraceStep other) {
-    other.character = 1;
-    const std::array<TraceStep, 2> steps{std::move(one), std::move(other)};
-    judged_ = {};
-    judge_.judge(steps, judged_);
-    return judged_[0];
-  }
-  [[nodiscard]] const StepJudgement& other() const { return judged_[1]; }
-
- private:
-  static TraceHeader with_two(bool path_exact) {
-    TraceHeader made = test::header({}, path_exact);
-    made.characters = 2;
-    return made;
-  }
-  CompanyJudge judge_;
-  std::array<StepJudgement, 2> judged_{};
-};
-
-/// What became of another: "inside, entered".
-std::string told_of_other(const StepJudgement& judged) {
-  const StepJudgement::Company& company = judged.company;
-  std::string all;
-  for (const auto& [what, characters] : {std::pair{"inside ", &company.overlap},
-                                         {"entered ", &company.entered},
-                                         {"passed ", &company.passed},
-                                         {"clipped ", &company.clipped}}) {
-    if (*characters == std::vector<CharacterIndex>{1}) all += what;
-  }
-  EXPECT_EQ(judged.broke(), company.broke());
-  EXPECT_EQ(company.broke(), !company.entered.empty() || !company.passed.empty());
-  return all;
-}
-
-TEST(CompanyJudge, follows_a_stay_inside_of_another_over_steps) {
-  TraceStep put = step({{1, 0}, {2, 0}});
-  put.respawn = true;
-  const TraceStep enters = step({{-1, 0}, {-0.5, 0}});
-  const TraceStep there_and_back = step({{-1, 0}, {-0.5, 0}, {-1, 0}});
-  struct Row {
-    const char* what;
-    std::vector<TraceStep> steps;
-    std::vector<const char*> told;
-    double above = 0;  ///< Of the other, which rests [m].
-    bool path_exact = true;
-  };
-  const std::vector<Row> rows{
-      {"a rim that is clipped", {step({{-2, 0}, {2, 0}})}, {"clipped "}, 1.246},
-      {"by more", {step({{-2, 0}, {2, 0}})}, {"passed "}, 1.229},
-      {"an overlap is new once, and its end on the same side no passing",
-       {enters, resting({-0.5, 0}), step({{-0.5, 0}, {-1, 0}})},
-       {"inside entered ", "inside ", ""}},
-      {"its end on another side is one", {enters, step({{-0.5, 0}, {1, 0}})}, {"inside entered ", "passed "}},
-      {"who begins inside may leave on any side", {step({{-0.25, 0}, {-1, 0}})}, {""}},
-      {"on the other, too", {step({{-0.25, 0}, {1, 0}})}, {""}},
-      {"who is put elsewhere passes nobody", {enters, put}, {"inside entered ", ""}},
-      {"within a step it passes", {there_and_back}, {"passed "}},
-      {"of a sampled path only both ends count", {there_and_back}, {""}, 0, false},
-      {"of a sampled path the straight way", {step({{-1, 0}, {1, 0}})}, {"passed "}, 0, false},
-  };
-  for (const Row& row : rows) {
-    Two two(row.path_exact);
-    for (std::size_t i = 0; i < row.steps.size(); ++i)
-      EXPECT_EQ(told_of_other(two(row.steps[i], resting({0, row.above}))), row.told[i]) << row.what;
-  }
-  EXPECT_EQ(Two()(enters, resting({0, 0})).max_penetration, 0.125);
-  Two two;
-  EXPECT_EQ(told_of_other(two(step({{-1, 0}, {1, 0}}), step({{1, 0}, {-1, 0}}))), "passed ");
-  EXPECT_FALSE(two.other().broke()) << "it is told once, with the lower of the two";
-}
-
 TEST(CompanyJudge, another_is_near_within_touch_of_a_corner_of_either_way_and_at_the_same_time) {
   const TraceStep right = step({{-1, 0}, {1, 0}});
   TraceStep waits = step({{-2, 0}, {-2, 0}, {1, 0}});
@@ -157,50 +81,12 @@ TEST(CompanyJudge, another_is_near_within_touch_of_a_corner_of_either_way_and_at
   }
 }
 
-TEST(Judge, beside_another_what_that_one_may_have_done_counts_neither_way) {
-  TraceHeader two = header({box(-9, -9, 9, -0.65), box(-9, 8, 9, 9)});
-  two.characters = 2;
-  // Stops in the air above the floor, says that it stands, and that it has met the ceiling.
-  TraceStep stops = resting({0, 0}, Vec2d(1, -0.1));
-  stops.grounded = true;
-  stops.contacts = {contact(1, {0, -1})};
-  const StepJudgement alone = Judge(two).judge(stops);
-  EXPECT_TRUE(alone.hangs && alone.ground_refuted && alone.first_impact && alone.motion_lost > 0);
-  EXPECT_FALSE(alone.contacts.empty());
-  const StepJudgement beside = Judge(two).judge(stops, nullptr, true);
-  EXPECT_FALSE(beside.hangs || beside.ground_refuted || beside.first_impact || beside.motion_lost > 0);
-  EXPECT_TRUE(beside.contacts.empty());
-  EXPECT_TRUE(beside.beside_another);
-  EXPECT_EQ(beside.max_contact_gap, alone.max_contact_gap) << "it is where it says";
-}
-
 /// The one goes before the other, or after it.
 std::array<TraceStep, 2> in_turns(TraceStep one, CharacterIndex turn, TraceStep other) {
   one.turn = turn;
   other.turn = 1 - turn;
   other.character = 1;
   return {std::move(one), std::move(other)};
-}
-
-TEST(CompanyJudge, in_turns_each_goes_while_the_other_stands) {
-  const TraceStep comes = step({{-2, 0}, {0, 0}});
-  const TraceStep through = step({{-2, 0}, {2, 0}});
-  const TraceStep leaves = step({{0, 0}, {2, 0}});
-  const TraceStep goes_up = step({{0, 0}, {0, 3}});
-  const TraceStep falls = step({{0, 3}, {0, 0}});
-  using Row = std::tuple<const char*, TraceStep, CharacterIndex, TraceStep, const char*>;
-  for (const auto& [what, one, turn, other, told] :
-       {Row{"to where the other was", comes, 1, leaves, ""}, Row{"where it still is", comes, 0, leaves, "passed "},
-        Row{"through where it was", through, 1, goes_up, ""}, Row{"where it still is", through, 0, goes_up, "passed "},
-        Row{"through where it is by then", through, 1, falls, "passed "},
-        Row{"where it will be", through, 0, falls, ""}, Row{"to where it ended", comes, 1, falls, "inside entered "},
-        Row{"the other goes through where it ended", falls, 0, through, "passed "},
-        Row{"the other goes to where it was", leaves, 0, comes, ""},
-        Row{"a rim that is clipped", through, 1, resting({0, 1.246}), "clipped "}}) {
-    const auto steps = in_turns(one, turn, other);
-    EXPECT_EQ(told_of_other(Two()(steps[0], steps[1])), told) << what;
-  }
-  EXPECT_EQ(told_of_other(Two()(comes, leaves)), "") << "at the same time";
 }
 
 TraceHeader company_of(std::size_t characters) {

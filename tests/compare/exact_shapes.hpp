@@ -30,18 +30,9 @@ inline std::vector<Vec2d> octagon() {
           {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
 }
 
-/// The middle of the octagon's lower right side, where a corner of something touches it, and the normal of that side as
-/// an obstacle has it: 63.4 degrees steep.
-inline Vec2d lower_right_middle() { return {0.234375, -0.46875}; }
-inline Vec2d lower_right() { return Vec2d(-2, 1) / std::sqrt(5.0); }
-
 inline std::vector<Vec2d> square(double half) { return {{-half, -half}, {half, -half}, {half, half}, {-half, half}}; }
 inline ColliderDef one_way(ColliderDef def, const Vec2d& normal = {0, 1}) {
   def.one_way = normal;
-  return def;
-}
-inline ColliderDef sensor(ColliderDef def) {
-  def.sensor = true;
   return def;
 }
 inline ExactScenery world(std::vector<ColliderDef> colliders, std::vector<Vec2d> points = octagon()) {

@@ -1,4 +1,4 @@
-/// Headers and steps of traces for the tests of the judge, and what it says of them.
+/// Headers and steps of traces for tests of the judge that are no tables (../judge).
 #pragma once
 
 #include "compare/exact_shapes.hpp"
@@ -8,9 +8,6 @@ namespace paperproof::compare::test {
 
 inline constexpr double dt = 1.0 / 64;
 inline constexpr double gap = 5e-7;  ///< Where a motion is stopped [m].
-inline constexpr double standing = half_height + gap;
-
-using Touches = std::vector<std::pair<ColliderIndex, Side>>;
 
 inline void add(TraceHeader& header, const ColliderDef& solid) {
   header.ids.push_back(std::to_string(header.ids.size()));
@@ -66,34 +63,6 @@ inline Wanted wanting(const Vec2d& displacement) {
 inline StepJudgement judged(const TraceHeader& header, const TraceStep& step) { return Judge(header).judge(step); }
 inline StepJudgement judged(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
   return Judge(header).judge(step, &wanted);
-}
-
-/// What became of all solids: "inside 0 1, entered 1, tunnelled 2".
-inline std::string told(const StepJudgement& judged) {
-  std::string all;
-  for (const auto& [what, colliders] : {std::pair{"inside", &judged.end_overlap},
-                                        {"pressed", &judged.pressed},
-                                        {"entered", &judged.entered},
-                                        {"rounded", &judged.rounded},
-                                        {"drawn", &judged.drawn},
-                                        {"tunnelled", &judged.tunnelled},
-                                        {"clipped", &judged.clipped},
-                                        {"one-way broken", &judged.one_way_broken},
-                                        {"crushed", &judged.crushed},
-                                        {"crushed with room", &judged.crushed_with_room}}) {
-    if (colliders->empty()) continue;
-    all += (all.empty() ? "" : ", ") + std::string(what);
-    for (const ColliderIndex collider : *colliders) all += " " + std::to_string(collider);
-  }
-  return all;
-}
-
-/// The contacts that should have been reported.
-inline Touches demanded(const StepJudgement& judged) {
-  Touches all;
-  for (const ExactContact& contact : judged.contacts) all.emplace_back(contact.collider, contact.side);
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 }  // namespace paperproof::compare::test

@@ -107,7 +107,7 @@ TEST(ExactImpact, corner_to_corner_the_normal_is_the_facet_most_opposed_to_the_m
   // but the arm already stands above the tile, so that the side separates nothing.
   for (const auto& [points, corner, way, normal] :
        {Row{square(0.25), {-0.25, 0.25}, {1, -2}, {0, 1}}, Row{square(0.25), {-0.25, 0.25}, {2, -1}, {-1, 0}},
-        Row{octagon(), {-0.15625, 0.625}, {2, -0.125}, lower_right()}}) {
+        Row{octagon(), {-0.15625, 0.625}, {2, -0.125}, Vec2d(-2, 1).normalized()}}) {
     const ExactScenery there = world({box(0, -1, 1, 0)}, points);
     const ExactImpact impact = there.time_of_impact(Vec2d(corner - way / 4), way, 0).value();
     EXPECT_EQ(impact.fraction, 0.25);

@@ -1,6 +1,7 @@
 #include "situations/situation.hpp"
 
 #include "records/clause.hpp"
+#include "support/expected.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <fmt/format.h>
@@ -39,35 +40,6 @@ std::string title_of(const ordered_json& given, const Values& values) {
   return title;
 }
 
-bool is_near(const json& part, const json& wanted, double within) {
-  if (wanted.is_number() && part.is_boolean()) return (part == true) == (wanted != 0);  // what a formula says
-  if (part.is_number() && wanted.is_number()) return std::abs(part.get<double>() - wanted.get<double>()) <= within;
-  if (!part.is_array() || !wanted.is_array()) return part == wanted;
-  return std::equal(part.begin(), part.end(), wanted.begin(), wanted.end(),
-                    [within](const json& a, const json& b) { return is_near(a, b, within); });
-}
-
-/// What is wrong with a part of a record, in words; empty where nothing is.
-std::string fault_of(const json& part, const json& wanted) {
-  if (wanted.contains("is")) {
-    const double within = wanted.value("within", 0.0);
-    if (!is_near(part, wanted["is"], within))
-      return fmt::format("is {} instead of {} within {}", part.dump(), wanted["is"].dump(), within);
-  }
-  const double value = part.is_number() ? part.get<double>() : NAN;
-  const std::pair<const char*, bool (*)(double, double)> bounds[]{
-      {"at_least", [](double a, double b) { return a >= b; }},
-      {"at_most", [](double a, double b) { return a <= b; }},
-      {"above", [](double a, double b) { return a > b; }},
-      {"below", [](double a, double b) { return a < b; }}};
-  for (const auto& [name, holds] : bounds) {
-    if (!wanted.contains(name)) continue;
-    const double limit = wanted[name];
-    if (!holds(value, limit)) return fmt::format("is {}, and not {} {}", part.dump(), name, limit);
-  }
-  return {};
-}
-
 /// Where nothing is of that name in any record, an expectation of `null` or of none would hold.
 /// @param record of a story: it has all that there is. Of a trace it may lack some.
 void check_part(const std::string& of, const json* record) {
@@ -76,13 +48,6 @@ void check_part(const std::string& of, const json* record) {
   const json& known = record != nullptr ? *record : keys;
   if (!of.starts_with('=') && !short_names().contains(of) && !known.contains(first.substr(first.starts_with('/'))))
     throw std::invalid_argument("a step's record has no " + of);
-}
-
-/// @param known names between blanks.
-void refuse_other_keys(const json& object, const std::string& known, const std::string& what) {
-  for (const auto& [key, value] : object.items())
-    if (known.find(" " + key + " ") == std::string::npos)
-      throw std::invalid_argument("no such key of " + what + ": " + key);
 }
 
 /// @throws std::invalid_argument for an expectation that no run could miss, or that says nothing of when.
