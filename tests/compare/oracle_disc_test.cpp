@@ -30,40 +30,6 @@ ExactScenery disc(double radius, std::vector<ColliderDef> more = {}) {
   return world(std::move(more), square(1));
 }
 
-TEST(ExactDisc, is_hit_after_the_distance_over_the_speed) {
-  using Row = std::tuple<const char*, double, Vec2d, Vec2d, double, Vec2d, Vec2d>;
-  for (const auto& [by, radius, from, displacement, fraction, normal, point] :
-       {Row{"an edge", 1, {0, 10}, {0, -10}, 0.8, {0, 1}, {0, 1}},
-        // The lower right corner falls from (-3, 14) by 20 m: it is at (-3, 4) after the half, by three, four, five.
-        Row{"a corner", 5, {-4, 15}, {0, -20}, 0.5, {-0.6, 0.8}, {-3, 4}},
-        Row{"a bullet", 1e-6, {-1e6, 0.5}, {2e6, 0}, (1e6 - 1 - 1e-6) / 2e6, {-1, 0}, {-1e-6, 0}}}) {
-    const auto impact = disc(radius).time_of_impact(from, displacement, 0);
-    ASSERT_TRUE(impact) << by;
-    EXPECT_NEAR(static_cast<double>(impact->fraction), fraction, closely) << by;
-    EXPECT_LE((impact->normal - normal).norm(), 1e-14) << by;
-    EXPECT_LE((impact->point - point).norm(), radius < 1 ? 1e-9 : 1e-13) << by;
-    EXPECT_TRUE(impact->exposed) << by;
-  }
-}
-
-TEST(ExactDisc, that_moves_is_hit_in_its_own_frame) {
-  const ExactScenery solids = world({circle({0, 0}, 1, 0)}, square(1));
-  const Motions up{{{0, 0}, {0, 5}}};
-  const ExactImpact impact = solids.time_of_impact(Place({0, 10}, up, 0), {0, -5}, 0).value();
-  EXPECT_NEAR(static_cast<double>(impact.fraction), 0.8, closely);
-  EXPECT_LE((impact.point - Vec2d(0, 1 + 4)).norm(), 1e-14);
-  EXPECT_FALSE(solids.overlaps(Place({0, 7}, up, 1), 0));
-  EXPECT_TRUE(solids.overlaps(Place({0, one_ulp_down(7)}, up, 1), 0));
-}
-
-TEST(ExactDisc, separation_and_depth_are_those_of_the_nearest_feature) {
-  EXPECT_EQ(disc(5).separation({0, 8}, 0), 2);
-  EXPECT_NEAR(disc(5).separation({-7, 9}, 0), 5, closely) << "from the corner (-6, 8)";
-  EXPECT_EQ(disc(5).penetration({0, 5.5}, 0), 0.5);
-  EXPECT_EQ(disc(5).penetration({0, 0.25}, 0), 5.75) << "through the nearest edge";
-  EXPECT_EQ(disc(5).penetration({0, 6}, 0), 0);
-}
-
 TEST(ExactDisc, is_a_near_part_with_the_direction_as_its_one_face) {
   const std::vector<NearPart> parts = disc(5, {circle({50, 0}, 1)}).near_parts({-4, 5.0625}, 1);
   ASSERT_EQ(parts.size(), 1U);

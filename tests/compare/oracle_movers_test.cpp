@@ -82,55 +82,6 @@ TEST(ExactMovers, one_ulp_to_either_side_of_touching_a_lift_decides) {
     EXPECT_EQ(there.overlapped(Place({0, one_ulp_down(at)}, movers, fraction)), Colliders{0}) << fraction;
 }
 
-TEST(ExactMovers, riding_along_is_free_however_fast_and_lagging_by_an_ulp_is_not) {
-  const ExactScenery there = world({box(-1, -1, 1, 0, 0)});
-  const Motions movers{{{0, 0}, {0, 1024}}};
-  const Place start({0, 0.625}, movers, 0);
-  EXPECT_EQ(there.met(start, Place({0, 1024.625}, movers, 1)), Colliders{});
-  EXPECT_EQ(there.met(start, Place({0, one_ulp_down(1024.625)}, movers, 1)), Colliders{0});
-  EXPECT_FALSE(there.time_of_impact(start, {0, 1024}, 0)) << "nothing comes nearer";
-  EXPECT_TRUE(there.time_of_impact(start, {0, one_ulp_down(1024)}, 0));
-}
-
-TEST(ExactMovers, a_one_way_lift_blocks_the_relative_motion_against_its_normal) {
-  const ExactScenery there = world({one_way(chain({{-1, 0}, {1, 0}}, 0))});
-  const auto met = [&](double from, double to, double lifted) {
-    const Motions movers{{{0, 0}, {0, lifted}}};
-    return there.met(Place({0, from}, movers, 0), Place({0, to}, movers, 1));
-  };
-  EXPECT_EQ(met(1, 2, 3), Colliders{0}) << "it rises faster";
-  EXPECT_EQ(met(1, -1, -3), Colliders{}) << "it falls faster";
-  EXPECT_EQ(met(-1, -1, -3), Colliders{}) << "it comes from above";
-}
-
-TEST(ExactMovers, a_lift_beside_the_floor_is_a_seam_exactly_where_the_two_are_flush) {
-  const ExactScenery there = world({box(0, -1, 1, 0), box(-2, -1.75, -1, -0.75, 0)});
-  using Row = std::tuple<MoverMotion, bool, const char*>;
-  for (const auto& [motion, exposed, what] :
-       {Row{{{3, 0.75}, {3, 0.75}}, false, "waiting"},
-        Row{{{2.97, 0.75}, {3, 0.75}}, false, "sliding out of the floor, its top in line"},
-        Row{{{3, 0.75 + 0x1p-40}, {3, 0.75 + 0x1p-40}}, true, "a hair above it"},
-        Row{{{3, 0.75}, {3, 0.85}}, true, "rising out of it"}}) {
-    // Already a millimetre inside the floor, the lift is met at its vertex.
-    const Motions movers{motion};
-    const std::optional<ExactImpact> vertex = there.time_of_impact(Place({0.8, 0.624}, movers, 0), {0.5, -0.001}, 1);
-    ASSERT_TRUE(vertex) << what;
-    EXPECT_EQ(vertex->exposed, exposed) << what;
-  }
-}
-
-TEST(ExactMovers, a_seam_is_looked_for_where_the_neighbours_are_at_the_moment_of_the_touch) {
-  // Two halves of a platform go along together; or the near one falls away and uncovers the far one's side.
-  const ExactScenery there = world({box(0, -1, 1, 0, 1), box(1, -1, 2, 0, 0)}, square(0.25));
-  for (const bool together : {true, false}) {
-    const Motions movers{{{0, 0}, {0, 0.5}}, {{0, 0}, {0, together ? 0.5 : -4}}};
-    const ExactImpact side = there.time_of_impact(Place({0.5, -0.5}, movers, 0), {0.5, 0.5}, 1).value();
-    EXPECT_EQ(side.fraction, 0.5);
-    EXPECT_EQ(side.normal, Vec2d(-1, 0));
-    EXPECT_EQ(side.exposed, !together);
-  }
-}
-
 TEST(ExactMovers, without_motions_every_mover_is_at_offset_zero_and_too_few_are_refused) {
   const ExactScenery there = world({box(-1, -1, 1, 0, 1), box(5, 0, 6, 1)});
   EXPECT_EQ(there.overlapped({0, 0.5}), Colliders{0});

@@ -30,23 +30,6 @@ TEST(ExactOverlap, agrees_with_the_area_left_by_clipping) {
   }
 }
 
-TEST(ExactOverlap, a_chain_of_zero_thickness_is_overlapped_and_a_one_way_chain_never) {
-  const ExactScenery there = world({chain({{-1, 0}, {1, 0}}), one_way(chain({{-1, 0}, {1, 0}}))});
-  EXPECT_EQ(there.overlapped({0, 0.25}), Colliders{0});
-  EXPECT_EQ(there.overlapped({0, 0.625}), Colliders{});
-  EXPECT_EQ(there.overlapped({0, one_ulp_down(0.625)}), Colliders{0});
-}
-
-TEST(ExactOverlap, inside_a_hole_is_free_and_deep_inside_a_polygon_is_not) {
-  ColliderDef frame = box(-10, -10, 10, 10);
-  frame.holes = {square(1)};
-  const ExactScenery there = world({frame});
-  for (const Vec2d& free : {Vec2d(0, 0), Vec2d(0.6875, 0.375), Vec2d(11, 0)})
-    EXPECT_EQ(there.overlapped(free), Colliders{}) << free.transpose();
-  for (const Vec2d& inside : {Vec2d(one_ulp_up(0.6875), 0.375), Vec2d(5, 5)})
-    EXPECT_EQ(there.overlapped(inside), Colliders{0}) << inside.transpose();
-}
-
 TEST(ExactOverlap, is_right_within_an_ulp_of_touching_where_the_filter_gives_up) {
   Random random(26);
   int overlaps = 0;
@@ -78,29 +61,6 @@ TEST(ExactOverlap, is_right_within_an_ulp_of_touching_where_the_filter_gives_up)
       << "otherwise this says nothing about the exact path";
 }
 
-TEST(ExactPassage, paper_of_any_thickness_is_met_when_both_ends_are_free) {
-  for (const double thickness : {0.1, 1e-3, 1e-9, 5e-324, 0.0}) {
-    const ExactScenery there = world({thickness > 0 ? box(-4, 0, 4, thickness) : chain({{-4, 0}, {4, 0}})});
-    EXPECT_EQ(there.met({0, 50}, {0, -50}), Colliders{0}) << thickness;
-    EXPECT_EQ(there.met({0, -1e6}, {0.5, 1e6}), Colliders{0}) << thickness;
-    EXPECT_EQ(there.met({0, 50}, {0, 1}), Colliders{});
-    const double above = one_ulp_up(0.625 + thickness);
-    EXPECT_EQ(there.met({-50, above}, {50, above}), Colliders{}) << "sliding along is free";
-    EXPECT_EQ(there.met({4.3125, 50}, {4.3125, -50}), Colliders{}) << "sliding past the end is free";
-    EXPECT_EQ(there.met({one_ulp_down(4.3125), 50}, {one_ulp_down(4.3125), -50}), Colliders{0});
-  }
-}
-
-TEST(ExactPassage, a_one_way_segment_blocks_only_from_its_side_and_against_its_normal) {
-  const ExactScenery there = world({one_way(chain({{-4, 0}, {4, 0}}))});
-  EXPECT_EQ(there.met({0, 1}, {0, -1}), Colliders{0});
-  EXPECT_EQ(there.met({0, 0.625}, {0, 0.5}), Colliders{0}) << "touching counts as on its side";
-  EXPECT_EQ(there.met({0, one_ulp_down(0.625)}, {0, -1}), Colliders{}) << "a part was below when the leg began";
-  EXPECT_EQ(there.met({0, -1}, {0, 1}), Colliders{});
-  EXPECT_EQ(there.met({0, 1}, {9, 1}), Colliders{});
-  EXPECT_EQ(world({one_way(chain({{0, -4}, {0, 4}}))}).met({-1, 0}, {1, 0}), Colliders{}) << "along one_way: nothing";
-}
-
 TEST(ExactPassage, a_one_way_polygon_blocks_as_the_lines_that_face_one_way_and_is_never_overlapped) {
   const std::vector<Vec2d> bowl{{-4, -1}, {4, -1}, {4, 2}, {3, 2.5}, {2, 0}, {-2, 0}, {-3, 2}, {-4, 2}};
   const std::vector<Vec2d> clockwise(bowl.rbegin(), bowl.rend());
@@ -122,17 +82,6 @@ TEST(ExactPassage, a_one_way_polygon_blocks_as_the_lines_that_face_one_way_and_i
       }
     }
   EXPECT_NEAR(met, 0.5 * count, 0.4 * count);
-}
-
-TEST(ExactDepth, is_the_shortest_way_out_of_a_convex_polygon) {
-  const ExactScenery block = world({box(-4, -1, 4, 0), chain({{-4, 9}, {4, 9}})});
-  EXPECT_EQ(block.penetration({0, 0.625}, 0), 0);
-  EXPECT_EQ(block.penetration({0, 0.5}, 0), 0.125);
-  EXPECT_EQ(block.penetration({4.25, 0}, 0), 0.0625);
-  EXPECT_EQ(block.separation({0, 0.75}, 0), 0.125);
-  EXPECT_EQ(block.separation({0, one_ulp_down(0.625)}, 0), one_ulp_down(0.625) - 0.625);
-  EXPECT_EQ(block.penetration({0, 8.5}, 1), 0.125);
-  EXPECT_EQ(block.penetration({0, 9}, 1), 0.625);
 }
 
 TEST(ExactDepth, leaving_by_it_along_the_normal_of_an_overlap_frees) {
@@ -177,18 +126,6 @@ TEST(ExactDepth, of_many_parts_is_that_of_the_nearest_or_deepest_segment) {
     outside += nearest > 0;
   }
   EXPECT_NEAR(outside, 0.6 * rounds, 0.3 * rounds);
-}
-
-TEST(ExactDepth, is_exact_where_products_underflow) {
-  // All lengths times 2^-540: products of two fall below the smallest double.
-  constexpr double scale = 0x1p-540;
-  std::vector<Vec2d> small = octagon();
-  for (Vec2d& point : small) point *= scale;
-  const ExactScenery there = world({box(-4 * scale, -scale, 4 * scale, 0)}, small);
-  EXPECT_EQ(there.overlapped({0, 0.625 * scale}), Colliders{});
-  EXPECT_EQ(there.overlapped({0, one_ulp_down(0.625 * scale)}), Colliders{0});
-  EXPECT_GT(there.rational_decisions(), 0U);
-  EXPECT_EQ(there.first_impact({0, scale}, {0, -scale}).value().fraction, 0.375);
 }
 
 TEST(ExactScenery, near_finds_the_boxes_within_reach) {

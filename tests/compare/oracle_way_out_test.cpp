@@ -9,44 +9,6 @@ namespace {
 /// What the end keeps from solids, and what the way keeps from those it passes [m].
 constexpr double kept = 2e-6;
 
-TEST(ExactWayOut, is_straight_to_the_nearest_side_that_is_open) {
-  const ColliderDef block = box(-2, -1.5, 2, 1.5);
-  // Within the block, and a lid that lies on it at the step's start, and is gone at its end.
-  const auto line = [](double direction) { return one_way(chain({{-9, 1.4}, {9, 1.4}}), {0, direction}); };
-  const ColliderDef lid = box(-9, 1.5, 9, 1.6, 0);
-  const Motions movers{{{0, 0}, {0, 20}}};
-  const double over = 1.5 + half_height;
-  const double beside = 2 + half_width;
-  using Row = std::tuple<const char*, std::vector<ColliderDef>, Vec2d, double, Vec2d>;
-  for (const auto& [what, solids, from, fraction, to] :
-       {Row{"up", {block}, {0.3, 1.4}, 0, {0.3, over}}, Row{"down", {block}, {-0.7, -1.2}, 0, {-0.7, -over}},
-        Row{"to the left", {block}, {-1.5, -0.1}, 0, {-beside, -0.1}},
-        Row{"along a one-way normal", {block, line(1)}, {0.2, 0.5}, 0, {0.2, over}},
-        Row{"not against it", {block, line(-1)}, {0.2, 0.5}, 0, {beside, 0.5}},
-        Row{"a lid is there at first", {block, lid}, {0.3, 0.8}, 0, {beside, 0.8}},
-        Row{"and not at last", {block, lid}, {0.3, 0.8}, 1, {0.3, over}}}) {
-    const ExactScenery there = world(solids);
-    const std::optional<Vec2d> out = there.way_out(Place(from, movers, fraction), 10);
-    ASSERT_TRUE(out) << what;
-    EXPECT_LE((*out - to).norm(), kept) << what;
-    EXPECT_EQ(there.overlapped(Place(*out, movers, fraction)), Colliders{}) << what;
-  }
-  EXPECT_FALSE(world({block}).way_out({0.3, 1.4}, 0.7)) << "it is 0.725 m long";
-  EXPECT_FALSE(world({block}).way_out({0, 3}, 10)) << "it is inside of nothing";
-}
-
-TEST(ExactWayOut, passes_beside_what_stands_in_the_straight_way) {
-  // A crate in the block, above the octagon: the way up passes beside its corner.
-  const Vec2d from{0, -2};
-  const Vec2d out = world({box(-5, -10, 5, 0), box(-0.1, -0.9, 0.1, -0.8)}).way_out(from, 10).value();
-  // Seen by the position, the crate is larger by the octagon: the right corner of its lower side is at (0.25625,
-  // -1.525), the one above it at (0.4125, -1.2125). The steepest way past both ends at the level where it is free.
-  const double rise = half_height - from.y();
-  const double slope = std::max(0.25625 / (2 - 1.525), 0.4125 / (2 - 1.2125));
-  EXPECT_NEAR((out - from).norm(), rise * std::sqrt(1 + slope * slope), kept);
-  EXPECT_NEAR(out.y(), half_height, kept);
-}
-
 /// The same by trial: the nearest of many places in many directions.
 std::optional<double> nearest_by_trial(const ExactScenery& there, const Vec2d& from, double reach) {
   constexpr int directions = 64;

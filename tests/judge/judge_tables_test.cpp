@@ -101,7 +101,7 @@ Json told(const StepJudgement& one, const TraceHeader& header) {
   for (const auto& [name, value] : {std::pair{"first_impact", &one.first_impact},
                                     {"normal_error", &one.normal_error},
                                     {"turning_toi_error", &one.turning_toi_error}})
-    all[name] = *value ? Json(**value) : Json();
+    all[name] = *value ? Json(**value) : Json("none");
   all.update({{"dont_care", ids(one.dont_care)},
               {"undecided", ids(one.undecided)},
               {"methods_disagree", ids(one.methods_disagree)},
@@ -174,6 +174,19 @@ Wanted wanted_of(const Json& said, const TraceStep& step, const TraceHeader& hea
   return wanted;
 }
 
+/// Of clauses the steps that break them, and `unlike` those of which the checker in Python has other words: what is
+/// excused, what movers crush, and a stay inside after its first step.
+void note_broken(const StepJudgement& one, const TraceStep& step, Json& broken) {
+  const auto note = [&](const char* clause, bool so) {
+    if (so) broken[clause].push_back(step.step);
+  };
+  note("overlap", !one.entered.empty() || !one.company.entered.empty());
+  note("passage", !one.tunnelled.empty() || !one.company.passed.empty());
+  note("one_way", !one.one_way_broken.empty());
+  note("unlike", !one.rounded.empty() || !one.drawn.empty() || one.clips() || !step.crushed.empty() ||
+                     one.end_overlap != one.entered || !one.pressed.empty());
+}
+
 class JudgeTables : public ::testing::TestWithParam<Row> {
  protected:
   /// Kept where the test fails.
@@ -194,16 +207,6 @@ class JudgeTables : public ::testing::TestWithParam<Row> {
     return {reader.header(), std::move(steps)};
   }
 
-  static void expect(const Json& tells, const Json& all) {
-    for (const auto& [key, wanted] : tells.items()) {
-      const Json::json_pointer part("/" + key);
-      ASSERT_TRUE(all.contains(key) || all.contains(part)) << "nothing is told of " << key << " in " << all.dump();
-      const Json is = wanted.is_object() ? wanted : Json{{"is", wanted}};
-      EXPECT_EQ(paperproof::test::fault_of(all.at(part), is), "") << key;
-    }
-    if (!tells.contains("solids")) EXPECT_EQ(all["solids"], "");
-  }
-
   static void run(const RowTrace& trace) {
     auto [header, steps] = read(trace);
     const Turn by(trace.turned);
@@ -211,6 +214,7 @@ class JudgeTables : public ::testing::TestWithParam<Row> {
     std::vector<std::unique_ptr<Judge>> judges;
     for (std::size_t i = 0; i < header.characters; ++i) judges.push_back(std::make_unique<Judge>(header));
     CompanyJudge company(header);
+    Json broken = Json::object();
     for (std::size_t first = 0; first < steps.size(); first += header.characters) {
       std::vector<StepJudgement> judgements;
       for (std::size_t i = 0; i < header.characters; ++i) {
@@ -224,18 +228,28 @@ class JudgeTables : public ::testing::TestWithParam<Row> {
       for (std::size_t i = 0; i < header.characters; ++i) {
         const Json& beside = trace.beside[first + i];
         SCOPED_TRACE(fmt::format("record {}: {}", first + i, beside.value("what", "")));
-        expect(beside.value("tells", Json::object()), told(judgements[i], header));
+        note_broken(judgements[i], steps[first + i], broken);
+        Json tells{{"solids", ""}};
+        tells.update(beside.value("tells", Json::object()));
+        EXPECT_EQ(missed(tells, told(judgements[i], header)), "");
       }
+    }
+    if (const char* folder = std::getenv("PAPERPROOF_JUDGE_TRACES"); folder != nullptr && header.path_exact) {
+      static int number = 0;
+      const std::string stem = fmt::format("{}/{}.{}", folder, GetParam().name, ++number);
+      std::filesystem::copy_file(file(), stem + ".jsonl");
+      std::ofstream(stem + ".json") << broken.dump();
     }
   }
 };
 
 TEST_P(JudgeTables, are_what_the_judge_tells) {
-  for (const RowTrace& trace : traces_of(GetParam())) {
-    SCOPED_TRACE(trace.title + "\n" + file());
-    run(trace);
-    if (HasFailure()) return;
-  }
+  for (const RowCase& one : cases_of(GetParam()))
+    for (const RowTrace& trace : traces_of(one)) {
+      SCOPED_TRACE(trace.title + "\n" + file());
+      run(trace);
+      if (HasFailure()) return;
+    }
   std::filesystem::remove(file());
 }
 

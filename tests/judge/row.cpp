@@ -32,7 +32,25 @@ Json empty_header(const std::string& contender) {
   return trace_header_json(header);
 }
 
-/// Takes the short keys of colliders, which no trace has, and makes scripts of them that rest.
+/// Its outline as it lies in each pose, [fraction, x, y, angle].
+Json way_of(const Json& collider, const Json& poses) {
+  const Json& outline = collider.contains("chain") ? collider["chain"] : collider["polygon"];
+  Json way{{"offset", {{poses.front()[1], poses.front()[2]}, {poses.back()[1], poses.back()[2]}}}};
+  for (const Json& pose : poses) {
+    const Eigen::Rotation2D<double> by(pose[3].get<double>());
+    Json points = Json::array();
+    for (const Json& point : outline) {
+      const Vec2d at = Vec2d(pose[1], pose[2]) + by * point.get<Vec2d>();
+      points.push_back({at.x(), at.y()});
+    }
+    way["k"].push_back(pose[0]);
+    way["vertices"].push_back(std::move(points));
+  }
+  return way;
+}
+
+}  // namespace
+
 Json header_of(const Json& said, const std::string& contender) {
   Json header = empty_header(contender);
   header.merge_patch(said.value("header", Json::object()));
@@ -52,24 +70,6 @@ Json header_of(const Json& said, const std::string& contender) {
   return header;
 }
 
-/// Its outline as it lies in each pose, [fraction, x, y, angle].
-Json way_of(const Json& collider, const Json& poses) {
-  const Json& outline = collider.contains("chain") ? collider["chain"] : collider["polygon"];
-  Json way{{"offset", {{poses.front()[1], poses.front()[2]}, {poses.back()[1], poses.back()[2]}}}};
-  for (const Json& pose : poses) {
-    const Eigen::Rotation2D<double> by(pose[3].get<double>());
-    Json points = Json::array();
-    for (const Json& point : outline) {
-      const Vec2d at = Vec2d(pose[1], pose[2]) + by * point.get<Vec2d>();
-      points.push_back({at.x(), at.y()});
-    }
-    way["k"].push_back(pose[0]);
-    way["vertices"].push_back(std::move(points));
-  }
-  return way;
-}
-
-/// Each mover goes as it is said to, or rests.
 Json movers_of(const Json& said, const Json& header) {
   Json movers = Json::object();
   for (const Json& script : header.value("movers", Json::array())) {
@@ -87,6 +87,8 @@ Json movers_of(const Json& said, const Json& header) {
     if (!movers.contains(id)) throw std::invalid_argument(id + ": no collider that moves");
   return movers;
 }
+
+namespace {
 
 Json difference(const Json& a, const Json& b) {
   return {a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>()};
@@ -132,9 +134,10 @@ Json together(const Json& said) {
   return all;
 }
 
-RowTrace trace_of(const Json& said, const std::string& contender) {
+RowTrace trace_of(const RowCase& one, const std::string& contender) {
+  const Json& said = one.said;
   refuse_other_keys(said, " what contender header colliders turned step steps ", "a row");
-  RowTrace trace{.title = said.value("what", "") + " " + contender, .header = header_of(said, contender)};
+  RowTrace trace{.title = contender + " " + one.title, .header = header_of(said, contender)};
   trace.turned = said.value("turned", 0.0);
   const std::size_t characters = trace.header.value("characters", std::size_t{1});
   for (const Json& patch : said.value("steps", Json::array({Json::object()}))) {
@@ -176,12 +179,12 @@ std::vector<Row> read_rows(const std::string& folder) {
   return rows;
 }
 
-std::vector<RowTrace> traces_of(const Row& row) {
+std::vector<RowCase> cases_of(const Row& row) {
   Values always = constants();
   always["dt"] = dt;
   name_numbers(row.file.value("let", Json::object()), always);
-  std::vector<RowTrace> traces;
-  for (const Values& values : cases_of(row.text.value("for", Json::object()), always))
+  std::vector<RowCase> all;
+  for (const Values& values : compare::cases_of(row.text.value("for", Json::object()), always))
     for (const Json& one : row.text.value("cases", Json::array({Json::object()}))) {
       Values of_case = values;
       const Json own = one.value("let", Json::object());
@@ -193,15 +196,31 @@ std::vector<RowTrace> traces_of(const Row& row) {
       said.merge_patch(row.text);
       said.merge_patch(one);
       for (const char* key : {"name", "for", "let", "cases"}) said.erase(key);
-      said = computed(said, of_case);
-      const Json contenders = said.value("contender", Json("somebody"));
-      for (const std::string contender : contenders.is_array() ? contenders : Json::array({contenders})) {
-        traces.push_back(trace_of(said, contender));
-        for (const auto& [name, value] : of_case)
-          if (!always.contains(name)) traces.back().title += fmt::format(" {}={}", name, value);
-      }
+      all.push_back({.title = one.value("what", ""), .said = computed(said, of_case)});
+      for (const auto& [name, value] : of_case)
+        if (!always.contains(name)) all.back().title += fmt::format(" {}={}", name, value);
     }
+  return all;
+}
+
+std::vector<RowTrace> traces_of(const RowCase& one) {
+  std::vector<RowTrace> traces;
+  const Json contenders = one.said.value("contender", Json("somebody"));
+  for (const std::string contender : contenders.is_array() ? contenders : Json::array({contenders}))
+    traces.push_back(trace_of(one, contender));
   return traces;
+}
+
+std::string missed(const Json& tells, const Json& told) {
+  std::string all;
+  for (const auto& [key, wanted] : tells.items()) {
+    const Json::json_pointer part("/" + key);
+    if (!told.contains(part)) throw std::invalid_argument("nothing is told of " + key + " in " + told.dump());
+    const std::string fault =
+        paperproof::test::fault_of(told.at(part), wanted.is_object() ? wanted : Json{{"is", wanted}});
+    if (!fault.empty()) all += "\n" + key + " " + fault;
+  }
+  return all;
 }
 
 }  // namespace paperproof::compare::test

@@ -28,11 +28,28 @@ struct RowTrace {
   double turned = 0;          ///< Everything, and up with it [rad].
 };
 
+/// A row in one of its cases, with all numbers computed.
+struct RowCase {
+  std::string title;  ///< What tells it from the others.
+  Json said;
+};
+
 /// All rows of a folder. @throws std::exception that names the file.
 [[nodiscard]] std::vector<Row> read_rows(const std::string& folder);
 
-/// One for each combination of `for`, `cases` and `contender`.
-/// @throws std::exception for what is no row.
-[[nodiscard]] std::vector<RowTrace> traces_of(const Row& row);
+/// One for each combination of `for` and `cases`.
+[[nodiscard]] std::vector<RowCase> cases_of(const Row& row);
+
+/// One for each of its contenders. @throws std::exception for what is no row.
+[[nodiscard]] std::vector<RowTrace> traces_of(const RowCase& one);
+
+/// The header of a trace with the colliders of a row, which the rest of the row says something of.
+[[nodiscard]] Json header_of(const Json& said, const std::string& contender);
+
+/// How each mover of a header goes: as it is said to, or it rests.
+[[nodiscard]] Json movers_of(const Json& said, const Json& header);
+
+/// In words what is not told as it must be, line by line.
+[[nodiscard]] std::string missed(const Json& tells, const Json& told);
 
 }  // namespace paperproof::compare::test
