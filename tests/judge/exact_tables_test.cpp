@@ -12,6 +12,7 @@ namespace {
 /// Colliders and movers of a row.
 struct World {
   explicit World(const Json& said) : header(header_of(said, "somebody")) {
+    paperproof::test::refuse_other_keys(said, " what header colliders ask asks ", "a row of questions");
     MoverIndex mover = 0;
     for (std::size_t i = 0; i < header["colliders"].size(); ++i) {
       colliders.push_back(collider_of(header["colliders"][i]));

@@ -256,5 +256,13 @@ TEST_P(JudgeTables, are_what_the_judge_tells) {
 INSTANTIATE_TEST_SUITE_P(All, JudgeTables, ::testing::ValuesIn(read_rows(PAPERPROOF_JUDGE_TABLES)),
                          [](const auto& row) { return row.param.name; });
 
+TEST(JudgeTable, that_no_judge_could_miss_is_refused) {
+  EXPECT_EQ(missed(Json{{"hangs", true}}, Json{{"hangs", false}}), "\nhangs is false instead of true within 0");
+  EXPECT_THROW((void)missed(Json{{"hang", true}}, Json{{"hangs", false}}), std::invalid_argument) << "no such answer";
+  for (const char* said :
+       {R"({"stpes": [], "step": {"path": [[0, 0]]}})", R"({"step": {"path": [[0, 0]], "movers": {"lift": [0, 1]}}})"})
+    EXPECT_THROW((void)traces_of({.title = "", .said = Json::parse(said)}), std::invalid_argument) << said;
+}
+
 }  // namespace
 }  // namespace paperproof::compare::test
