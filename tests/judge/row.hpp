@@ -21,11 +21,11 @@ inline void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
 
 /// A trace, and beside each record what is no part of a trace.
 struct RowTrace {
-  std::string title;          ///< What tells it from the others of the row.
-  Json header;                ///< As in a trace.
-  std::vector<Json> records;  ///< The same.
-  std::vector<Json> beside;   ///< `what`, `wanted`, `beside_another`, and `tells`, of each.
-  double turned = 0;          ///< Everything, and up with it [rad].
+  std::string title;            ///< What tells it from the others of the row.
+  Json header;                  ///< As in a trace.
+  std::vector<Json> records{};  ///< The same.
+  std::vector<Json> beside{};   ///< `what`, `wanted`, `beside_another`, and `tells`, of each.
+  double turned = 0;            ///< Everything, and up with it [rad].
 };
 
 /// A row in one of its cases, with all numbers computed.
