@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -84,23 +83,6 @@ inline std::string with(std::string text, std::string_view from, std::string_vie
 inline std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '\'', '"');
   return text;
-}
-
-/// In one place of a good file, and how the message about it begins. Each ' stands for ".
-struct Change {
-  std::string_view from;
-  std::string to;  ///< With a + in front: what is put before `from`, and a comma.
-  std::string message;
-};
-
-/// Each change of the good text is refused with its message, in one line.
-inline void expect_refused(const std::string& name, const std::string& good, std::initializer_list<Change> changes) {
-  const SceneFiles files;
-  for (const auto& [from, to, message] : changes) {
-    const std::string after = to.starts_with('+') ? to.substr(1) + ", " + std::string(from) : to;
-    const std::string said = files.complaint(name, with(good, quoted(std::string(from)), quoted(after)));
-    EXPECT_EQ(said.substr(0, message.size()), quoted(message)) << "with " << to << " it says\n" << said;
-  }
 }
 
 /// What blocks, one after the other: "a: box 0 0 2 1; b: polygon 0 0 1 0 0 1". Polygons begin with their least corner.
