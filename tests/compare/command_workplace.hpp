@@ -74,16 +74,20 @@ inline std::string unpacked(const std::string& json_string) {
 class Workplace : public SceneFiles {
  public:
   Workplace() {}  // without it clang refuses `const Workplace place;`
+  /// The status of a line of shell code in the folder.
+  [[nodiscard]] int shell(const std::string& line) const {
+    const int raw = std::system(("cd '" + path("") + "' && " + line).c_str());
+    return WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
+  }
   /// @param arguments as typed in a shell. @param before what stands before the command there.
   [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
     std::string folder = path("");
     folder.pop_back();  // the slash. The outputs lie beside the folder, not in it
     const std::string out = folder + ".out";
     const std::string err = folder + ".err";
-    const std::string line = "cd '" + folder + "' && " + before + " '" PAPERPROOF_COMMAND "' </dev/null " + arguments +
-                             " >'" + out + "' 2>'" + err + "'";
-    const int raw = std::system(line.c_str());
-    Finished finished{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(out), content(err)};
+    const int status =
+        shell(before + " '" PAPERPROOF_COMMAND "' </dev/null " + arguments + " >'" + out + "' 2>'" + err + "'");
+    Finished finished{status, content(out), content(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return finished;

@@ -25,19 +25,6 @@ std::string word_in(const Json& word) {
   return text;
 }
 
-/// Words may be made of words.
-std::string filled(std::string text, const Json& words) {
-  for (std::size_t at = 0; (at = text.find('{', at)) != std::string::npos;) {
-    const std::size_t length = text.find('}', at) - at;
-    const auto word = words.find(text.substr(at + 1, length - 1));
-    if (word == words.end())
-      ++at;
-    else
-      text.replace(at, length + 1, word_in(*word));
-  }
-  return text;
-}
-
 void fill(Json& value, const Json& words) {
   if (value.is_string()) value = filled(value.get<std::string>(), words);
   if (value.is_structured())
@@ -92,6 +79,18 @@ Json seen_in(const Scene& scene) {
 }
 
 }  // namespace
+
+std::string filled(std::string text, const Json& words) {
+  for (std::size_t at = 0; (at = text.find('{', at)) != std::string::npos;) {
+    const std::size_t length = text.find('}', at) - at;
+    const auto word = words.find(text.substr(at + 1, length - 1));
+    if (word == words.end())
+      ++at;
+    else
+      text.replace(at, length + 1, word_in(*word));
+  }
+  return text;
+}
 
 std::string text_in(const Json& text) {
   if (text.is_string()) return text;

@@ -18,6 +18,9 @@ using Json = nlohmann::ordered_json;
 /// A text, or a list of its lines.
 [[nodiscard]] std::string text_in(const Json& text);
 
+/// A text with every `{word}` filled in. Words may be made of words.
+[[nodiscard]] std::string filled(std::string text, const Json& words);
+
 /// What a row has under a key, else an object without keys.
 [[nodiscard]] const Json& object_in(const Json& row, const char* key);
 
