@@ -10,7 +10,6 @@ namespace paperproof::compare {
 namespace {
 
 using CommandInputs = CommandTest;
-using CommandJudge = CommandTest;
 
 constexpr const char* map_text =
     R"(<map version="1.5" orientation="orthogonal" width="20" height="3" tilewidth="32" tileheight="32" infinite="0">
@@ -105,64 +104,6 @@ TEST_F(CommandInputs, long_work_says_how_long_it_takes_before_it_has_taken_long)
     beams += std::string("{\"polygon\": [[-4,0],[4,0],[4,-1],[-4,-1.") + std::to_string(i) + "]]},";
   place.write("beams.json", good_with("{ \"id\": \"floor\"", beams + "{ \"id\": \"floor\""));
   EXPECT_TRUE(begins(place.run("compare beams.json --no-timing", until_it_speaks).err, "good: about "));
-}
-
-/// Writes t.SCENE.octagon_sweep.double.jsonl.
-void trace(const Workplace& place, const std::string& scene_and_options) {
-  const std::string options = " --contender octagon_sweep --scalar double --no-reference --no-timing --quiet --trace t";
-  ASSERT_EQ(place.run("compare " + scene_and_options + options).status, 0);
-}
-
-TEST_F(CommandJudge, takes_the_settings_of_the_scene) {
-  const std::string judge = "judge t.closing_lift.octagon_sweep.double.jsonl --scene closing_lift";
-  trace(place, "closing_lift --set clearance=-0.1");
-  EXPECT_EQ(place.run(judge + " --set clearance=-0.1").status, 0);
-  EXPECT_EQ(place.run(judge).status, 1) << "with another clearance nothing crushes it";
-  EXPECT_EQ(place.run(judge + " --set no_such=1").status, 2);
-  EXPECT_TRUE(holds(place.run("judge t.closing_lift.octagon_sweep.double.jsonl --set clearance=-0.1").err,
-                    "--set requires --scene"));
-}
-
-TEST_F(CommandJudge, asks_for_every_step_of_the_run) {
-  trace(place, "article_bullet");
-  const std::string name = "t.article_bullet.octagon_sweep.double.jsonl";
-  const std::string whole = content(place.path(name));
-  ASSERT_TRUE(holds(whole, ",\"steps\":60,"));
-  const std::string cut = whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1);  // without its last line
-  place.write("cut.jsonl", cut);
-  place.write("unsaid.jsonl", with(cut, "\"steps\":60,", ""));
-  const std::string broken =
-      "\n  continuity on 1 step, first in step 58: the trace ends with this step, and the run has 60";
-  EXPECT_EQ(place.run("judge " + name + " --scene article_bullet").status, 0);
-  for (const char* spoilt : {"cut.jsonl", "cut.jsonl --scene article_bullet", "unsaid.jsonl --scene article_bullet"}) {
-    const Finished finished = place.run(std::string("judge ") + spoilt);
-    EXPECT_EQ(finished.status, 1) << spoilt;
-    EXPECT_TRUE(holds(finished.out, broken)) << spoilt << finished.out;
-  }
-  EXPECT_EQ(place.run("judge unsaid.jsonl").status, 0) << "nobody says how long the run was";
-}
-
-TEST_F(CommandJudge, takes_the_number_of_steps_that_ran) {
-  trace(place, "article_bullet --steps 20");
-  const std::string judge = "judge t.article_bullet.octagon_sweep.double.jsonl";
-  runs(judge + " --scene article_bullet --steps 20");
-  EXPECT_TRUE(holds(runs(judge + " --scene article_bullet").out, "\n  the scene has 60 steps\n"));
-  EXPECT_EQ(place.run(judge + " --scene article_bullet --steps 60").status, 1) << "who asks for 60 gets 20";
-}
-
-TEST_F(CommandJudge, accuses_no_run_that_a_refusal_ended) {
-  place.write("far.json", R"({"paperproof_scene": 1, "name": "far", "gravity": [0, 0], "dt": 0.5, "steps": 60,
-    "character": {"position": [0, 0], "velocity": [300000, 0]},
-    "scenery": [{"id": "floor", "polygon": [[-4, -9], [4, -9], [4, -8], [-4, -8]]}]})");
-  trace(place, "far.json");
-  const std::string name = "t.far.octagon_sweep.double.jsonl";
-  const std::string text = content(place.path(name));
-  ASSERT_TRUE(holds(text, "\"steps\":60") && holds(text, "\"refused\":"));
-  for (const std::string& options : {std::string(), std::string(" --scene far.json"), std::string(" --all")}) {
-    const Finished finished = place.run("judge " + name + options);
-    EXPECT_FALSE(holds(finished.out, "continuity")) << finished.out << finished.err;
-    EXPECT_TRUE(holds(finished.out, "1 step refused")) << finished.out << finished.err;
-  }
 }
 
 }  // namespace

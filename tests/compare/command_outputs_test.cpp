@@ -70,58 +70,18 @@ wait $p)");
   EXPECT_EQ(parts(), 0U);
 }
 
-/// Runs the command with its standard output redirected. @param before,after shell code around the whole call.
-Finished run_into(const Workplace& place, const std::string& arguments, const std::string& output,
-                  const std::string& after = "", const std::string& before = "") {
-  const std::string said = place.write("said", "");
-  const std::string status = place.write("status", "");
-  (void)place.run(arguments + " " + output + " 2>'" + said + "'; echo $? >'" + status + "'" + after + " #", before);
-  Finished finished{std::atoi(content(status).c_str()), "", content(said)};
-  std::filesystem::remove(said);
-  std::filesystem::remove(status);
-  return finished;
-}
-
-TEST_F(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every_subcommand) {
-  ASSERT_EQ(place.run("compare article_bullet --contender octagon_sweep --no-timing --quiet --trace t").status, 0);
-  for (const std::string arguments :
-       {"compare article_bullet --no-timing", "compare article_bullet --no-timing --json", "list scenes",
-        "judge t.article_bullet.octagon_sweep.double.jsonl", "list contenders", "list knobs", "check article_bullet",
-        "plan article_bullet", "study scale --grid 100", "--help", "--version", "compare --help"}) {
-    const Finished full = run_into(place, arguments, ">/dev/full");
-    EXPECT_EQ(full.status, 2) << arguments;
-    EXPECT_EQ(full.err, "standard output: cannot be written: No space left on device\n") << arguments;
-    EXPECT_EQ(run_into(place, arguments, ">&-").status, 2) << arguments;
-  }
-  EXPECT_EQ(run_into(place, "compare article_bullet --no-timing --quiet", ">/dev/full").status, 0)
-      << "nothing is printed";
-}
-
-TEST_F(CommandOutputs, files_on_a_full_disk_are_an_error) {
-  for (const char* name : {"rows.jsonl", "rows.csv"}) std::filesystem::create_symlink("/dev/full", place.path(name));
-  const std::string compare = "compare article_bullet --no-timing --quiet ";
-  for (const std::string& run :
-       {compare + "--rows /dev/full", compare + "--rows rows.jsonl", compare + "--rows rows.csv",
-        compare + "--report /dev/full", std::string("study scale --grid 100 --quiet --rows /dev/full")}) {
-    const Finished finished = place.run(run);
-    EXPECT_EQ(finished.status, 2) << run;
-    EXPECT_TRUE(holds(finished.err, "cannot be written whole: No space left on device\n"));
-  }
-}
-
 TEST_F(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_behind) {
   for (const std::string arguments : {"list scenes", "check technique_gallery",
                                       "compare article_bullet --no-timing --rows rows.json --report r.html"}) {
     // The reader is gone before the command begins.
-    const Finished finished = run_into(place, arguments, "", "; } | true", "{ sleep 0.5;");
-    EXPECT_EQ(finished.err, "") << arguments;
-    EXPECT_EQ(finished.status, 141) << arguments;
-    EXPECT_TRUE(place.files().empty()) << arguments << ": something is left behind";
+    const std::string call = " '" PAPERPROOF_COMMAND "' </dev/null " + arguments;
+    EXPECT_EQ(place.shell("{ sleep 0.5;" + call + " 2>said; echo $? >status; } | true"), 0);
+    EXPECT_EQ(place.files(), (std::map<std::string, std::string>{{"said", ""}, {"status", "141\n"}})) << arguments;
   }
 }
 
 TEST_F(CommandOutputs, a_closed_standard_output_is_not_what_a_file_is_opened_as) {
-  const Finished finished = run_into(place, "compare article_bullet --no-timing --quiet --rows rows.json", ">&-");
+  const Finished finished = place.run("compare article_bullet --no-timing --quiet --rows rows.json >&-");
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_EQ(nlohmann::json::parse(place.files().at("rows.json")).at("paperproof_rows"), 1);
 }

@@ -4,24 +4,35 @@
 #include <algorithm>
 
 namespace paperproof::compare {
+
+void check_call(const Json& row) {
+  const Workplace place;
+  const auto list = [&](const char* key) { return row.value(key, std::vector<std::string>()); };
+  for (const auto& [name, text] : object_in(row, "files").items()) place.write(name, quoted(text_in(text)));
+  for (const std::string& call : list("before")) ASSERT_EQ(place.run(call).status, 0) << call;
+  ASSERT_EQ(place.shell(row.value("first", "true")), 0);
+  for (const std::string& call : list("calls")) {
+    const Finished finished = place.run(call);
+    EXPECT_EQ(finished.status, row.value("status", 0)) << call << "\n" << finished.err;
+    for (const std::string& part : list("out")) EXPECT_TRUE(holds(finished.out, part)) << call;
+    for (const std::string& part : list("not_out")) EXPECT_FALSE(holds(finished.out, part)) << call;
+    EXPECT_TRUE(holds(finished.err, row.value("says", ""))) << call;
+    if (row.contains("err")) EXPECT_EQ(finished.err, row["err"]) << call;
+    if (!row.contains("row") && !row.contains("reason") && !row.contains("not_reason")) continue;
+    const Json last = Json::parse(finished.out).at("rows").back();
+    for (const auto& [key, value] : object_in(row, "row").items()) EXPECT_EQ(last.value(key, Json()), value) << last;
+    const std::string reason = quoted(last.value("reason", ""));
+    EXPECT_TRUE(holds(reason, quoted(row.value("reason", "")))) << last;
+    if (row.contains("not_reason")) EXPECT_FALSE(holds(reason, row["not_reason"].get<std::string>()));
+  }
+}
+
 namespace {
 
 using Command = CommandTest;
 using CommandConvert = CommandTest;
 
-TEST_F(Command, counts_runs_in_double_and_in_float_apart) {
-  for (const auto& [scene, scalar, says] :
-       {std::tuple{"article_bullet", "double", "octagon_sweep in double: 60 steps in 1 run, 0 runs with a violation"},
-        {"article_bullet", "float",
-         "octagon_sweep in float, for which nothing is guaranteed: 60 steps in 1 run, 0 runs"},
-        {"turning_arm", "double", "octagon_sweep in double: 90 steps in 1 run, 0 runs with a violation"},
-        {"turning_arm", "float", "0 steps in 0 runs"}}) {
-    const std::string out =
-        place.run(std::string("compare ") + scene + " --no-timing --contender octagon_sweep --scalar " + scalar).out;
-    EXPECT_TRUE(holds(out, says));
-    EXPECT_EQ(holds(out, "in double"), scalar == std::string("double"));
-  }
-}
+const bool calls = table_tests<CommandTest>("calls.json", check_call);
 
 TEST_F(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a_step_costs) {
   const Finished finished = runs("compare article_bullet thin_platform flush_tiles");
@@ -48,18 +59,6 @@ TEST_F(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what
     const std::string cost = line->substr(cost_begin, cost_end - cost_begin);
     EXPECT_TRUE(outcome == "cannot run" ? cost == "-" : std::atof(cost.c_str()) > 1) << *line;
   }
-}
-
-TEST_F(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
-  const std::string scenes = "compare article_bullet thin_platform --no-timing";
-  const std::string one = place.run(scenes).out;
-  EXPECT_TRUE(holds(one, "2 scenes\n"));
-  EXPECT_EQ(one.find("verdict"), std::string::npos);
-  EXPECT_EQ(one.find("thin_platform"), std::string::npos);
-  const std::string all = place.run(scenes + " --all-tables").out;
-  EXPECT_TRUE(holds(all, "\nthin_platform: "));
-  EXPECT_TRUE(holds(all, "verdict"));
-  EXPECT_TRUE(holds(all, "2 scenes\n"));
 }
 
 TEST_F(Command, gives_rows_alone_when_asked_for_json_of_each_contender_and_scalar) {
@@ -93,13 +92,6 @@ TEST_F(Command, check_says_who_will_run_and_why_the_others_do_not) {
     EXPECT_TRUE(can_run || holds(checked.out, no)) << no;
   }
   EXPECT_TRUE(holds(checked.out, "  compare    " + std::to_string(running) + " of 13 contenders run"));
-}
-
-TEST_F(Command, says_what_a_scene_does_not_need) {
-  const std::string plan = runs("plan article_bullet").out;
-  EXPECT_TRUE(begins(plan, "article_bullet\n  looks at     pieces whose boxes meet the step's, of 1 piece\n"));
-  EXPECT_TRUE(holds(plan, "\n  without      sensors: ") && holds(plan, "\n  takes        "));
-  EXPECT_FALSE(holds(runs("plan sensor_gate").out, "\n  without      sensors: "));
 }
 
 TEST_F(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {

@@ -1,7 +1,7 @@
 /// The command as a user runs it, in a folder of the running test's own.
 #pragma once
 
-#include "compare/scene_files.hpp"
+#include "compare/table.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -70,6 +70,9 @@ inline std::string unpacked(const std::string& json_string) {
   return text;
 }
 
+/// JSON Lines of rows without their header.
+inline std::string rows_in(const std::string& text) { return text.substr(text.find('\n') + 1); }
+
 /// A folder in which the command runs.
 class Workplace : public SceneFiles {
  public:
@@ -79,14 +82,15 @@ class Workplace : public SceneFiles {
     const int raw = std::system(("cd '" + path("") + "' && " + line).c_str());
     return WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
   }
-  /// @param arguments as typed in a shell. @param before what stands before the command there.
+  /// @param arguments as typed in a shell, where its output may be sent elsewhere. @param before what stands before the
+  /// command there.
   [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
     std::string folder = path("");
     folder.pop_back();  // the slash. The outputs lie beside the folder, not in it
     const std::string out = folder + ".out";
     const std::string err = folder + ".err";
     const int status =
-        shell(before + " '" PAPERPROOF_COMMAND "' </dev/null " + arguments + " >'" + out + "' 2>'" + err + "'");
+        shell(before + " '" PAPERPROOF_COMMAND "' </dev/null >'" + out + "' 2>'" + err + "' " + arguments);
     Finished finished{status, content(out), content(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
@@ -112,8 +116,15 @@ class CommandTest : public testing::Test {
   }
   [[nodiscard]] std::string written(const std::string& name) const { return content(place.path(name)); }
 
+  [[nodiscard]] std::vector<nlohmann::json> rows_of(const std::string& name) const {
+    return json_lines(rows_in(written(name)));
+  }
+
   const Workplace place;
 };
+
+/// What rows of tables/calls.json say of calls.
+void check_call(const Json& row);
 
 /// A scene that runs; the bad ones differ from it in one place.
 inline constexpr const char* good_scene = R"({

@@ -16,13 +16,15 @@
 
 namespace paperproof::compare {
 
-/// A folder of the running test's own, removed at the end. The same test may run elsewhere at the same time.
+/// A folder of its own, removed at the end. The same test may run elsewhere at the same time.
 class SceneFiles {
  public:
   SceneFiles() {
+    static int count = 0;
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("paperproof_") + std::to_string(getpid()) + "_" +
-                                                           test->test_suite_name() + "_" + test->name());
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("paperproof_") + std::to_string(getpid()) + "_" + test->test_suite_name() + "_" +
+               test->name() + std::to_string(count++));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

@@ -6,11 +6,6 @@
 #include "scenes/input_error.hpp"
 #include "scenes/write_json.hpp"
 
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
-
 namespace paperproof::compare {
 namespace {
 
@@ -30,24 +25,6 @@ void fill(Json& value, const Json& words) {
   if (value.is_structured())
     for (Json& part : value) fill(part, words);
 }
-
-class TableTest : public testing::Test {
- public:
-  /// @param rows as they stand there, and as they are checked.
-  TableTest(std::vector<std::pair<Json, Json>> rows, void (*check)(const Json& row))
-      : rows_(std::move(rows)), check_(check) {}
-  void TestBody() override {
-    ASSERT_FALSE(rows_.empty());
-    for (const auto& [row, filled_row] : rows_) {
-      SCOPED_TRACE(row.dump());
-      check_(filled_row);
-    }
-  }
-
- private:
-  std::vector<std::pair<Json, Json>> rows_;
-  void (*check_)(const Json& row);
-};
 
 /// What `more` says besides `common`, without lists of tests and rows.
 Json merged(Json common, const Json& more) {
@@ -104,21 +81,20 @@ const Json& object_in(const Json& row, const char* key) {
   return row.contains(key) ? row.at(key) : nothing;
 }
 
-bool table_tests(const std::string& file, void (*check)(const Json& row)) {
+std::vector<TableDef> tests_in(const std::string& file) {
+  std::vector<TableDef> tests;
   const Json table = strict_json(read_file(folder + file, file), file);
   for (const Json& test : table.at("tests")) {
-    const Json common = merged(table, test);
-    std::vector<std::pair<Json, Json>> rows;
-    for (const Json& row : test.at("rows")) {
-      Json& filled_row = rows.emplace_back(row, merged(common, row)).second;
-      fill(filled_row, Json(object_in(filled_row, "let")));
-    }
     const std::string name = test.at("name");
     const std::size_t dot = name.find('.');
-    testing::RegisterTest(name.substr(0, dot).c_str(), name.substr(dot + 1).c_str(), nullptr, nullptr,
-                          (folder + file).c_str(), 1, [=]() -> testing::Test* { return new TableTest(rows, check); });
+    tests.push_back({name.substr(0, dot), name.substr(dot + 1), {}});
+    for (const Json& row : test.at("rows")) {
+      Json filled = merged(merged(table, test), row);
+      fill(filled, Json(object_in(filled, "let")));
+      tests.back().rows.push_back({row, std::move(filled)});
+    }
   }
-  return true;
+  return tests;
 }
 
 void check_scene_file(const SceneFiles& files, const Json& row) {

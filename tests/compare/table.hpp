@@ -6,14 +6,48 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace paperproof::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Registers each test of tables/FILE.json. Its rows are checked one by one, with what the test and the file have for
-/// all of their rows and with every `{word}` of their texts filled in.
-[[nodiscard]] bool table_tests(const std::string& file, void (*check)(const Json& row));
+/// A row as it stands in a table, and as it is checked: with what its test and its file have for all of their rows, and
+/// with every `{word}` of its texts filled in.
+struct TableRow {
+  Json row;
+  Json filled;
+};
+/// A test of a table: its suite, its name, its rows.
+struct TableDef {
+  std::string suite;
+  std::string name;
+  std::vector<TableRow> rows;
+};
+[[nodiscard]] std::vector<TableDef> tests_in(const std::string& file);
+
+/// Registers each test of tables/FILE, whose rows are checked one by one.
+template <class Fixture = testing::Test>
+bool table_tests(const std::string& file, void (*check)(const Json& row)) {
+  class Test : public Fixture {
+   public:
+    Test(const std::vector<TableRow>& rows, void (*check)(const Json& row)) : rows_(rows), check_(check) {}
+    void TestBody() override {
+      for (const TableRow& row : rows_) {
+        SCOPED_TRACE(row.row.dump());
+        check_(row.filled);
+      }
+    }
+
+   private:
+    std::vector<TableRow> rows_;
+    void (*check_)(const Json& row);
+  };
+  for (const TableDef& def : tests_in(file))
+    testing::RegisterTest(def.suite.c_str(), def.name.c_str(), nullptr, nullptr, file.c_str(), 1,
+                          [=]() -> Fixture* { return new Test(def.rows, check); });
+  return true;
+}
 
 /// A text, or a list of its lines.
 [[nodiscard]] std::string text_in(const Json& text);
