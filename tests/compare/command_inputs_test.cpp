@@ -1,5 +1,5 @@
-/// What the command reads: maps without a script, many inputs of which some are bad, inputs that never end, and traces
-/// that it wrote.
+/// What the command reads: maps without a script, many inputs of which some are bad, and inputs that never end. Traces
+/// that it wrote are in tables/calls.json.
 #include "compare/command_workplace.hpp"
 #include "compare/png_files.hpp"
 #include "one_line.hpp"

@@ -1,4 +1,5 @@
-/// What the command writes: rows in three formats, full disks, closed pipes, and what is left of a run that was killed.
+/// What the command writes: rows in three formats, closed pipes, and what is left of a run that was killed. Full disks
+/// are in tables/calls.json.
 #include "compare/command_workplace.hpp"
 
 #include <tuple>

@@ -229,30 +229,7 @@ def write_replays(command):
 
 
 HOSTILE = "</script><script>throw 1</script><!-- & \" ' ]]>"
-WHERE_HOSTILE = "scene=" + quote(HOSTILE)
-# For each address: the drawing, words of the page, a height [m] that the view must show, and how high the view may be [m].
-BULLET, DRAWN_AT = "scene=article_bullet", "scene 0 step 0 t "
-REPLAYS = (
-    ("", "summary", ["Held in every scene it ran in: octagon_sweep"]),
-    (BULLET + "&step=0&view=fit", DRAWN_AT + "1", ["tunnel: passes platform"]),
-    (BULLET + "&step=0&t=0.25&view=follow", DRAWN_AT + "0.25", []),
-    ("scene=sensor_gate&step=31&t=0.875&layout=side", "scene 1 step 31 t 0.875",
-     ["sensor: enters gate at 0.875 of the step"]),
-    ("scene=characters_head_on&step=2", "scene 2 step 2 t 1", ["octagon_sweep, character 1", ", character 0"]),
-    ("scene=one_way_drop&step=60", "scene 3 step 60 t 1", ["drops through ledge", "octagon_sweep: first drop"]),
-    ("scene=slow&step=1", "scene 4 step 1 t 1", ["step 1 of 1, t = 1.000: 100.016 s"]),
-    (WHERE_HOSTILE + "&step=22", "scene 5 step 22 t 1", [HOSTILE, "both are right about their own motion"]),
-    ("scene=one_square&step=7&view=fit", "scene 6 step 7 t 1", ["drawn at", "in between two squares"]),
-    ("scene=999", "summary", []),
-    ("scene=0", "summary", []),  # scenes have names
-    # Without a step a replay opens at the event that matters, which fills the view with those beside it. The bullet is
-    # in the platform from 30 to 36 of 50 px.
-    (BULLET, DRAWN_AT + "0.66", [], 0, 1),
-    (BULLET + "&contender=octagon_sweep", DRAWN_AT + "0.6", [], 0, 1),
-    (WHERE_HOSTILE + "&contender=octagon_sweep", "scene 5 step 21 t 1",
-     ["crushed by " + HOSTILE, "octagon_sweep: first crush", "Not run: mask (mask is for scenery that stands still)."],
-     1.2, 3.5),
-)
+TABLE = json.loads(Path(__file__).with_name("tables").joinpath("replays_in_browser.json").read_text(encoding="utf-8"))
 
 
 def check_replays(browser):
@@ -267,8 +244,11 @@ def check_replays(browser):
         for part in words:
             assert part in seen["text"], (address, part)
 
-    for address, *expected in REPLAYS:
-        check(browser.look("replays.html", address=f"#{address}&check=1" if address else ""), address, *expected)
+    for row in TABLE["replays"]:
+        address = row["address"].replace("{hostile_in_address}", quote(HOSTILE))
+        words = [part.replace("{hostile}", HOSTILE) for part in row["words"]]
+        seen = browser.look("replays.html", address=f"#{address}&check=1" if address else "")
+        check(seen, address, row["drawn"], words, row.get("shows"), row.get("high"))
     # After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
     # often a headless browser draws on its own after that is its affair.
     played = browser.look("replays.html", address="#scene=slow&step=0&t=0&play=0.5&check=1")
@@ -276,27 +256,16 @@ def check_replays(browser):
     assert "Pause" in played["labels"], played["labels"]
     # Jumps move the view, too: from all of the ways to what is touched first, by Box2D with its gap of 5 mm.
     act = "[...document.querySelectorAll('button')].find((one) => one.textContent === 'first contact').click();"
-    jumped = browser.look("replays.html", act + "await changed();", address=f"#{BULLET}&step=9&view=fit&check=1")
-    check(jumped, "first contact", DRAWN_AT + r"0\.596[78]\d*", [], 0, 1)
-
-
-# Scene, contender, button, and how many steps its run had.
-SAVED = (
-    ("article_bullet", "octagon_sweep.double", "octagon_sweep", 60),
-    ("article_bullet", "mask.double", "mask", 60),
-    ("article_bullet", "box2d.float", "box2d float", 60),
-    ("characters_head_on", "octagon_sweep.double", "octagon_sweep", 30),
-    ("slow", "octagon_sweep.double", "octagon_sweep", 2),
-    ("lift_up", "octagon_sweep.double", r"octagon_sweep \(its first (\d+) steps\)", 1500),
-    ("turning_arm", "octagon_sweep.double", r"octagon_sweep \(its first (\d+) steps\)", 1500),
-)
+    jumped = browser.look("replays.html", act + "await changed();", address="#scene=article_bullet&step=9&view=fit&check=1")
+    check(jumped, "first contact", r"scene 0 step 0 t 0\.596[78]\d*", [], 0, 1)
 
 
 def check_saved_traces(browser, command):
     """What is saved of a replay is the trace that the command writes, or its beginning, and can be judged."""
     os.makedirs("saved")
     browser.ask("Browser.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath("saved"))
-    for scene, who, button, steps in SAVED:
+    for row in TABLE["saved"]:
+        scene, who, button, steps = (row[key] for key in ("scene", "who", "button", "steps"))
         act = f"""const save = [...document.querySelectorAll('[aria-label="Save the trace of"] button')]
                 .find((one) => /^{button}$/.test(one.textContent));
             seen.saved = save.textContent; save.click();"""

@@ -6,6 +6,9 @@
 #include "scenes/input_error.hpp"
 #include "scenes/write_json.hpp"
 
+#include <cmath>
+#include <utility>
+
 namespace paperproof::compare {
 namespace {
 
