@@ -52,7 +52,10 @@ Stepper controller_of(const SceneryDef& def, const CharacterDef& character, cons
 }
 
 using Kinds = std::span<const char* const>;
-constexpr std::array all_kinds{"static", "any_up", "movers", "stairs"};  // the selections below count on this order
+/// The selections below count on this order.
+constexpr std::array all_kinds{"static", "any_up", "movers", "stairs", "tight/sensors"};
+constexpr Kinds without_sensors{all_kinds.data(), 4};
+constexpr Kinds without_stairs{all_kinds.data(), 3};
 
 struct Equality {
   const char* name;
@@ -67,7 +70,7 @@ struct Equality {
   /// Above zero: the shape is written around another origin. Numbers that are so near count as equal; then each step
   /// begins alike, and only what it reports is compared.
   double near = 0;
-  Kinds kinds = all_kinds;  ///< Of families; the others have no such runs.
+  Kinds kinds = without_sensors;  ///< Of families; the others have no such runs.
 };
 
 bool as_it_is(RandomRun&) { return true; }
@@ -102,15 +105,17 @@ bool put_in_order(RandomRun& run) {
          all.end();
 }
 
-/// In any order, with edits that are undone.
+/// In any order, with edits that are undone: some before the run, and some before each step, after another character
+/// has seen them with the same memory.
 OtherWay edited_level(const RandomRun& run, Random& random, OtherWay other) {
   const auto level = std::make_shared<Level>();
-  std::vector<ColliderIndex> order(run.scene.scenery.colliders.size());
+  const std::vector<ColliderDef> colliders = run.scene.scenery.colliders;
+  std::vector<ColliderIndex> order(colliders.size());
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i)
     std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
   for (const ColliderIndex i : order) {
-    const ColliderDef& def = run.scene.scenery.colliders[i];
+    const ColliderDef& def = colliders[i];
     if (random.chance(0.2)) level->remove(level->add(def));
     const bool is_moved = random.chance(0.2);
     const ColliderIndex id = level->add(is_moved ? compare::box(0, 0, 1, 1, def.mover) : def);
@@ -119,8 +124,19 @@ OtherWay edited_level(const RandomRun& run, Random& random, OtherWay other) {
   }
   const auto controller = std::make_shared<Controller>(*level, other.saying.of(run.scene.character));
   const auto scratch = std::make_shared<Scratch>(controller->make_scratch());
-  other.step = [level, controller, scratch](CharacterState& state, const Input& input, const StepContext& context,
-                                            StepReport& report) {
+  other.step = [=, ids = other.saying.colliders, next = ColliderIndex{0}](
+                   CharacterState& state, const Input& input, const StepContext& context, StepReport& report) mutable {
+    const Vec2d& at = state.position;
+    const ColliderIndex added = level->add(compare::box(at.x(), at.y() - 1, at.x() + 1, at.y()));
+    ColliderDef moved = compare::box(at.x() - 1, at.y(), at.x(), at.y() + 1, colliders[next].mover);
+    moved.sensor = colliders[next].sensor;
+    level->replace(ids[next], moved);
+    CharacterState of_another = state;
+    StepReport report_of_another;
+    controller->step(of_another, input, context, *scratch, report_of_another);
+    level->remove(added);
+    level->replace(ids[next], colliders[next]);
+    next = (next + 1) % static_cast<ColliderIndex>(colliders.size());
     controller->step(state, input, context, *scratch, report);
   };
   return other;
@@ -246,16 +262,14 @@ Saying written_elsewhere(Random& random) {
 
 constexpr double rounding = 1e-9;  ///< Of a place within 1,000 m [m].
 
-constexpr Kinds without_stairs{all_kinds.data(), 3};
-
 constexpr std::array equalities{
     Equality{"turned_by_quarters", as_it_is, turned, false, 1e-3},
     Equality{"mirrored", as_it_is, mirrored, false, 3e-3},
-    Equality{"edited_as_built_at_once", put_in_order, edited_level, true},
+    Equality{"edited_as_built_at_once", put_in_order, edited_level, true, 0, 0, all_kinds},
     Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, without_stairs},
     Equality{"restored_as_gone_on", as_it_is, restored_each_step},
     Equality{"in_two_threads", as_it_is, in_two_threads},
-    Equality{"with_nothing_left_out", as_it_is, with_nothing_left_out},
+    Equality{"with_nothing_left_out", as_it_is, with_nothing_left_out, false, 0, 0, all_kinds},
     Equality{"as_one_of_many", as_it_is, one_of_many},
     Equality{"with_its_shape_elsewhere", as_it_is, said_otherwise, false, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_level", put_in_order, edited_level, true, 3e-4, rounding},
@@ -274,7 +288,7 @@ class Twice {
         other_(equality.make(run, random, {equality.near > 0 ? written_elsewhere(random) : Saying{}, {}})) {}
 
   int steps = 0;
-  int touching = 0;
+  int touching = 0;  ///< Something solid, or a sensor.
   int ties = 0;
 
   /// @return the first difference, or nothing.
@@ -293,7 +307,7 @@ class Twice {
       other_.step(other_state, other_.saying.of(input.players[0]), context_of(input, other_.saying, other_motions_),
                   other_report);
       ++steps;
-      touching += !report.move.contacts.empty();
+      touching += !report.move.contacts.empty() || !report.sensors.empty();
       if (equality_.until_crushed && (state.crushed || !report.move.crushed.empty())) return "";
       std::string what = difference(report, other_report, other_.saying, equality_.near);
       if (what.empty() && equality_.near == 0 && other_.saying.of(state) != other_state) what = "state";
@@ -394,7 +408,9 @@ std::vector<std::tuple<Equality, const char*>> equalities_by_kind() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Equalities, ::testing::ValuesIn(equalities_by_kind()), [](const auto& which) {
-  return std::string(std::get<0>(which.param).name) + "_" + std::get<1>(which.param);
+  std::string name = std::string(std::get<0>(which.param).name) + "_" + std::get<1>(which.param);
+  std::ranges::replace(name, '/', '_');
+  return name;
 });
 
 }  // namespace

@@ -1,15 +1,11 @@
-/// A level that changes between steps, against scenery that is built at once.
+/// A level that changes between steps. That it gives the bits of scenery that is built at once is in
+/// tests/agreement/equalities_test.cpp.
 #include "controller/played.hpp"
 #include "support/allocations.hpp"
-#include "support/random_runs.hpp"
-#include "support/same_bits.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace paperproof::test {
@@ -75,100 +71,6 @@ TEST(LevelSteps, allocate_nothing_while_what_is_near_stays) {
   for (int i = 0; i < 60; ++i) played.step_by({0, 0.01});
   ASSERT_EQ(played.state.ride.ground, 1U);
   EXPECT_EQ(tests::allocations(), before);
-}
-
-/// Of every kind that a step looks at in its own way.
-ColliderDef random_tile(Random& random, int x, int y) {
-  ColliderDef tile = box(x, y, x + 1, y + 1);
-  switch (random.integer(0, 7)) {
-    case 0:
-      tile.points = {{x + 0.0, y + 0.0}, {x + 1.0, y + 0.0}, {x + 1.0, y + 1.0}};
-      break;
-    case 1:
-      tile = compare::circle({x + 0.5, y + 0.5}, 0.5);
-      break;
-    case 2:
-      tile = {.shape = ColliderDef::Shape::chain, .points = {{x + 0.0, y + 0.5}, {x + 1.0, y + 0.5}}};
-      tile.one_way = Vec2d{0, 1};
-      break;
-    case 3:
-      tile.sensor = true;
-      break;
-    case 4:
-      tile.mover = static_cast<MoverIndex>(random.integer(0, 1));
-      break;
-    case 5:
-      tile.surface_speed = 1;
-      break;
-    default:
-      break;
-  }
-  return tile;
-}
-
-TEST(LevelEdits, a_controller_with_one_scratch_steps_as_through_a_level_that_was_built_at_once) {
-  const int steps = steps_wanted("PAPERPROOF_LEVEL_EDITS", 20'000) / 5;
-  int met = 0;
-  int sensed = 0;
-  int ridden = 0;
-  for (std::uint64_t seed = 1; static_cast<int>(seed) * 100 <= steps; ++seed) {
-    Random random(seed);
-    Level level({{box(-1, -1, 13, 0), box(-1, 0, 0, 30), box(12, 0, 13, 30)}});
-    const Controller controller(level, CharacterDef{});
-    Scratch scratch = controller.make_scratch();
-    StepReport report;
-    CharacterState state;
-    state.position = {6.5, 12};
-    std::map<std::pair<int, int>, ColliderIndex> tiles;
-    Input input;
-    for (int step = 0; step < 100; ++step) {
-      if (step % 10 == 0) input = random_input(random);
-      for (int edits = random.integer(0, 3); edits > 0; --edits) {
-        const int x = random.integer(0, 11);
-        const int y = random.integer(0, 5);
-        const auto known = tiles.find({x, y});
-        if (known == tiles.end()) {
-          tiles[{x, y}] = level.add(random_tile(random, x, y));
-        } else if (random.chance(0.5)) {
-          ASSERT_TRUE(level.replace(known->second, random_tile(random, x, y)));
-        } else {
-          ASSERT_TRUE(level.remove(known->second));
-          tiles.erase(known);
-        }
-      }
-      std::vector<MoverMotion> movers;
-      for (int mover = 0; mover < 2; ++mover) movers.push_back({random.point(0.02), random.point(0.02)});
-      SceneryDef built = level.as_run();
-      std::reverse(built.colliders.begin(), built.colliders.end());
-      const Level fresh(built);
-      const Controller other(fresh, CharacterDef{});
-      Scratch of_other = other.make_scratch();
-      StepReport from_other;
-      CharacterState expected = state;
-      expected.crushers.clear();  // ids differ
-      expected.ride = {};
-      state.crushers.clear();
-      state.ride = {};
-      state.crushed = expected.crushed = false;
-      const auto context = [&](const Level& where) -> StepContext {
-        return {{0, -30}, frame, std::span(movers).first(where.mover_count())};
-      };
-      if (random.chance(0.5)) (void)controller.overlaps(state.position, context(level), scratch);
-      other.step(expected, input, context(fresh), of_other, from_other);
-      controller.step(state, input, context(level), scratch, report);
-      ASSERT_TRUE(same_bits(state.position, expected.position)) << "seed " << seed << ", step " << step;
-      ASSERT_TRUE(same_bits(state.velocity, expected.velocity)) << "seed " << seed << ", step " << step;
-      ASSERT_EQ(report.status, from_other.status) << "seed " << seed << ", step " << step;
-      ASSERT_EQ(report.move.contacts.size(), from_other.move.contacts.size()) << "seed " << seed << ", step " << step;
-      ASSERT_EQ(report.sensors.size(), from_other.sensors.size()) << "seed " << seed << ", step " << step;
-      met += !report.move.contacts.empty();
-      sensed += !report.sensors.empty();
-      ridden += state.ride.ground != Ride::none;
-    }
-  }
-  EXPECT_GE(met, steps / 8);
-  EXPECT_GE(sensed, steps / 200);
-  EXPECT_GE(ridden, steps / 100);
 }
 
 TEST(LevelEdits, a_level_that_is_assigned_or_moved_from_is_read_anew) {
