@@ -159,10 +159,12 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& text = situation.text;
   const ordered_json& file = situation.shared;
   const bool is_story = text.contains("story");
-  const std::string keys = is_story ? "story " : "expect contender in_float knobs breaks ";
+  const std::string keys = is_story ? "story " : "expect contender in_float knobs rules breaks ";
   refuse_other_keys(text, " name for let scene because " + keys, "a situation");
   for (const std::string clause : text.value("breaks", ordered_json::array()))
     if (!compare::clause_named(clause)) throw std::invalid_argument(situation.name + ": no such clause: " + clause);
+  const json rules = json(text.value("rules", ordered_json::object()));
+  refuse_other_keys(rules, " coyote_time jump_buffer jump_cut ", "rules");
   std::vector<SituationCase> cases;
   const ordered_json given = text.value("for", ordered_json::object());
   const json named = text.value("contender", ordered_json("octagon_sweep"));
@@ -186,6 +188,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
                        .scene = compare::computed(scene, values),
                        .contender = contender,
                        .in_float = text.value("in_float", false),
+                       .rules = compare::computed(rules, values),
                        .knobs = text.value("knobs", std::vector<std::string>{}),
                        .expected = json(text.at(is_story ? "story" : "expect")),
                        .is_story = is_story,

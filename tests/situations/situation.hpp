@@ -20,6 +20,7 @@ struct SituationCase {
   nlohmann::json scene;  ///< As a scene file.
   std::string contender;
   bool in_float = false;           ///< It computes in `float`.
+  nlohmann::json rules;            ///< Numbers of its character that no scene file has, by name.
   std::vector<std::string> knobs;  ///< Those that are turned: `name=value`.
   nlohmann::json expected;         ///< A list, formulas not computed; of a hero its story, with expectations in it.
   bool is_story = false;

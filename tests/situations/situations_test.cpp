@@ -36,6 +36,13 @@ std::vector<json> records_of(const std::string& path) {
   return records;
 }
 
+/// What a game may say of its character, and no scene file.
+void set_rules(const json& rules, CharacterDef& character) {
+  character.coyote_time = rules.value("coyote_time", character.coyote_time);
+  character.jump_cut = rules.value("jump_cut", character.jump_cut);
+  if (rules.contains("jump_buffer")) character.jump_buffer = rules["jump_buffer"].get<double>();
+}
+
 /// How the command is told of them.
 std::string options_of(const SituationCase& situation) {
   std::string options = " --contender " + situation.contender + (situation.in_float ? " --scalar float" : "");
@@ -53,7 +60,8 @@ class Situations : public ::testing::TestWithParam<Situation> {
 
   void run(const SituationCase& situation) {
     std::ofstream(stem() + ".json") << situation.scene.dump(1);
-    const compare::Scene scene = compare::load_scenes(stem() + ".json").front();
+    compare::Scene scene = compare::load_scenes(stem() + ".json").front();
+    set_rules(situation.rules, scene.character);
     const Scenery scenery(scene.scenery);
     std::vector<compare::KnobSetting> knobs;
     for (const std::string& knob : situation.knobs) {
@@ -72,7 +80,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
     const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, name_of(scalar));
     for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
     std::filesystem::remove(trace);
-    if (situation.contender != "octagon_sweep" || situation.in_float) return;
+    if (situation.contender != "octagon_sweep" || situation.in_float || !situation.rules.empty()) return;
     for (const auto& [clause, breach] : lane.breaches()) {
       broken_.emplace(name_of(clause));
       EXPECT_EQ(std::count(situation.breaks.begin(), situation.breaks.end(), name_of(clause)), 1)
@@ -154,7 +162,8 @@ TEST(Situation, that_no_run_could_miss_is_refused) {
     EXPECT_THROW((void)missed(situation, records), std::invalid_argument) << expected;
   }
   for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})",
-                           R"({"for": {"y": [7]}, "expect": []})", R"({"let": {"dt": 1}, "expect": []})"}) {
+                           R"({"for": {"y": [7]}, "expect": []})", R"({"rules": {"snap": 1}, "expect": []})",
+                           R"({"let": {"dt": 1}, "expect": []})"}) {
     const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text)};
     EXPECT_THROW((void)cases_of(situation), std::invalid_argument) << text;
   }
