@@ -1,4 +1,4 @@
-/// octagon_sweep among movers: two at once, what a crusher covers, and going corners like standing ones.
+/// octagon_sweep among movers: what a crusher covers, and going corners like standing ones.
 #include "controller/stepping.hpp"
 
 #include <gtest/gtest.h>
@@ -11,21 +11,6 @@ namespace paperproof::stepping {
 namespace {
 
 constexpr Tolerances tolerances{};
-
-TEST(Wedge, of_two_movers_ends_a_fall_and_is_not_climbed) {
-  for (const double side : {1.0, -1.0}) {
-    // It falls onto the steeper one, and what it slides with points up the other.
-    const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}}, 0);
-    const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}}, 1);
-    Stepper fallen({flatter, steeper}, {.max_climb_degrees = 20});  // both are steep
-    fallen.movers = {{{0, 0}, {-8e-4 * side, 0}}, {{0, 0}, {0, -9e-4}}};
-    fallen.at(0.3 * side, 2).with_velocity(0, -300);
-    fallen.step();
-    EXPECT_LE(fallen.report.move.contacts.size(), 6U);
-    for (std::size_t k = 1; k < fallen.report.move.path.size(); ++k)
-      EXPECT_LE(fallen.report.move.path[k].position.y(), fallen.report.move.path[k - 1].position.y() + 1e-6) << side;
-  }
-}
 
 TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the_normal) {
   // Two tiles that touch in a corner. The character is inside the upper one since a crush, from which side it does not

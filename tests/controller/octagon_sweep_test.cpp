@@ -1,12 +1,15 @@
-/// octagon_sweep: what no situation of tests/situations can say. What its report calls the ground, and starts inside a
-/// solid.
+/// octagon_sweep: what no situation of tests/situations can say. What its report calls the ground, the climb limit on
+/// exact slopes, and starts inside a solid.
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
+#include "support/random_runs.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace paperproof::stepping {
 namespace {
@@ -54,6 +57,41 @@ TEST(Ground, is_a_wedge_between_two_steep_faces) {
   EXPECT_TRUE(faller.state.grounded);
   EXPECT_EQ(faller.report.move.ground.state, GroundState::wedge);
   EXPECT_EQ(faller.report.move.ground.collider, ColliderIndex{0});
+}
+
+/// On a slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
+/// @param less of the limit than what it is exactly [radians].
+bool is_climbed(std::uint64_t seed, double less) {
+  test::Random random(seed);
+  Vec2d along;
+  do {
+    along = {static_cast<double>(random.integer(1, 64)), static_cast<double>(random.integer(1, 64))};
+    if (random.chance(0.2)) along.y() = along.x();
+  } while (along.y() < 0.1 * along.x() || along.y() > 4 * along.x());
+  const double sign = random.chance(0.5) ? 1 : -1;
+  const double sixteenths = random.integer(1, 400) / 16.0;
+  const Vec2d far{random.integer(-16000, 16000) / 16.0, random.integer(-16000, 16000) / 16.0};
+  const Vec2d foot = random.chance(0.3) ? Vec2d(0, 0) : far;
+  // At least 6 m wide, and exact.
+  const Vec2d top = foot + (sixteenths + std::ceil(6 / along.x())) * Vec2d(sign * along.x(), along.y());
+  CharacterDef character;
+  character.max_climb_degrees =
+      along.x() == along.y() && less == 0 ? 45 : (std::atan2(along.y(), along.x()) - less) * 180 / std::numbers::pi;
+  const double behind = foot.x() - sign * 20;
+  Stepper player({polygon({foot, top, {top.x(), foot.y() - 1}, {behind, foot.y() - 1}, {behind, foot.y()}})},
+                 character);
+  player.gravity = {0, -30};
+  player.at(foot.x() - sign, foot.y() + 0.7).steps(60, {.move = sign});
+  return player.state.position.y() > foot.y() + half_height + 0.1;
+}
+
+TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
+  constexpr double microradian = 1e-6;
+  const std::uint64_t cases = test::sampled(10000U);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    ASSERT_TRUE(is_climbed(seed, 0)) << "seed " << seed;
+    ASSERT_FALSE(is_climbed(seed, microradian)) << "seed " << seed;
+  }
 }
 
 TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {

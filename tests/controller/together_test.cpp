@@ -48,26 +48,6 @@ bool all_stand(const Together& all) {
   return std::all_of(all.states.begin(), all.states.end(), [](const CharacterState& state) { return state.grounded; });
 }
 
-/// Both walk; after some steps the faster one is at the back of the slower one.
-TEST(Together, who_walks_behind_a_slower_one_goes_as_fast_and_never_stutters) {
-  for (const Order& order : orders) {
-    SCOPED_TRACE(order);
-    Together three = standing({0, 1, 2});
-    order.put(three);
-    three.inputs = {{.move = 1}, {.move = 0.75}, {.move = 0.5}};
-    three.steps(60);
-    for (int step = 0; step < 120; ++step) {
-      const std::vector<CharacterState> before = three.states;
-      three.step();
-      for (std::size_t i = 0; i < 3; ++i) {
-        ASSERT_NEAR(three.states[i].position.x() - before[i].position.x(), 0.5 * 6 * frame, 1e-12) << i;
-        ASSERT_TRUE(three.states[i].grounded);
-        ASSERT_TRUE(i == 0 || gap_of_a_contact(three.gap(i - 1, i))) << i;
-      }
-    }
-  }
-}
-
 /// How lifts carry that do not turn is in tests/situations/together.json.
 TEST(Together, a_tower_on_a_lift_that_tilts_is_carried_without_a_crush_and_never_in_the_air) {
   for (const Order& order : orders) {
@@ -146,31 +126,6 @@ TEST(Together, a_context_that_is_refused_changes_nothing_for_anybody) {
     }
   }
   Together({}).step();  // nobody is several, too
-}
-
-TEST(Together, those_that_press_each_other_or_a_wall_or_stand_on_a_head_keep_their_bits) {
-  Together two = standing({0, 1});
-  two.inputs = {{.move = 1}, {.move = -1}};
-  Together queue = standing({0, 1, 2, 3}, {floor_at_zero(), box(5, 0, 6, 5)});
-  for (Input& input : queue.inputs) input.move = 1;
-  Together tower = under_gravity({{0.1, 3 * half_height + 0.05}, {0, half_height + rest_gap}}, {floor_at_zero()});
-  for (Together* all : {&two, &queue, &tower}) {
-    all->steps(180);
-    const std::vector<CharacterState> rest = all->states;
-    for (int step = 0; step < 3000; ++step) {
-      all->step();
-      ASSERT_TRUE(all_stand(*all)) << step;
-      for (std::size_t i = 0; i < rest.size(); ++i)
-        ASSERT_TRUE(same_bits(all->states[i], rest[i])) << i << " in step " << step;
-    }
-    for (std::size_t i = 1; i < rest.size() && all != &tower; ++i)
-      EXPECT_TRUE(gap_of_a_contact(all->gap(i - 1, i))) << i;
-    EXPECT_EQ(all->states[0].ground.collider, all == &tower ? all->bodies[1] : 0);
-    all->inputs[0].jump = true;
-    all->step();
-    EXPECT_GT(all->states[0].velocity.y(), 11) << "may jump";
-  }
-  EXPECT_NEAR(tower.states[1].position.y(), half_height, 1e-6);
 }
 
 TEST(Together, who_goes_along_another_is_not_halted_by_rounding) {
