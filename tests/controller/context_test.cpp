@@ -1,9 +1,11 @@
-/// What a step is given beside state and input: filters; and a step of a game that owns its velocities.
+/// What a step is given beside state and input: filters; a step of a game that owns its velocities; and questions.
 #include "campaign/shapes.hpp"
 #include "controller/stepping.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace paperproof::stepping {
@@ -162,6 +164,17 @@ TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   EXPECT_FALSE(controller.overlaps({0, nan}, {}, own));
   EXPECT_FALSE(controller.nearest({0, 2}, 1, {}, own)) << "nothing is that near";
   EXPECT_NEAR(controller.nearest({0, 2}, 2, {}, own)->separation, 2 - half_height, 1e-12);
+}
+
+TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
+  Stepper idle({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 4)});
+  idle.at(0, half_height + 5e-7).steps(60, {.move = 1});
+  ASSERT_TRUE(idle.state.wall_right);
+  idle.steps(60, {.move = 0});
+  EXPECT_FALSE(idle.state.wall_right) << "nothing was wanted to the right";
+  std::array<Contact, 4> found;
+  const std::size_t count = idle.sweep().contacts_at(idle.state.position, 1e-6, {.dt = idle.dt}, idle.scratch, found);
+  EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact::side), 0);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+#include <vector>
+
 namespace paperproof {
 namespace {
 
@@ -28,6 +31,20 @@ TEST(FixedVector, refuses_what_does_not_fit_remembers_it_and_is_copied_with_that
     EXPECT_EQ(each[0].position, Vec2d(1, -1));
     EXPECT_EQ(each.back().fraction, 2);
   }
+}
+
+TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {
+  const auto with = [](ColliderIndex collider, double fraction) {
+    return Contact{.collider = collider, .fraction = fraction};
+  };
+  const std::vector<Contact> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
+  const std::vector<Contact> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
+  std::vector<std::tuple<ContactChange, ColliderIndex, double>> changes;
+  for_each_change(before, now, [&](ContactChange change, const Contact& contact) {
+    changes.emplace_back(change, contact.collider, contact.fraction);
+  });
+  using enum ContactChange;
+  EXPECT_EQ(changes, (decltype(changes){{added, 5, 0.4}, {persisted, 3, 0.5}, {removed, 7, 0.1}}));
 }
 
 }  // namespace

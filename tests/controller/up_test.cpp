@@ -1,5 +1,6 @@
 /// Up of a character: any unit vector. And the calls that put a character elsewhere, or knock it back. That a run which
 /// is turned by quarters has the same bits is in tests/agreement/equalities_test.cpp, and any up in its campaign.
+#include "agreement/saying.hpp"
 #include "controller/stepping.hpp"
 #include "controller/together.hpp"
 
@@ -62,20 +63,16 @@ TEST(Up, decides_the_sides_of_questions) {
 
 /// Nobody comes to stand on two heads: the order in which they are found decides which of the two carries.
 TEST(Up, of_several_turns_with_the_scene) {
-  const auto turn = [](Vec2d v, int quarters) -> Vec2d {
-    for (; quarters > 0; --quarters) v = Vec2d{-v.y(), v.x()};
-    return v;
-  };
+  const SceneryDef walls{{rectangle(-6, -6, 6, -5), rectangle(5, -6, 6, 6), rectangle(-6, 5, 6, 6),
+                          rectangle(-6, -6, -5, 6), rectangle(-2, -5, 0, -3)}};
+  std::array<test::Saying, 4> turned;
   std::vector<Together> scenes;
-  for (int quarters = 0; quarters < 4; ++quarters) {
-    std::vector<ColliderDef> walls{rectangle(-6, -6, 6, -5), rectangle(5, -6, 6, 6), rectangle(-6, 5, 6, 6),
-                                   rectangle(-6, -6, -5, 6), rectangle(-2, -5, 0, -3)};
-    for (ColliderDef& wall : walls)
-      for (Vec2d& p : wall.points) p = turn(p, quarters);
+  for (test::Saying& saying : turned) {
+    if (&saying != &turned[0]) saying.vector << -(&saying - 1)->vector.row(1), (&saying - 1)->vector.row(0);
     std::vector<Vec2d> starts{{-4, 3.75}, {-2.5, -0.75}, {-1, 2.5}, {0.5, 2.25}, {2, 1}, {3.5, -0.25}};
-    for (Vec2d& start : starts) start = turn(start, quarters);
-    Together& scene = scenes.emplace_back(starts, walls, box_shaped(0.5, -0.5, 0.5));
-    scene.up = turn({0, 1}, quarters);
+    for (Vec2d& start : starts) start = saying.of(start);
+    Together& scene = scenes.emplace_back(starts, saying.of(walls).colliders, box_shaped(0.5, -0.5, 0.5));
+    scene.up = saying.of(Vec2d(0, 1));
     scene.gravity = -30 * scene.up;
     scene.dt = frame;
   }
@@ -83,16 +80,14 @@ TEST(Up, of_several_turns_with_the_scene) {
   for (int step = 0; step < 240; ++step) {
     std::vector<Input> inputs;
     for (int i = 0; i < 6; ++i) inputs.push_back({.move = (step / 40 + i) % 3 - 1, .jump = (step + 9 * i) % 50 < 4});
-    for (int quarters = 0; quarters < 4; ++quarters) {
-      Together& scene = scenes[static_cast<std::size_t>(quarters)];
+    for (std::size_t quarters = 0; quarters < 4; ++quarters) {
+      Together& scene = scenes[quarters];
       scene.inputs = inputs;
       scene.step();
       for (std::size_t i = 0; i < inputs.size(); ++i) {
-        ASSERT_EQ(scene.states[i].position, turn(scenes[0].states[i].position, quarters)) << step << ", " << i;
-        const std::vector<Contact> contacts = scene.met(i);
-        constexpr auto side = &Contact::side;
-        ASSERT_TRUE(std::ranges::equal(contacts, scenes[0].met(i), {}, side, side)) << step;
-        met += contacts.size();
+        ASSERT_EQ(difference(scenes[0].reports[i], scene.reports[i], turned[quarters], 0), "") << step << ", " << i;
+        ASSERT_EQ(turned[quarters].of(scenes[0].states[i]), scene.states[i]) << step << ", " << i;
+        met += scene.met(i).size();
       }
     }
   }
