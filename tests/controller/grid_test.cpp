@@ -1,6 +1,6 @@
 /// The grid: squares out of scenery, and a character that is always in exactly one of them. How it begins and ends a
-/// move is in tests/situations/techniques.json.
-#include "controller/stepping.hpp"
+/// move is in tests/situations/techniques.json, and that a copy of its state goes on alike in replay_test.
+#include "controller/article_support.hpp"
 #include "support/allocations.hpp"
 #include "techniques/grid/squares.hpp"
 
@@ -33,7 +33,6 @@ struct GridWalk : Rig {
     this->request.technique_memory = this->result.technique_memory;
     return Rig::move(this->result.position, displacement);
   }
-  [[nodiscard]] bool is_in(double column, double row) const { return this->result.position == centre_of(column, row); }
 };
 
 TEST(Squares, are_solid_where_a_polygon_with_bays_and_holes_is_and_name_the_first_collider) {
@@ -75,22 +74,6 @@ TEST(Squares, are_refused_with_the_reason_where_scenery_is_not_made_of_them) {
   EXPECT_NE(refusal(rectangle(1e6, 1e6, 1e6 + 1, 1e6 + 1)), "") << "a million squares each way";
 }
 
-TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
-  GridWalk walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
-  for (int step = 0; step < 11; ++step) walk.move({0.125, 0});
-  ASSERT_TRUE(walk.is_in(1, 0));
-  ASSERT_EQ(walk.result.technique_memory.x(), 0.375);
-  // 6 m/s, 64 steps per second: 3/32 m per step, 4 steps.
-  for (int step = 1; step <= 6; ++step) {
-    walk.move({0, 0});
-    EXPECT_EQ(walk.result.technique_memory.x(), std::max(0.0, 0.375 - static_cast<double>(step) * 3 / 32));
-    EXPECT_TRUE(walk.is_in(1, 0)) << "step " << step;
-  }
-  for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
-  for (int step = 0; step < 2; ++step) walk.move({0, 0});
-  EXPECT_EQ(walk.result.technique_memory.x(), -0.3125 + 0.1875) << "from the other side, too";
-}
-
 TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
   Random random(31);
   std::vector<ColliderDef> tiles;
@@ -128,25 +111,6 @@ TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
   EXPECT_LT(contacts, 98'000);
   EXPECT_EQ(tests::allocations(), before_all);
   EXPECT_GT(std::ranges::count(visited, true), 100);
-}
-
-TEST(Grid, puts_the_feet_on_the_edge_of_the_square_and_replays_from_a_copy_of_the_state) {
-  // 20 by 40 px in squares of a metre: the head is in the square above, which is not looked at.
-  const std::vector<ColliderDef> level{rectangle(-20, -1, 20, 0), rectangle(3, 1, 4, 2)};
-  stepping::Stepper walker(level, {}, "grid");
-  walker.at(0.3, 0.7).steps(1);
-  EXPECT_EQ(walker.state.position, Vec2d(0.5, half_height));
-  EXPECT_TRUE(walker.state.grounded);
-  walker.steps(60, {.move = 1});
-  ASSERT_GT(walker.state.position.x(), 3) << "under the block, with the head in it, and beyond its left side";
-  ASSERT_GT(std::abs(walker.state.technique_memory.x()), 0.01) << "else there is nothing to carry";
-  stepping::Stepper copy(level, {}, "grid");
-  copy.state = walker.state;
-  for (int step = 0; step < 100; ++step) {
-    walker.step({.move = 1});
-    copy.step({.move = 1});
-    ASSERT_TRUE(stepping::same_bits(walker.state, copy.state)) << "step " << step;
-  }
 }
 
 }  // namespace
