@@ -3,8 +3,10 @@
 #include "geometry/circle.hpp"
 
 #include "campaign/shapes.hpp"
-#include "controller/stepping_in_float.hpp"
+#include "controller/stepping.hpp"
 #include "support/random_runs.hpp"
+
+#include <paperproof/in_float.hpp>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,16 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
   }
   EXPECT_GT(hits, cases * 3 / 10);
   EXPECT_LT(hits, cases * 7 / 10);
+}
+
+/// Its steps compute in `float`. @param colliders are rounded to `float`.
+Stepper in_float(std::vector<ColliderDef> colliders) {
+  for (ColliderDef& collider : colliders) {
+    for (Vec2d& point : collider.points) point = point.cast<float>().cast<double>();
+    collider.radius = static_cast<double>(static_cast<float>(collider.radius));
+  }
+  return Stepper(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)}),
+                 [&](const Scenery& level) { return TechniqueController(make_controller_in_float(level, {})); });
 }
 
 TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {

@@ -1,14 +1,25 @@
-/// What is common to every technique: what is refused, and what no situation can say of a walk. How a character falls,
-/// walks and jumps is in tests/situations/motion.json and jumps.json.
+/// What is common to every technique: what is refused (input, movers that no step can begin with, scratch memory of
+/// another), and what no situation can say of a walk. How a character falls, walks and jumps is in
+/// tests/situations/motion.json and jumps.json.
 #include "campaign/shapes.hpp"
 #include "controller/states.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
 
 namespace paperproof::stepping {
 namespace {
 
 using compare::box;
+
+/// Some techniques are for scenery that stands still.
+bool knows_movers(std::string_view kind) {
+  const auto make = [kind] { (void)Stepper({box(0, 0, 1, 1, 0)}, {}, kind); };
+  return test::refusal_by<NotExpressible>(make).empty();
+}
 
 /// Stands on a floor. Gravity is half a metre per second in each step: nothing is rounded.
 Stepper standing() {
@@ -39,7 +50,8 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   struct Case {
     CharacterState state = busy();
     Input input{.move = 0.5};
-    StepContext context{{0, -10}, 1.0 / 60};
+    StepContext context{{0, -10}, frame};
+    std::optional<MoverMotion> motion{};  ///< Of a block beside it.
   };
   std::vector<Case> cases;
   const auto add = [&cases]() -> Case& { return cases.emplace_back(); };
@@ -55,11 +67,33 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
     add().context.dt = bad;
   }
   for (const double bad : {0.0, -0.0, -1e-9, -1.0}) add().context.dt = bad;
+  const double range = Tolerances{}.range;
+  const double beyond = std::nextafter(range, infinity);
+  for (const auto& [from, to] : std::initializer_list<std::pair<Vec2d, Vec2d>>{{{nan, 0}, {0, 0}},
+                                                                               {{0, 0}, {0, nan}},
+                                                                               {{infinity, 0}, {infinity, 0}},
+                                                                               {{-1.5e308, 0}, {1.5e308, 0}},
+                                                                               {{0, beyond}, {0, 0}},
+                                                                               {{0, 0}, {-beyond, 0}}})
+    add().motion = {from, to};
+  Case& no_speed = add();
+  no_speed.motion = {{0, 0}, {1e6, 0}};
+  no_speed.context.dt = 1e-303;
   for (const std::string_view kind : technique_names()) {
-    Stepper stepper({box(-9, -9, 9, 0)}, {}, kind);
+    const bool moves = knows_movers(kind);
+    Stepper stepper({box(-9, -9, 9, 0), box(-1, 3, 1, 4, moves ? 0 : no_mover)}, {}, kind);
+    CharacterState as_given = Case{}.state;
+    StepContext as_given_context = Case{}.context;
+    as_given_context.movers = stepper.movers;
+    EXPECT_NE(stepper.controller.step(as_given, {.move = 0.5}, as_given_context, stepper.scratch, stepper.report),
+              StepStatus::invalid_input);
     for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].motion && !moves) continue;
       CharacterState state = cases[i].state;
-      EXPECT_EQ(stepper.controller.step(state, cases[i].input, cases[i].context, stepper.scratch, stepper.report),
+      StepContext context = cases[i].context;
+      if (moves) stepper.movers = {cases[i].motion.value_or(MoverMotion{})};
+      context.movers = stepper.movers;
+      EXPECT_EQ(stepper.controller.step(state, cases[i].input, context, stepper.scratch, stepper.report),
                 StepStatus::invalid_input)
           << kind << ", case " << i;
       EXPECT_EQ(stepper.report.status, StepStatus::invalid_input);
@@ -70,6 +104,9 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   anywhere.state.last_free.x() = infinity;
   EXPECT_EQ(anywhere.at(0, 3).step(), StepStatus::moved) << "a last free position that is not valid";
   EXPECT_THROW(Stepper({}, {.walk_speed = -1}), InvalidCharacter);
+  Stepper far({box(-9, -9, 9, 0), box(-1, 3, 1, 4, 0)});
+  far.movers = {{{-range, range}, {range, range}}};
+  EXPECT_EQ(far.at(0, 1).step(), StepStatus::moved) << "as far away as a character may be";
 }
 
 /// The wall is 0.3 m away. A press stays pending, so each reach begins anew.
@@ -120,6 +157,67 @@ TEST(Refusals, change_nothing_for_a_step_that_takes_too_long_to_search) {
       EXPECT_EQ(stepper.report.status, metres < 31'250 ? StepStatus::moved : StepStatus::refused) << kind;
       EXPECT_EQ(same_bits(stepper.state, before), metres > 31'250) << kind;
     }
+  }
+}
+
+/// A level of so many tiles with everything that takes scratch memory.
+std::vector<ColliderDef> level(int tiles, std::string_view kind = "octagon_sweep") {
+  std::vector<ColliderDef> colliders;
+  if (knows_movers(kind)) colliders = {chain({{-2, 2}, {2, 2}}, Vec2d{0, 1}), box(-2, 4, 2, 5, 0)};
+  for (int i = 0; i < tiles; ++i) {
+    colliders.push_back(box(i - 2, -1, i - 1, 0));
+    colliders.push_back(box(i - 2, 0, i - 1, 1));
+    colliders.back().sensor = true;
+  }
+  return colliders;
+}
+
+/// A step through the whole level, with what would be asked for in it.
+void expect_refused(Stepper& stepper, Scratch& scratch, const char* what) {
+  stepper.with_velocity(300, -20);
+  const CharacterState before = stepper.state;
+  const Input input{.move = 1.0, .jump = true, .drop = true};
+  EXPECT_EQ(stepper.controller.step(stepper.state, input, {stepper.gravity, stepper.dt, stepper.movers}, scratch,
+                                    stepper.report),
+            StepStatus::invalid_input)
+      << what;
+  EXPECT_EQ(stepper.report.status, StepStatus::invalid_input) << what;
+  EXPECT_TRUE(same_bits(stepper.state, before)) << what;
+}
+
+TEST(ScratchMemory, of_anybody_else_is_refused_by_every_technique) {
+  for (const std::string_view kind : technique_names()) {
+    SCOPED_TRACE(kind);
+    Stepper small(level(3, kind), {}, kind);
+    Stepper large(level(300, kind), {}, kind);
+    large.at(250, 0.7).step();  // remembers candidates that the small level does not have
+    Scratch none;
+    small.at(-1, 1.5);
+    expect_refused(small, none, "nobody's");
+    expect_refused(small, large.scratch, "a larger level's");
+    expect_refused(large, small.scratch, "a smaller level's");
+    Scratch taken = std::move(small.scratch);
+    expect_refused(small, small.scratch, "moved from");
+    small.scratch = std::move(taken);
+    EXPECT_NE(small.step(), StepStatus::invalid_input) << "its own, moved";
+  }
+}
+
+TEST(ScratchMemory, goes_along_with_its_controller_and_is_not_the_next_ones_in_the_same_place) {
+  const Scenery large(SceneryDef{level(300)});
+  const Scenery small(SceneryDef{level(3)});
+  const std::vector<MoverMotion> movers(1);
+  std::optional<Controller> controller;
+  StepReport report;
+  for (int i = 0; i < 100; ++i) {
+    controller.emplace(large, CharacterDef{});
+    Scratch scratch = controller->make_scratch();
+    const Controller moved = std::move(*controller);
+    CharacterState state;
+    state.position = {250, 0.7};
+    ASSERT_EQ(moved.step(state, {}, {{0, -10}, frame, movers}, scratch, report), StepStatus::moved);
+    controller.emplace(small, CharacterDef{});
+    ASSERT_EQ(controller->step(state, {}, {{0, -10}, frame, movers}, scratch, report), StepStatus::invalid_input);
   }
 }
 

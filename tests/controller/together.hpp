@@ -19,8 +19,6 @@ inline constexpr double most_gap = 1e-6;
 /// Where a character that stands stays [m].
 inline constexpr double rest_gap = 5e-7;
 
-[[nodiscard]] inline bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
-
 struct Together {
   std::unique_ptr<Level> level;
   std::vector<ColliderIndex> bodies;
