@@ -4,7 +4,7 @@ spoilt in one thing each.
 
     check_trace_test.py PAPERPROOF
 
-PAPERPROOF is the command that writes the good ones. README.md says how the rows of spoilt.json are written. Its scenes: in
+PAPERPROOF is the command that writes the good ones. tables/README.md says how the rows of spoilt.json are written. Its scenes: in
 `yard` a character falls onto a floor, walks through a gate to a wall, comes back, jumps and rests, and a lift goes up far
 away. In `see_saw` it falls onto a plank that turns slowly under it, walks down it and stays. In `turns` a lift takes up a
 character, another one on its head, and a third that walks against it.
@@ -19,7 +19,7 @@ from pathlib import Path
 
 from judging import CHECKER, call, read, traces_of, write
 
-SPOILT = json.loads(Path(__file__).with_name("spoilt.json").read_text(encoding="utf-8"))
+SPOILT = json.loads((Path(__file__).parent / "tables/spoilt.json").read_text(encoding="utf-8"))
 SCHEMA = Path(__file__).parents[2] / "compare/records/paperproof_trace.schema.json"
 
 # Steps that are spoilt: the first one, after the third, of which this is so. Each gets the step and the one before.

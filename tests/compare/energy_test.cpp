@@ -26,7 +26,7 @@ TraceHeader header() {
 
 Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
 
-/// What energy.json has happen to one character: README.md says how. @return what it gains [J/kg].
+/// What energy.json has happen to one character: tables/README.md says how. @return what it gains [J/kg].
 double gained(const Json& moves) {
   Energy energy(header(), gravity);
   Vec2d position(0, 0);
@@ -54,7 +54,7 @@ double gained(const Json& moves) {
 TEST(EnergyGained, is_what_no_jump_no_steering_and_no_walk_put_in) {
   Values values = constants();
   values["dt"] = dt;
-  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/energy.json"));
+  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/energy.json"));
   for (const Json& row : computed(file, values)) {
     const double expected = row.at("gained");
     if (row.contains("within"))

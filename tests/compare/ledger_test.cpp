@@ -84,7 +84,7 @@ const Vec2d over_seam(-0.15625, half_height + 0.015);
 
 Vec2d point_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
 
-/// A step as disagreements.json tells it: see README.md.
+/// A step as disagreements.json tells it: see tables/README.md.
 TraceStep step_of(const Json& told) {
   const Vec2d way = point_of(told.at("way"));
   const Vec2d made = told.contains("made") ? point_of(told["made"]) : way;
@@ -106,7 +106,7 @@ TraceStep step_of(const Json& told) {
 }
 
 TEST(Ledger, has_each_cause_and_no_other) {
-  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/disagreements.json"));
+  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/disagreements.json"));
   for (const Json& story : file.at("stories")) {
     Ledgers ledgers(true);
     for (const Json& both : computed(story.at("steps"), constants())) {

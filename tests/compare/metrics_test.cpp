@@ -127,7 +127,7 @@ Row row_of(const Json& told) {
 }
 
 TEST(Metrics, of_a_run_that_was_made_up_are_those_of_its_row) {
-  for (const Json& text : Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/metrics.json"))) {
+  for (const Json& text : Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/metrics.json"))) {
     for (const Values& values : cases_of(text.value("for", Json::object()), constants())) {
       const Json told = computed(text, values);
       const Row row = row_of(told);

@@ -36,10 +36,10 @@ bool has(const std::vector<Vec2d>& outcomes, const Vec2d& velocity) {
 
 using Surfaces = std::vector<MetSurface>;
 
-/// The rows of laws.json, with all numbers computed: README.md says what they are.
+/// The rows of laws.json, with all numbers computed: tables/README.md says what they are.
 Json rows_of(const char* law) {
   static const Json file =
-      computed(Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/laws.json")), constants());
+      computed(Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/laws.json")), constants());
   return file.at(law);
 }
 Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
