@@ -126,6 +126,7 @@ class Copy:
     def failing(self, tests, every=False):
         """Names of the tests that fail, all or one; a fault may as well keep one from ending. @param tests quick or slow."""
         command = ['ctest', '--test-dir', self.build, '--no-tests=error', '--parallel', str(len(os.sched_getaffinity(0))),
+                   '--timeout', '180',  # [s]; the slowest test takes a fifth of it
                    *(['--label-exclude', '^(slow|sanitized|windows)$'] if tests == 'quick' else ['--label-regex', '^slow$']),
                    *([] if every else ['--stop-on-failure'])]
         steps = {'PAPERPROOF_GUARANTEE_STEPS': '500'} if tests == 'quick' else {}  # as `tests/run.sh --quick`
