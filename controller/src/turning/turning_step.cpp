@@ -127,12 +127,16 @@ StepStatus TurningStep::step(CharacterState& state, const Wish& wish) {
   }
 }
 
-/// Where nothing near turns.
+/// Where no solid that is near turns. A sensor may.
 StepStatus TurningStep::step_straight(CharacterState& state, const Wish& wish) {
   const Part whole = turn(0, 1, state.position);
   const Vec2d from = state.position;
+  note_begin();
   const StepStatus status = go(state, wish, 1, report_);
-  if (!is_refused(status)) note_turned_sensors(whole, from, report_);
+  if (is_refused(status)) return status;
+  note_turned_sensors(whole, from, report_);
+  note_vertices(whole.turned(), &whole);
+  note_vertices(whole.end);
   return status;
 }
 
