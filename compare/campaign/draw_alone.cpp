@@ -85,6 +85,7 @@ RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns) {
     if (up_turns && random.chance(0.1)) up = any_up(*sides, random);
     if (up_turns) run.ups.push_back(up);
   }
+  add_sensors(run, seed);
   return run;
 }
 
@@ -123,6 +124,7 @@ RandomRun draw_among_movers(Terrain terrain, std::uint64_t seed, bool up_turns) 
     if (up_turns && (step == 0 || random.chance(0.1))) up = towards(random.angle());
     if (up_turns) run.ups.push_back(up);
   }
+  add_sensors(run, seed);
   return run;
 }
 

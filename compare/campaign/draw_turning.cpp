@@ -174,6 +174,7 @@ RandomRun draw_among_turning(Turning family, std::uint64_t seed) {
     const Vec2d direction = towards(random.angle());
     add_launch(run, {.step = step, .velocity = random.log_between(0.1, 10) / (60 * scene.dt) * direction});
   }
+  add_sensors(run, seed);
   return run;
 }
 

@@ -35,6 +35,7 @@ std::vector<Family> still() {
             .covers = {{"contact", 0.1, 0.9},
                        {"falling", 0.1},
                        {"launched", 0.1},
+                       {"sensed", ever},
                        {"unnamed", 0, 0},
                        {"through", has_ledges ? ever : 0, has_ledges ? 1.0 : 0.0}}};
   });
@@ -50,7 +51,8 @@ std::vector<Family> any_up() {
                        {"walkable", 0.01},
                        {"steep", 0.003},
                        {"wall", 0.0004},
-                       {"ceiling", 0.01}}};
+                       {"ceiling", 0.01},
+                       {"sensed", ever}}};
   });
 }
 
@@ -60,8 +62,11 @@ std::vector<Family> movers(bool up_turns) {
             .draw = [terrain, up_turns](std::uint64_t seed) { return draw_among_movers(terrain, seed, up_turns); },
             .first_seed = 2000003 * number,
             .share = up_turns ? 2.0 / 9 : 1,
-            .covers = {
-                {"contact", 0.1, 0.9}, {"riding", ever}, {"crushed", ever, 0.2}, {"unnamed", 0, up_turns ? 1.0 : 0.0}}};
+            .covers = {{"contact", 0.1, 0.9},
+                       {"riding", ever},
+                       {"crushed", ever, 0.2},
+                       {"sensed", ever},
+                       {"unnamed", 0, up_turns ? 1.0 : 0.0}}};
   });
 }
 
@@ -72,7 +77,11 @@ std::vector<Family> turning() {
             .draw = [family](std::uint64_t seed) { return draw_among_turning(family, seed); },
             .first_seed = 3000017 * number,
             .share = family == Turning::balls ? 1 : 1.0 / 3,  // a ball seldom carries anyone
-            .covers = {{"turning", 0.2}, {"moving", 0.02, 0.9}, {"riding", ever}, {"crushed", least_crushed, 0.2}}};
+            .covers = {{"turning", 0.2},
+                       {"moving", 0.02, 0.9},
+                       {"riding", ever},
+                       {"sensed", ever},
+                       {"crushed", least_crushed, 0.2}}};
   });
 }
 
