@@ -1,6 +1,6 @@
 /// What several techniques do with the same situations, and what they refuse. What they do at a chain and among movers,
 /// and how they slide, is in tests/situations/techniques.json.
-#include "controller/article_support.hpp"
+#include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace paperproof::article_tests {
+namespace paperproof::stepping {
 namespace {
 
 TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
@@ -16,15 +16,15 @@ TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at
   for (const std::string_view kind : technique_names()) {
     if (kind == "octagon_sweep") continue;  // is the controller itself
     SCOPED_TRACE(kind);
-    Rig rig(kind, corner);
-    EXPECT_EQ(rig.technique->name(), kind);
+    Stepper stepper(corner, {}, kind);
+    EXPECT_EQ(make_technique({.name = kind}, *stepper.scenery, {})->name(), kind);
     if (kind == "grid") continue;  // stands in the middle of its square, beside nothing
-    EXPECT_EQ(rig.move({0.123, 6.456}, {1.3, -0.7}).position, Vec2d(0.123, 6.456) + Vec2d(1.3, -0.7));
-    EXPECT_TRUE(rig.result.contacts.empty());
+    EXPECT_EQ(stepper.fly_from({0.123, 6.456}, {1.3, -0.7}).position, Vec2d(0.123, 6.456) + Vec2d(1.3, -0.7));
+    EXPECT_TRUE(stepper.report.move.contacts.empty());
     for (const double wall : {-1.0, 1.0}) {
-      rig.move({wall * (1 - half_width), half_height}, {wall * px, -px});
-      EXPECT_FALSE(rig.result.contacts.empty());
-      for (const Contact& contact : rig.result.contacts) {
+      const auto& contacts = stepper.fly_from({wall * (1 - half_width), half_height}, {wall * px, -px}).contacts;
+      EXPECT_FALSE(contacts.empty());
+      for (const Contact& contact : contacts) {
         EXPECT_GE(contact.fraction, 0);
         EXPECT_FALSE(std::signbit(contact.fraction)) << "no negative zero";
       }
@@ -64,37 +64,34 @@ TEST(Movers, that_carry_and_crush_make_no_technique_take_memory) {
   const double free = 10.4 / 64;
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
-    Rig rig(kind, {compare::box(-9, -3, 9, 0, 0), compare::box(-9, 2 * half_height + free, 9, 9, 1)});
-    std::array<MoverMotion, 2> motions{};
-    rig.request.movers = motions;
-    rig.request.dt = 1;
-    rig.result.position = {0, half_height};
-    rig.result.reserve(8);
+    Stepper rider({compare::box(-9, -3, 9, 0, 0), compare::box(-9, 2 * half_height + free, 9, 9, 1)}, {}, kind);
+    rider.gravity = {0, -px};
+    rider.dt = 1;
+    rider.at(0, half_height).report.reserve(8);
     const std::size_t before = tests::allocations();
     for (int step = 1; step <= 30; ++step) {
       const double aside = step % 2 == 1 ? 0.1 : 0;
-      motions = {MoverMotion{{0.1 - aside, 0}, {aside, 0}}, MoverMotion{{0, (1 - step) / 64.0}, {0, -step / 64.0}}};
-      rig.request.ride = rig.result.ride;
-      rig.move(rig.result.position, {0, -px});
+      rider.movers[0] = {{0.1 - aside, 0}, {aside, 0}};
+      rider.movers[1] = {{0, (1 - step) / 64.0}, {0, -step / 64.0}};
+      rider.step();
     }
     EXPECT_EQ(tests::allocations(), before);
-    EXPECT_EQ(rig.result.status, StepStatus::crushed);
+    EXPECT_EQ(rider.report.status, StepStatus::crushed);
   }
 }
 
 TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
-    Rig by_conveyor(kind, {conveyor(rectangle(-9, -1, 9, 0), 1e300)});
-    by_conveyor.request.dt = 1;
-    EXPECT_EQ(by_conveyor.move({0, 1}, {0, -2}).status, StepStatus::out_of_range);
-    EXPECT_EQ(by_conveyor.result.position, Vec2d(0, 1));
+    Stepper by_conveyor({conveyor(rectangle(-9, -1, 9, 0), 1e300)}, {}, kind);
+    EXPECT_EQ(by_conveyor.fly_from({0, 1}, {0, -2}).status, StepStatus::out_of_range);
+    EXPECT_EQ(by_conveyor.report.move.position, Vec2d(0, 1));
   }
 }
 
 TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
   const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
-    return refusal_by<NotExpressible>([&] { Rig(kind, {collider}); });
+    return refusal_by<NotExpressible>([&] { Stepper({collider}, {}, kind); });
   };
   const ColliderDef mover = compare::box(0, 0, 1, 1, 0);
   const ColliderDef belt = conveyor(rectangle(0, 0, 1, 1), 1);
@@ -127,17 +124,18 @@ TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
       const Vec2d high = low + Vec2d{random.between(0.1, 2), random.between(0.1, 2)};
       boxes.push_back(rectangle(low.x(), low.y(), high.x(), high.y()));
     }
-    Rig rig("bounding_box", boxes, {.iterations = 64});
+    Stepper stepper(boxes, {}, TechniqueDef{.name = "bounding_box", .article = {.iterations = 64}});
     const auto free = [&](const Vec2d& position) {
-      return std::none_of(rig.scenery.boxes().begin(), rig.scenery.boxes().end(),
-                          [&](const Box2& piece) { return overlap(piece, position, rig.character.shape.box()); });
+      return std::ranges::none_of(stepper.scenery->boxes(), [&](const Box2& piece) {
+        return overlap(piece, position, CharacterShape::article().box());
+      });
     };
     for (int sweep = 0; sweep < 100; ++sweep) {
       const Vec2d start = random.point(9);
       if (!free(start)) continue;
       const Vec2d wanted = random.point(4);
       const Vec2d end = start + wanted;
-      const MoveResult& result = rig.move(start, wanted);
+      const MoveResult& result = stepper.fly_from(start, wanted);
       ASSERT_TRUE(free(result.position)) << "seed 41, scene " << scene << ", sweep " << sweep;
       ASSERT_EQ(result.position, result.position.cwiseMax(start.cwiseMin(end)).cwiseMin(start.cwiseMax(end)))
           << "seed 41, scene " << scene << ", sweep " << sweep;
@@ -151,4 +149,4 @@ TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
 }
 
 }  // namespace
-}  // namespace paperproof::article_tests
+}  // namespace paperproof::stepping

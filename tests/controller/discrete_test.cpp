@@ -1,5 +1,5 @@
 /// Discrete collision detection: impacts, islands, their order. The technique made of them is in tests/situations.
-#include "controller/article_support.hpp"
+#include "controller/stepping.hpp"
 #include "techniques/discrete/solver.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <deque>
 
-namespace paperproof::article_tests {
+namespace paperproof::stepping {
 namespace {
 
 using discrete::BodyIndex;
@@ -137,4 +137,4 @@ TEST(DiscretePairs, have_first_what_can_be_moved_and_the_lower_of_two_that_can) 
 }
 
 }  // namespace
-}  // namespace paperproof::article_tests
+}  // namespace paperproof::stepping

@@ -1,6 +1,6 @@
 /// The grid: squares out of scenery, and a character that is always in exactly one of them. How it begins and ends a
 /// move is in tests/situations/techniques.json, and that a copy of its state goes on alike in replay_test.
-#include "controller/article_support.hpp"
+#include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 #include "techniques/grid/squares.hpp"
 
@@ -10,30 +10,12 @@
 #include <set>
 #include <string>
 
-namespace paperproof::article_tests {
+namespace paperproof::stepping {
 namespace {
 
 using grid::Squares;
 
 constexpr double tolerance = Tolerances{}.touch;
-
-/// A square of the side 1 as large as the character, so that its centre is the position.
-CharacterShape unit_square() { return CharacterShape(rectangle(-0.5, -0.5, 0.5, 0.5).points); }
-
-Vec2d centre_of(double column, double row) { return {column + 0.5, row + 0.5}; }
-
-/// Hands the remainder on, as the controller does.
-struct GridWalk : Rig {
-  GridWalk(std::vector<ColliderDef> colliders, const Vec2d& start)
-      : Rig("grid", std::move(colliders), {}, unit_square()) {
-    this->result.position = start;
-    this->request.dt = 1.0 / 64;
-  }
-  const MoveResult& move(const Vec2d& displacement) {
-    this->request.technique_memory = this->result.technique_memory;
-    return Rig::move(this->result.position, displacement);
-  }
-};
 
 TEST(Squares, are_solid_where_a_polygon_with_bays_and_holes_is_and_name_the_first_collider) {
   // Five by four, a bay of two squares from the top, and a hole of one; a second one fills the bay and goes on.
@@ -87,21 +69,25 @@ TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
       solid.insert({column, row});
     }
   }
-  GridWalk walk(tiles, centre_of(12, 12));
+  // As large as a square, so that its centre is the position.
+  Stepper walk(tiles, of_shape(CharacterShape(rectangle(-0.5, -0.5, 0.5, 0.5).points)), "grid");
+  walk.gravity = {0, 0};
+  walk.dt = 1.0 / 64;
+  walk.at(12.5, 12.5).report.reserve(16);
   std::array<bool, 576> visited{};
   int moves = 0;
   int contacts = 0;
   Vec2d wanted{0, 0};
-  walk.result.reserve(16);
   const std::size_t before_all = tests::allocations();
   for (int step = 0; step < 100'000; ++step) {
     if (step % 20 == 0) wanted = random.point(1.5);
-    const Vec2d before = walk.result.position;
-    contacts += walk.move(wanted).contacts.empty() ? 0 : 1;
-    const double way = (walk.result.position - before).cwiseAbs().sum();
+    const Vec2d before = walk.state.position;
+    walk.with_velocity(wanted.x() / walk.dt, wanted.y() / walk.dt).step();
+    contacts += walk.report.move.contacts.empty() ? 0 : 1;
+    const double way = (walk.state.position - before).cwiseAbs().sum();
     ASSERT_TRUE(way == 0 || way == 1) << "seed 31, step " << step;
-    const std::pair here{static_cast<int>(std::floor(walk.result.position.x())),
-                         static_cast<int>(std::floor(walk.result.position.y()))};
+    const std::pair here{static_cast<int>(std::floor(walk.state.position.x())),
+                         static_cast<int>(std::floor(walk.state.position.y()))};
     ASSERT_FALSE(solid.contains(here)) << "seed 31, step " << step;
     moves += way == 0 ? 0 : 1;
     visited.at(static_cast<std::size_t>(24 * here.first + here.second)) = true;
@@ -114,4 +100,4 @@ TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
 }
 
 }  // namespace
-}  // namespace paperproof::article_tests
+}  // namespace paperproof::stepping

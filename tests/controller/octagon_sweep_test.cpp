@@ -64,7 +64,7 @@ TEST(Ground, is_a_wedge_between_two_steep_faces) {
 /// On a slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
 /// @param less of the limit than what it is exactly [radians].
 bool is_climbed(std::uint64_t seed, double less) {
-  test::Random random(seed);
+  Random random(seed);
   Vec2d along;
   do {
     along = {static_cast<double>(random.integer(1, 64)), static_cast<double>(random.integer(1, 64))};
@@ -167,12 +167,10 @@ struct Corner {
     walker.at(-0.8, half_height + 0.8).with_velocity(velocity.x(), velocity.y());
     int stood = 0;
     for (int step = 0; step < 120; ++step) {
-      if (!walker.movers.empty()) walker.movers[0] = {walker.movers[0].to, velocity * ((step + 1) * walker.dt)};
-      walker.step({.move = move, .jump = step == 119});
+      walker.step_with_movers_to(velocity * ((step + 1) * walker.dt), {.move = move, .jump = step == 119});
       stood += step >= 59 && step < 119 && walker.state.grounded;
     }
-    const Vec2d by = walker.movers.empty() ? Vec2d(0, 0) : walker.movers[0].to;
-    return {walker.state.position - by, walker.state.velocity - velocity, stood};
+    return {walker.state.position - velocity * (120 * walker.dt), walker.state.velocity - velocity, stood};
   }
 };
 
@@ -182,7 +180,7 @@ TEST(GoingCorner, holds_a_walker_as_one_that_stands_does) {
   int unlike = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    article_tests::Random random(seed);
+    Random random(seed);
     Corner corner{random.between(-40, 40), random.between(50, 100)};
     const double move = random.between(0.5, 1);
     const CharacterDef character{.snap = 0.2};  // without it a walker hops down steep ground
@@ -214,21 +212,24 @@ Vec2d ping_pong(const Vec2d& by, int step) {
   return by * (static_cast<double>(along) / steps_each_way);
 }
 
+/// Stands on ground whose top is at zero.
+Stepper rider_on(const std::vector<ColliderDef>& ground, double x) {
+  Stepper rider(ground);
+  rider.gravity = {0, -30};
+  rider.at(x, half_height + Tolerances{}.stop).step();
+  return rider;
+}
+
 class Lift : public ::testing::TestWithParam<Vec2d> {};
 
 TEST_P(Lift, carries_for_an_hour_without_a_step_of_difference) {
-  ColliderDef lift = rectangle(-1.5, -0.25, 1.5, 0);
-  lift.mover = 0;
-  Stepper rider({lift});
-  rider.gravity = {0, -30};
-  rider.at(0.1, half_height + Tolerances{}.stop).step();
+  Stepper rider = rider_on({compare::box(-1.5, -0.25, 1.5, 0, 0)}, 0.1);
   const Vec2d start = rider.state.position;
   double furthest_off_in_ulps = 0;
   for (int step = 1; step <= an_hour; ++step) {
-    rider.movers[0] = {rider.movers[0].to, ping_pong(GetParam(), step)};
-    rider.step();
+    const Vec2d by = ping_pong(GetParam(), step);
+    rider.step_with_movers_to(by);
     ASSERT_TRUE(rider.state.grounded && rider.report.move.contacts.size() == 1) << step;
-    const Vec2d& by = rider.movers[0].to;
     for (const Eigen::Index i : {0, 1}) {
       const double off = std::abs((rider.state.position[i] - by[i]) - start[i]);
       const double larger = std::max({std::abs(rider.state.position[i]), std::abs(by[i]), std::abs(start[i])});
@@ -247,22 +248,17 @@ class Belt : public ::testing::TestWithParam<double> {};
 TEST_P(Belt, carries_for_an_hour_without_a_toggle) {
   std::vector<ColliderDef> tiles;
   for (int i = -1; i < 8000; ++i) {
-    ColliderDef tile = rectangle(i, -1, i + 1, 0);
-    tile.surface_speed = 2;
-    if (GetParam() != 0) tile.mover = 0;
-    tiles.push_back(tile);
+    tiles.push_back(compare::box(i, -1, i + 1, 0, GetParam() != 0 ? 0 : no_mover));
+    tiles.back().surface_speed = 2;
   }
-  Stepper rider(tiles);
-  rider.gravity = {0, -30};
-  rider.at(0, half_height + Tolerances{}.stop).step();
+  Stepper rider = rider_on(tiles, 0);
   const Vec2d start = rider.state.position;
   int toggles = 0;
   double furthest_off = 0;
   for (int step = 1; step <= an_hour; ++step) {
-    for (MoverMotion& lift : rider.movers) lift = {lift.to, ping_pong({0, GetParam()}, step)};
-    rider.step();
+    const Vec2d lift = ping_pong({0, GetParam()}, step);
+    rider.step_with_movers_to(lift);
     toggles += !rider.state.grounded || rider.state.ride.ground == Ride::none;
-    const Vec2d lift = rider.movers.empty() ? Vec2d(0, 0) : rider.movers[0].to;
     furthest_off = std::max(furthest_off, (rider.state.position - lift - start - Vec2d(step / 30.0, 0)).norm());
   }
   EXPECT_EQ(toggles, 0);

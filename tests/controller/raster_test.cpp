@@ -3,15 +3,15 @@
 
 #include "techniques/raster/sprite.hpp"
 
-#include "controller/article_support.hpp"
 #include "controller/scenery_definitions.hpp"
+#include "controller/stepping.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace paperproof::article_tests {
+namespace paperproof::stepping {
 namespace {
 
 using raster::Bitmap;
@@ -134,7 +134,7 @@ TEST(Rasteriser, draws_neither_sensors_nor_what_moves) {
 TEST(Rasteriser, says_why_it_cannot_draw_something) {
   for (const std::string_view kind : {"mask", "pixel_colour", "pixel_tile"}) {
     const auto reason = [&](const ColliderDef& collider) {
-      return refusal_by<NotExpressible>([&] { Rig(kind, {collider}); });
+      return refusal_by<NotExpressible>([&] { Stepper({collider}, {}, kind); });
     };
     EXPECT_NE(reason(chain({{-1, 0}, {1, 0}}, Vec2d{0, 1})).find("one-way"), std::string::npos);
     const std::string too_large = reason({.points = {{-1e6, 0}, {1e6, 0}, {0, 1e6}}});
@@ -202,18 +202,10 @@ TEST(Sprite, has_the_outermost_pixel_of_each_row_and_column_on_its_edges) {
 TEST(Mask, refuses_a_picture_that_is_not_as_large_as_the_character) {
   TechniqueDef too_low{.name = "mask"};
   too_low.sprite.assign(39, std::string(20, '#'));
-  EXPECT_THROW(Rig(too_low, {rectangle(0, 0, 1, 1)}), std::invalid_argument);
+  EXPECT_THROW(Stepper({rectangle(0, 0, 1, 1)}, {}, too_low), std::invalid_argument);
 }
 
-// Tiles whose pixels say what a collision does.
-
-TEST(PixelTileSlope, takes_nobody_down_who_jumps) {
-  Rig rig("pixel_tile", {{.points = {{-20, -1}, {22, -1}, {22, 2}, {2, 2}, {0, 0}, {-20, 0}}}});
-  const Vec2d start = rig.move({1, 4}, {0, -4}).position;
-  EXPECT_NEAR(start.y() - half_height, 1 + 4.5 * px, px) << "the front foot, 4 px further on, stands";
-  const Vec2d displacement{-5 * px, px / 4};
-  EXPECT_EQ(rig.move(start, displacement).position, start + displacement);
-}
+// Tiles whose pixels say what a collision does. See also tests/situations/techniques.json.
 
 TEST(PixelTiles, agree_with_the_bitmap_for_tiles_of_any_size) {
   Random random(9);
@@ -279,4 +271,4 @@ TEST(PixelTiles, that_do_not_fit_are_named) {
 }
 
 }  // namespace
-}  // namespace paperproof::article_tests
+}  // namespace paperproof::stepping

@@ -1,25 +1,59 @@
-/// A scenery, a controller with one character, and the buttons it is steered with.
+/// A scenery, a controller with one character, and the buttons it is steered with; and shapes.
 #pragma once
 
-#include "controller/article_support.hpp"
+#include "campaign/random.hpp"
+#include "campaign/shapes.hpp"
+#include "support/refusal.hpp"
 #include "support/same_bits.hpp"
 
 #include <paperproof/techniques.hpp>
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 namespace paperproof::stepping {
 
-using article_tests::chain;
-using article_tests::frame;
-using article_tests::infinity;
-using article_tests::nan;
-using article_tests::of_shape;
-using article_tests::px;
-using article_tests::rectangle;
 using compare::degree;
 using compare::half_height;
 using compare::half_width;
 using compare::polygon;
+using compare::Random;
+using test::refusal_by;
 using test::same_bits;
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double frame = 1.0 / 60;
+
+/// One pixel [m]. A power of two: whole pixels are exact in both scalars.
+inline constexpr double px = 1.0 / 32;
+
+inline ColliderDef rectangle(double left, double bottom, double right, double top) {
+  return compare::box(left, bottom, right, top);
+}
+
+inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
+  return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
+}
+
+/// Corners of a convex outline, in order of angle.
+inline std::vector<Vec2d> on_an_ellipse(Random& random, const Vec2d& centre, const Vec2d& radii) {
+  const int corners = 3 + random.below(6);
+  const double turn = random.angle();
+  std::vector<Vec2d> outline;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turn + 6.283185 * (i + random.between(0, 0.7)) / corners;
+    outline.push_back(centre + radii.cwiseProduct(compare::towards(angle)));
+  }
+  return outline;
+}
+
+inline CharacterDef of_shape(const CharacterShape& shape) {
+  CharacterDef character;
+  character.shape = shape;
+  return character;
+}
 
 struct Stepper {
   std::unique_ptr<const Scenery> scenery;  ///< Stays where it is when the stepper is moved.
@@ -62,6 +96,10 @@ struct Stepper {
     for (MoverMotion& mover : movers) mover = {mover.to, mover.to + Vec2d{x, y}};
     return step(input);
   }
+  StepStatus step_with_movers_to(const Vec2d& place, const Input& input = {}) {
+    for (MoverMotion& mover : movers) mover = {mover.to, place};
+    return step(input);
+  }
   /// A step of a second without gravity: the displacement is this, to the last bit.
   const MoveResult& fly(double x, double y) {
     state.velocity = Vec2d{x, y};
@@ -69,6 +107,12 @@ struct Stepper {
     dt = 1;
     step();
     return report.move;
+  }
+  /// The same from a start in the air.
+  const MoveResult& fly_from(const Vec2d& start, const Vec2d& displacement) {
+    state = {};
+    state.position = start;
+    return fly(displacement.x(), displacement.y());
   }
   void steps(int count, const Input& input = {}) {
     for (int i = 0; i < count; ++i) step(input);
