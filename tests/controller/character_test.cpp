@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <paperproof/character.hpp>
 
+#include <boost/geometry.hpp>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -56,18 +57,14 @@ TEST(CharacterShape, a_side_that_is_a_corner_has_the_same_point_twice) {
             (std::vector<Points>{{{0, 2}, {0, 2}}, {{0, -2}, {0, -2}}, {{-1, 0}, {-1, 0}}, {{1, 0}, {1, 0}}}));
 }
 
-/// All others are in front of it, within less than half a turn that begins at one of them.
-bool is_corner(const Vec2d& point, const Points& points) {
-  const auto others_begin_with = [&](const Vec2d& first) {
-    const Vec2d along = first - point;
-    const auto follows = [&](const Vec2d& other) {
-      const Vec2d to = other - point;
-      const double turn = along.x() * to.y() - along.y() * to.x();
-      return turn > 0 || (turn == 0 && along.dot(to) > 0);
-    };
-    return std::count_if(points.begin(), points.end(), follows) + 1 == std::ssize(points);
-  };
-  return std::any_of(points.begin(), points.end(), others_begin_with);
+/// Coordinates are whole numbers: nothing is rounded.
+bool all_are_corners(const Points& points) {
+  using Point = boost::geometry::model::d2::point_xy<double>;
+  boost::geometry::model::multi_point<Point> all;
+  for (const Vec2d& point : points) all.emplace_back(point.x(), point.y());
+  boost::geometry::model::ring<Point> hull;  // closed
+  boost::geometry::convex_hull(all, hull);
+  return hull.size() == points.size() + 1 && boost::geometry::area(hull) != 0;
 }
 
 TEST(CharacterShape, it_accepts_exactly_the_points_that_are_all_corners_of_their_hull) {
@@ -79,8 +76,7 @@ TEST(CharacterShape, it_accepts_exactly_the_points_that_are_all_corners_of_their
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
     Points points(static_cast<std::size_t>(random.integer(3, 6)));
     for (Vec2d& point : points) point = Vec2d{random.integer(-4, 4), random.integer(-4, 4)};
-    const bool all_corners =
-        std::all_of(points.begin(), points.end(), [&](const Vec2d& point) { return is_corner(point, points); });
+    const bool all_corners = all_are_corners(points);
     ASSERT_EQ(refusal_of(points) == "accepted", all_corners);
     if (!all_corners) continue;
     ++accepted;

@@ -136,7 +136,7 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
 TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
   Stepper stepper({circle({0, 0}, 5)});
   const auto overlaps = [&](double x, double y) -> bool {
-    return stepper.sweep().overlaps({x, y}, {{0, 0}, frame}, stepper.scratch) == std::size_t{1};
+    return stepper.sweep().overlaps({x, y}, stepper.context(), stepper.scratch) == std::size_t{1};
   };
   EXPECT_FALSE(overlaps(0, 5 + half_height));
   EXPECT_TRUE(overlaps(0, std::nextafter(5 + half_height, 0.0)));
@@ -151,7 +151,7 @@ TEST(TouchingACircle, exactly_is_no_overlap_and_an_ulp_less_is_one) {
 /// What is overlapped, how far, and when, is asked of circles in tests/agreement/query_test.cpp.
 TEST(QuestionsAboutACircle, are_answered_with_points_and_normals_by_formula) {
   Stepper stepper({circle({4, 0}, 1), circle({0, 50}, 2)});
-  const StepContext context{{0, 0}, frame};
+  const StepContext context = stepper.context();
   const auto hit = stepper.sweep().cast({0, 0}, {8, 0}, context, stepper.scratch);
   ASSERT_TRUE(hit.has_value());
   EXPECT_EQ(hit->normal, Vec2d(-1, 0));

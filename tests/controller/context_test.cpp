@@ -36,11 +36,10 @@ TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
   for (const ColliderIndex gone : {no_collider, ColliderIndex{0}, ColliderIndex{1}}) {
     filter.user = &gone;
     Stepper faller({box(-1, -0.2, 1, 0, 0), coin});
-    faller.at(0, 2);
+    faller.at(0, 2).filter = &filter;
     std::size_t events = 0;
     for (int step = 0; step < 60; ++step) {
-      faller.controller.step(faller.state, {}, {{0, -10}, frame, faller.movers, &filter}, faller.scratch,
-                             faller.report);
+      faller.step();
       events += faller.report.sensors.size();
     }
     EXPECT_EQ(faller.state.grounded, gone != 0) << gone;
@@ -53,12 +52,14 @@ TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
   standing.at(0, half_height + 1e-3).steps(20);
   ColliderFilter nothing;
   nothing.is_there = [](ColliderIndex /*collider*/, const void* /*user*/) { return false; };
-  CharacterState ghost = standing.state;
-  standing.controller.step(ghost, {}, {{0, -30}, frame, {}, &nothing}, standing.scratch, standing.report);
-  const Vec2d before = standing.state.position;
+  const CharacterState before = standing.state;
+  standing.filter = &nothing;
   standing.step();
-  EXPECT_EQ(standing.state.position, before);
-  EXPECT_EQ(standing.sweep().overlaps({0, 0}, {.filter = &nothing}, standing.scratch), 0U);
+  EXPECT_EQ(standing.sweep().overlaps({0, 0}, standing.context(), standing.scratch), 0U);
+  standing.state = before;
+  standing.filter = nullptr;
+  standing.step();
+  EXPECT_EQ(standing.state.position, before.position);
   EXPECT_EQ(standing.sweep().overlaps({0, 0}, {}, standing.scratch), 1U);
 }
 
@@ -79,8 +80,8 @@ TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
 TEST(Filter, that_a_technique_does_not_have_is_refused) {
   const ColliderFilter ghost{{.category = 2}};
   Stepper boxed({ground}, {}, "bounding_box");
-  EXPECT_EQ(boxed.controller.step(boxed.state, {}, {{0, -10}, frame, {}, &ghost}, boxed.scratch, boxed.report),
-            StepStatus::invalid_input);
+  boxed.filter = &ghost;
+  EXPECT_EQ(boxed.step(), StepStatus::invalid_input);
   ColliderDef filtered = ground;
   filtered.filter.mask = 2;
   EXPECT_THROW(Stepper({filtered}, {}, "bounding_box"), std::invalid_argument);

@@ -50,7 +50,8 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   struct Case {
     CharacterState state = busy();
     Input input{.move = 0.5};
-    StepContext context{{0, -10}, frame};
+    Vec2d gravity{0, -10};
+    double dt = frame;
     std::optional<MoverMotion> motion{};  ///< Of a block beside it.
   };
   std::vector<Case> cases;
@@ -61,12 +62,12 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
                                            &CharacterState::technique_memory, &CharacterState::last_free})
         (add().state.*field)[axis] = bad;
       for (Vec2d Ride::*field : {&Ride::place, &Ride::velocity}) (add().state.ride.*field)[axis] = bad;
-      add().context.gravity[axis] = bad;
+      add().gravity[axis] = bad;
     }
     add().input.move = bad;
-    add().context.dt = bad;
+    add().dt = bad;
   }
-  for (const double bad : {0.0, -0.0, -1e-9, -1.0}) add().context.dt = bad;
+  for (const double bad : {0.0, -0.0, -1e-9, -1.0}) add().dt = bad;
   const double range = Tolerances{}.range;
   const double beyond = std::nextafter(range, infinity);
   for (const auto& [from, to] : std::initializer_list<std::pair<Vec2d, Vec2d>>{{{nan, 0}, {0, 0}},
@@ -78,26 +79,24 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
     add().motion = {from, to};
   Case& no_speed = add();
   no_speed.motion = {{0, 0}, {1e6, 0}};
-  no_speed.context.dt = 1e-303;
+  no_speed.dt = 1e-303;
   for (const std::string_view kind : technique_names()) {
     const bool moves = knows_movers(kind);
     Stepper stepper({box(-9, -9, 9, 0), box(-1, 3, 1, 4, moves ? 0 : no_mover)}, {}, kind);
-    CharacterState as_given = Case{}.state;
-    StepContext as_given_context = Case{}.context;
-    as_given_context.movers = stepper.movers;
-    EXPECT_NE(stepper.controller.step(as_given, {.move = 0.5}, as_given_context, stepper.scratch, stepper.report),
-              StepStatus::invalid_input);
+    const auto step = [&](const Case& each) {
+      stepper.state = each.state;
+      stepper.gravity = each.gravity;
+      stepper.dt = each.dt;
+      if (moves) stepper.movers = {each.motion.value_or(MoverMotion{})};
+      return stepper.step(each.input);
+    };
+    EXPECT_NE(step({}), StepStatus::invalid_input);
     for (std::size_t i = 0; i < cases.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << kind << ", case " << i);
       if (cases[i].motion && !moves) continue;
-      CharacterState state = cases[i].state;
-      StepContext context = cases[i].context;
-      if (moves) stepper.movers = {cases[i].motion.value_or(MoverMotion{})};
-      context.movers = stepper.movers;
-      EXPECT_EQ(stepper.controller.step(state, cases[i].input, context, stepper.scratch, stepper.report),
-                StepStatus::invalid_input)
-          << kind << ", case " << i;
+      EXPECT_EQ(step(cases[i]), StepStatus::invalid_input);
       EXPECT_EQ(stepper.report.status, StepStatus::invalid_input);
-      EXPECT_TRUE(same_bits(state, cases[i].state)) << kind << ", case " << i;
+      EXPECT_TRUE(same_bits(stepper.state, cases[i].state));
     }
   }
   Stepper anywhere({box(-9, -9, 9, 0)});
@@ -130,6 +129,8 @@ TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {
   const double range = Tolerances{}.range;
   for (const std::string_view kind : technique_names()) {
     Stepper stepper({box(-9, -9, 9, 0)}, {}, kind);
+    stepper.gravity = {0, 0};
+    stepper.dt = 1;
     for (const Vec2d& velocity :
          {Vec2d(1.3 * range, 0), Vec2d(0, 1.3 * range), Vec2d(0, -1.3 * range), Vec2d(1e300, 0)}) {
       stepper.state = busy();
@@ -137,9 +138,7 @@ TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {
       stepper.state.crushers.clear();
       stepper.state.velocity = velocity;
       const CharacterState before = stepper.state;
-      EXPECT_EQ(stepper.controller.step(stepper.state, {.jump = true}, {{0, 0}, 1}, stepper.scratch, stepper.report),
-                StepStatus::out_of_range)
-          << kind;
+      EXPECT_EQ(stepper.step({.jump = true}), StepStatus::out_of_range) << kind;
       EXPECT_TRUE(same_bits(stepper.state, before) && stepper.state == before) << kind;
     }
   }
@@ -177,8 +176,7 @@ void expect_refused(Stepper& stepper, Scratch& scratch, const char* what) {
   stepper.with_velocity(300, -20);
   const CharacterState before = stepper.state;
   const Input input{.move = 1.0, .jump = true, .drop = true};
-  EXPECT_EQ(stepper.controller.step(stepper.state, input, {stepper.gravity, stepper.dt, stepper.movers}, scratch,
-                                    stepper.report),
+  EXPECT_EQ(stepper.controller.step(stepper.state, input, stepper.context(), scratch, stepper.report),
             StepStatus::invalid_input)
       << what;
   EXPECT_EQ(stepper.report.status, StepStatus::invalid_input) << what;

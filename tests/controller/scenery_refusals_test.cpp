@@ -1,6 +1,8 @@
 /// Which definitions of scenery are refused, and in which words.
 #include <gtest/gtest.h>
 
+#include <boost/geometry.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -25,33 +27,13 @@ ColliderDef with_holes(const Points& outline, const std::vector<Points>& holes) 
 ColliderDef circle_of(const Points& points) {
   return {.shape = ColliderDef::Shape::circle, .points = points, .radius = 1};
 }
-/// Whether sides have a common point. Coordinates are whole or half numbers: nothing is rounded.
-bool sides_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
-  const auto cross = [](const Vec2d& u, const Vec2d& v) { return u.x() * v.y() - u.y() * v.x(); };
-  const auto is_part = [](double part, double whole) { return part * whole >= 0 && std::abs(part) <= std::abs(whole); };
-  const Vec2d first = b - a;
-  const Vec2d second = d - c;
-  const Vec2d between = c - a;
-  const double determinant = cross(first, second);
-  if (determinant != 0)
-    return is_part(cross(between, second), determinant) && is_part(cross(between, first), determinant);
-  const double from = between.dot(first);
-  const double to = from + second.dot(first);
-  return cross(first, between) == 0 && std::max(from, to) >= 0 && std::min(from, to) <= first.squaredNorm();
-}
 
+/// As a closed line. Coordinates are whole numbers: nothing is rounded.
 bool is_simple(const Points& ring) {
-  const std::size_t size = ring.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    const Vec2d& at = ring[i];
-    const Vec2d& next = ring[(i + 1) % size];
-    const Vec2d back = ring[(i + size - 1) % size] - at;
-    const Vec2d on = next - at;
-    if (at == next || (back.x() * on.y() == back.y() * on.x() && back.dot(on) > 0)) return false;
-    for (std::size_t j = i + 2; j < size && (j + 1) % size != i; ++j)
-      if (sides_meet(at, next, ring[j], ring[(j + 1) % size])) return false;
-  }
-  return true;
+  boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>> line;
+  for (const Vec2d& vertex : ring) line.emplace_back(vertex.x(), vertex.y());
+  line.push_back(line.front());
+  return boost::geometry::is_simple(line);
 }
 
 TEST(Refusals, exactly_the_rings_that_touch_or_cross_themselves_are_refused) {

@@ -64,6 +64,8 @@ struct Stepper {
   std::vector<MoverMotion> movers;  ///< Of the next step.
   Vec2d gravity{0, -10};
   double dt = 1.0 / 60;
+  const ColliderFilter* filter = nullptr;
+  Vec2d up{0, 1};
 
   explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
                    const TechniqueDef& technique = {})
@@ -88,9 +90,8 @@ struct Stepper {
     state.velocity = Vec2d{x, y};
     return *this;
   }
-  StepStatus step(const Input& input = {}) {
-    return controller.step(state, input, {gravity, dt, movers}, scratch, report);
-  }
+  [[nodiscard]] StepContext context() const { return {gravity, dt, movers, filter, up}; }
+  StepStatus step(const Input& input = {}) { return controller.step(state, input, context(), scratch, report); }
   /// The mover goes on from where it is.
   StepStatus step_with_mover_by(double x, double y, const Input& input = {}) {
     for (MoverMotion& mover : movers) mover = {mover.to, mover.to + Vec2d{x, y}};

@@ -13,10 +13,10 @@ namespace paperproof::stepping {
 namespace {
 
 /// With gravity along -up.
-StepContext standing_with(const Vec2d& up) { return {-30 * up, frame, {}, nullptr, up}; }
-
-StepStatus step_with(Stepper& stepper, const Vec2d& up, const Input& input = {}) {
-  return stepper.controller.step(stepper.state, input, standing_with(up), stepper.scratch, stepper.report);
+StepStatus step_with(Stepper& stepper, const Vec2d& up) {
+  stepper.up = up;
+  stepper.gravity = -30 * up;
+  return stepper.step();
 }
 
 CharacterDef box_shaped(double half_width, double bottom, double top) {
@@ -30,7 +30,7 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
   for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{nan, 1}, Vec2d{0, nan}, Vec2d{infinity, 0}, Vec2d{1, 1},
                           Vec2d{0, 1 + 1e-14}}) {
     EXPECT_EQ(step_with(stepper, up), StepStatus::invalid_input) << up.transpose();
-    EXPECT_EQ(stepper.sweep().move(stepper.state, {1, 0}, standing_with(up), stepper.scratch, stepper.report),
+    EXPECT_EQ(stepper.sweep().move(stepper.state, {1, 0}, stepper.context(), stepper.scratch, stepper.report),
               StepStatus::invalid_input);
     EXPECT_FALSE(stepper.sweep().cast({0, 3}, {0, -9}, {.up = up}, stepper.scratch));
     EXPECT_EQ(stepper.state, before);
