@@ -1,5 +1,5 @@
-/// The first overlap with what turns, against answers that are fractions. Two methods, which share the signs of numbers
-/// alone, give the same answers, also where a touch is no overlap.
+/// The first overlap with what turns: two methods, which share the signs of numbers alone, give the same answers, also
+/// where a touch is no overlap. Answers that are fractions are in ../judge/exact/turning.json.
 #include "oracle/first_meeting.hpp"
 #include "oracle/second_meeting.hpp"
 
@@ -18,8 +18,6 @@ using namespace test;  // NOLINT(google-build-using-namespace): the shapes of th
 
 using Kind = Meeting::Kind;
 using Path = std::vector<PathPoint>;
-
-constexpr double closely = 1e-12;
 
 /// A question that both methods answer.
 struct Question {
@@ -40,85 +38,12 @@ struct Question {
 VertexWay going(std::vector<std::vector<Vec2d>> vertices, std::vector<double> instants = {0, 1}) {
   return {.collider = 0, .instants = std::move(instants), .vertices = std::move(vertices)};
 }
-Path staying(const Vec2d& at) { return {{at, 0}, {at, 1}}; }
 
-/// A plank about (0, 0), 2 m long and flat at first: its end comes up by a metre on a straight line, as the other one
-/// goes down.
-VertexWay see_saw(const Vec2d& about = {0, 0}) {
-  return going({{about - Vec2d(1, 0), about + Vec2d(1, 0)}, {about - Vec2d(1, 1), about + Vec2d(1, 1)}});
-}
-/// One so thick that goes through the octagon at (0, 0) in one chord.
-VertexWay through(double thickness) {
-  if (thickness == 0) return going({{{-3, -2}, {3, -2}}, {{-3, 2}, {3, 2}}});
-  return going({box(-3, -2, 3, -2 + thickness).points, box(-3, 2, 3, 2 + thickness).points});
-}
 /// A plank that is the line y = slope t x.
 VertexWay rising_line(double slope) { return going({{{-9, 0}, {9, 0}}, {{-9, -9 * slope}, {9, 9 * slope}}}); }
 
 /// A square whose lowest corner is its position.
 const std::vector<Vec2d> on_its_tip{{0, 0}, {1, 1}, {0, 2}, {-1, 1}};
-
-TEST(FirstMeeting, is_after_a_fraction_that_is_known) {
-  // The tip at height 0.4 leaps over the tip of the plank in no time; feet rest on what goes along.
-  const double foot = half_height;
-  const auto leap = [](double h) { return Path{{{-1, h}, 0}, {{-1, h}, 0.5}, {{2, h}, 0.5}, {{2, h}, 1}}; };
-  const VertexWay lift =
-      going({box(-1, -1, 1, 0).points, box(-1, -0.75, 1, 0.25).points, box(-1, 0, 1, 1).points}, {0, 0.25, 1});
-  // A tip on two chords of a quarter of a circle: at height 1/√2 it is back on the circle, before that inside of it.
-  // Feet at x from 0.8 on; the tip is at 0.85 on the chord where the circle would be at 0.9.
-  const double half = std::sqrt(0.5);
-  const VertexWay arc = going({{{0, 0}, {1, 0}}, {{0, 0}, {half, half}}, {{0, 0}, {0, 1}}}, {0, 0.5, 1});
-  const double share = (1 - 0.85) / (1 - half);
-  const double far = 0x1p20;  // where sums are multiples of 2^-32
-  const auto at_far = [&](double below) { return staying({far + 1, -far + 1 - below + foot}); };
-  // A tip goes to the left along y = h, from x = 1 to 0: the plank is t (1 - t) high there, at most 1/4.
-  const auto along = [](double h) { return Path{{{1, h}, 0}, {{0, h}, 1}}; };
-  // From x = 1 to -2 the height over the plank is h - t (1 - 3 t), least at t = 1/6 where it is h - 1/12.
-  const auto past = [](double h) { return Path{{{1, h}, 0}, {{-0.5, h}, 0.5}}; };
-  constexpr double apart = -1;
-  constexpr double some_time = 2;
-  const VertexWay around = going({square(9), square(9)});
-  const auto hull = octagon();
-  using Row = std::tuple<const char*, std::vector<Vec2d>, Path, VertexWay, double>;
-  for (const auto& [what, body, path, way, moment] : {
-           // At time t the plank is the line y = t x. The right foot is 0.5 m beside its middle and 0.375 m up.
-           Row{"the line comes up to a foot", hull, staying({0.5 - 0.15625, 0.375 + foot}), see_saw(), 0.75},
-           Row{"the tip comes up between the feet", hull, staying({1, 0.625 + foot}), see_saw(), 0.625},
-           Row{"feet at 1.5 - t, the tip at t", hull, {{{1, 1.5 + foot}, 0}, {{1, 0.5 + foot}, 1}}, see_saw(), 0.75},
-           Row{"a parabola touches", on_its_tip, along(0.25), see_saw(), apart},
-           Row{"an ulp above it", on_its_tip, along(one_ulp_up(0.25)), see_saw(), apart},
-           Row{"an ulp below it", on_its_tip, along(one_ulp_down(0.25)), see_saw(), some_time},
-           Row{"a nanometre below it", on_its_tip, along(0.25 - 1e-9), see_saw(), some_time},
-           Row{"its top is at no binary fraction", on_its_tip, past(one_ulp_up(1.0 / 12)), rising_line(1), apart},
-           Row{"an ulp lower", on_its_tip, past(one_ulp_down(1.0 / 12)), rising_line(1), some_time},
-           Row{"a thick one goes through", hull, staying({0, 0}), through(0.1), (2 - 0.1 - foot) / 4},
-           Row{"a thin one", hull, staying({0, 0}), through(1e-9), (2 - 1e-9 - foot) / 4},
-           Row{"a line", hull, staying({0, 0}), through(0), (2 - foot) / 4},
-           Row{"beside it", hull, staying({4, 0}), through(0), apart},
-           Row{"the chord is met, not the arc", hull, staying({0.85, share * half + foot}), arc, 0.5 * share},
-           Row{"it rides", hull, {{{0, foot}, 0}, {{0, 1 + foot}, 1}}, lift, apart},
-           Row{"an ulp deeper", hull, {{{0, foot}, 0}, {{0, one_ulp_down(1 + foot)}, 1}}, lift, some_time},
-           Row{"it walks on it", hull, {{{0, foot}, 0}, {{0.5, 0.25 + foot}, 0.25}, {{0.5, 1 + foot}, 1}}, lift, apart},
-           Row{"it leaps through the tip", hull, leap(0.4 + foot), see_saw(), 0.5},
-           Row{"it leaps over the tip", hull, leap(1.1 + foot), see_saw(), apart},
-           Row{"at a single moment they touch", hull, {{{1, 0.5 + foot}, 0.5}}, see_saw(), apart},
-           Row{"an ulp later", hull, {{{1, 0.5 + foot}, one_ulp_up(0.5)}}, see_saw(), 0.5},
-           Row{"at first they are apart", hull, {{{1, 0.5 + foot}, 0}}, see_saw(), apart},
-           Row{"all inside it is met at once", hull, staying({0, 0}), around, 0},
-           Row{"far away they touch", hull, at_far(0), see_saw({far, -far}), apart},
-           Row{"and overlap by a nanometre", hull, at_far(0x1p-30), see_saw({far, -far}), some_time},
-       }) {
-    SCOPED_TRACE(what);
-    const Question asked{.body = body, .path = path, .way = way};
-    const Meeting found = asked.first(Asked::when);
-    EXPECT_EQ(found.kind, moment == apart ? Kind::apart : Kind::meets);
-    EXPECT_EQ(asked.second().kind, found.kind);
-    if (moment == apart || moment == some_time) continue;
-    EXPECT_NEAR(found.low, moment, closely);
-    EXPECT_NEAR(found.high, moment, closely);
-    EXPECT_TRUE(moment != 0.75 || (found.low <= 0.75 && found.high > 0.75)) << "a touch is no overlap";
-  }
-}
 
 /// On straight ways that follow a turn, in each part first the turn at once about a place and then straight on.
 VertexWay at_once(Random& random, const std::vector<Vec2d>& points) {

@@ -1,10 +1,14 @@
 /// What exact arithmetic answers to one question: the tables of `exact/`. README.md has the notation.
 #include "judge/row.hpp"
 #include "oracle/exact.hpp"
+#include "oracle/first_meeting.hpp"
+#include "oracle/second_meeting.hpp"
 #include "records/collider_json.hpp"
 #include "support/expected.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace paperproof::compare::test {
 namespace {
@@ -37,10 +41,27 @@ struct World {
   std::vector<ColliderDef> colliders{};
 };
 
+/// Between which fractions the first overlap is with what turns, on a path: both methods must see one, or none.
+Json meeting(const World& world, const Json& asked) {
+  const Json goes = movers_of(asked["movers"], world.header).front();
+  VertexWay way{.collider = 0, .instants = goes["k"]};
+  for (const Json& points : goes["vertices"]) way.vertices.push_back(points_of(points));
+  std::vector<PathPoint> path;
+  for (const Json& corner : path_of(asked["path"])) path.push_back({point_of(corner), corner[2]});
+  std::vector<std::size_t> part(way.vertices.front().size());
+  std::iota(part.begin(), part.end(), std::size_t{0});
+  const std::vector<Vec2d> body = points_of(world.header["points"]);
+  const detail::Meeting first = detail::first_meeting(body, path, way, part, detail::Asked::when, 0);
+  EXPECT_EQ(detail::second_meeting(body, path, way, part, 0).kind, first.kind);
+  EXPECT_NE(first.kind, detail::Meeting::Kind::undecided);
+  return first.kind == detail::Meeting::Kind::meets ? Json{first.low, first.high} : Json("none");
+}
+
 /// At a place: what is overlapped there, and how near or deep the collider is that is asked of. With `to` also what is
 /// met on the way, with `by` the impact with that collider, with `reach` where a way out ends.
 Json answer(const World& world, const Json& asked) {
-  paperproof::test::refuse_other_keys(asked, " what at time to by of reach movers tells ", "a question");
+  paperproof::test::refuse_other_keys(asked, " what at time to by of reach movers path tells ", "a question");
+  if (asked.contains("path")) return {{"meets", meeting(world, asked)}};
   const ExactScenery there = world.scenery();
   const Json said = movers_of(asked.value("movers", Json::object()), world.header);
   std::vector<MoverMotion> movers;

@@ -88,6 +88,14 @@ Json movers_of(const Json& said, const Json& header) {
   return movers;
 }
 
+Json path_of(Json path) {
+  if (path.size() == 1 && path[0].size() == 2) path.push_back(path[0]);  // it stays
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].size() == 2)
+      path[i].push_back(static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(path.size() - 1, 1)));
+  return path;
+}
+
 namespace {
 
 Json difference(const Json& a, const Json& b) {
@@ -96,18 +104,14 @@ Json difference(const Json& a, const Json& b) {
 
 /// A record of a trace: what is not said is as plain as it can be.
 Json record_of(Json said, int number, const Json& header) {
-  Json path = said["path"];
-  if (path.size() == 1 && path[0].size() == 2) path.push_back(path[0]);  // it stays
-  for (std::size_t i = 0; i < path.size(); ++i)
-    if (path[i].size() == 2)
-      path[i].push_back(static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(path.size() - 1, 1)));
+  const Json path = path_of(said["path"]);
   const Json way = difference(path.back(), path.front());
   Json record{
       {"step", number},   {"input", Json::object()},       {"requested", way}, {"steered", 0}, {"grounded", false},
       {"jumping", false}, {"start_overlap", Json::array()}};
   record["velocity"] = {way[0].get<double>() / dt, way[1].get<double>() / dt};
   record["contacts"] = Json::array();
-  said["path"] = std::move(path);
+  said["path"] = path;
   said["movers"] = movers_of(said.value("movers", Json::object()), header);
   record.update(said);
   for (const char* key : {"grounded", "jumping", "stuck", "respawn", "dropped"})  // a formula is a number

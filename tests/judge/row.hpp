@@ -49,6 +49,9 @@ struct RowCase {
 /// How each mover of a header goes: as it is said to, or it rests.
 [[nodiscard]] Json movers_of(const Json& said, const Json& header);
 
+/// The path with a fraction at each corner.
+[[nodiscard]] Json path_of(Json path);
+
 /// In words what is not told as it must be, line by line.
 [[nodiscard]] std::string missed(const Json& tells, const Json& told);
 
