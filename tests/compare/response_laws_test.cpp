@@ -47,9 +47,12 @@ Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
 Surfaces surfaces_of(const Json& row) {
   static const std::map<std::string, bool MetSurface::*> flags{
       {"walkable", &MetSurface::walkable},   {"is_side", &MetSurface::is_side},   {"ridden", &MetSurface::ridden},
-      {"is_beside", &MetSurface::is_beside}, {"past_rim", &MetSurface::past_rim}, {"returned", &MetSurface::returned}};
-  static const std::map<std::string, double MetSurface::*> numbers{
-      {"met", &MetSurface::met}, {"left", &MetSurface::left}, {"stands_at", &MetSurface::stands_at}};
+      {"is_beside", &MetSurface::is_beside}, {"past_rim", &MetSurface::past_rim}, {"returned", &MetSurface::returned},
+      {"climbs", &MetSurface::climbs}};
+  static const std::map<std::string, double MetSurface::*> numbers{{"met", &MetSurface::met},
+                                                                   {"left", &MetSurface::left},
+                                                                   {"stands_at", &MetSurface::stands_at},
+                                                                   {"spread", &MetSurface::spread}};
   Surfaces all;
   for (const Json& told : row.at("surfaces")) {
     MetSurface& at = all.emplace_back(MetSurface{.normal = vector_of(told.at("normal"))});
@@ -65,6 +68,11 @@ Surfaces surfaces_of(const Json& row) {
     }
   }
   return all;
+}
+
+ControlledStep step_of(const Json& row) {
+  const Vec2d unsteered = vector_of(row.at("unsteered"));
+  return {.wanted = unsteered + Vec2d(row.value("steering", 0.0), 0), .unsteered = unsteered};
 }
 
 void expect_outcomes(const std::vector<Vec2d>& outcomes, const Json& row) {
@@ -118,10 +126,8 @@ TEST(TiltedLaw, is_a_push_along_nearly_the_normal_that_ends_the_entering) {
 /// What one surface makes, and two without motion, is in `RandomLaw`.
 TEST(ControlledLaw, makes_of_what_was_wanted) {
   for (const Json& row : rows_of("controlled")) {
-    const Vec2d unsteered = vector_of(row.at("unsteered"));
-    ControlledStep step{.wanted = unsteered + Vec2d(row.value("steering", 0.0), 0),
-                        .unsteered = unsteered,
-                        .side_hit_ends_rise = row.value("side_hit_ends_rise", false)};
+    ControlledStep step = step_of(row);
+    step.side_hit_ends_rise = row.value("side_hit_ends_rise", false);
     for (const Json& side : row.value("sides", Json::array())) step.sides.push_back(vector_of(side));
     expect_outcomes(controlled_outcomes(step, surfaces_of(row)), row);
   }
@@ -355,41 +361,10 @@ TEST(VelocityFault, names_what_is_expected) {
 }
 
 TEST(VelocityFault, is_what_is_off_by_more_than_is_known_or_rounded) {
-  const Vec2d up(0, 1);
-  const Surfaces turning{{.normal = up, .walkable = true, .spread = 0.01}};
-  // Of a wall that pushes at 1e7 m/s the velocity is known to a share of that, not of what was wanted.
-  const ControlledStep falls{{0, -0.5}, {0, -0.5}};
-  const Surfaces fast{{.normal = {-half, half}, .velocity = {-1e7, 1e7}}};
-  const Vec2d pushed = controlled_outcomes(falls, fast).front();
-  EXPECT_GT(pushed.norm(), 1e7);
-  // A character falls along a wall of two tiles and lands: the upper tile is left behind, the lower one is not.
-  const ControlledStep lands{.wanted = {-1, -6.5}, .unsteered = {0, -6.5}};
-  const MetSurface upper{.normal = {1, 0}, .is_side = true, .left = 0.9};
-  const MetSurface lower{.normal = {1, 0}, .is_side = true};
-  const MetSurface floor{.normal = up, .walkable = true, .met = 0.9};
-  // Who is lifted off the floor by what pushes, and snaps back to it, follows it.
-  const ControlledStep walks{.wanted = {-5, -0.5}, .unsteered = {-4, -0.5}};
-  const Vec2d normal = Vec2d(2, 1).normalized();
-  const MetSurface pusher{.normal = normal, .velocity = 2.25 * normal, .climbs = true, .met = 0.7};
-  const MetSurface returned{.normal = up, .walkable = true, .left = 0.7, .returned = true};
-  const Surfaces lifting{{.normal = up, .walkable = true, .left = 0.7}, pusher};
-  const Vec2d lifted = controlled_outcomes(walks, lifting).front();
-  ASSERT_GT(lifted.y(), 0.1);
-  const ControlledStep step{{1, -1}, {1, -1}};
-  using Row = std::tuple<const char*, ControlledStep, Surfaces, Vec2d, bool>;
-  for (const auto& [what, asked, surfaces, velocity, is_fault] : {
-           Row{"less than a turning surface is known", step, turning, {1.0099, 0}, false},
-           Row{"more than that", step, turning, {1.0101, 0}, true},
-           Row{"the rounding of the fastest surface", falls, fast, pushed + Vec2d(1e-3, 0), false},
-           Row{"more than that", falls, fast, pushed + Vec2d(0.1, 0), true},
-           Row{"a flush neighbour goes on to hold", lands, {upper, lower, floor}, {0, 0}, false},
-           Row{"through it", lands, {upper, lower, floor}, {-1, 0}, true},
-           Row{"there is none", lands, {upper, floor}, {-1, 0}, false},
-           Row{"ground that was left is not followed", walks, lifting, {lifted.x(), 0}, true},
-           Row{"unless it was come back to", walks, {returned, pusher}, {lifted.x(), 0}, false},
-           Row{"and with what is left", walks, {returned, pusher}, {0, 0}, true},
-       })
-    EXPECT_EQ(velocity_fault(asked, surfaces, velocity).has_value(), is_fault) << what;
+  for (const Json& row : rows_of("velocity_fault")) {
+    const auto fault = velocity_fault(step_of(row), surfaces_of(row), vector_of(row.at("velocity")));
+    EXPECT_EQ(fault.has_value(), row.at("is_fault").get<bool>()) << row.at("what") << ": " << fault.value_or("none");
+  }
 }
 
 }  // namespace
