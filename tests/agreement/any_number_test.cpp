@@ -2,8 +2,7 @@
 /// number decides what is safe or what is named. Contacts and corners of one step, pistons, and what comes beside are
 /// in tests/situations.
 #include "campaign/shapes.hpp"
-#include "oracle/judge.hpp"
-#include "runs/technique_parts.hpp"
+#include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -21,71 +20,43 @@ namespace {
 using compare::box;
 using compare::half_height;
 using compare::half_width;
-using compare::StepJudgement;
 using Colliders = std::set<ColliderIndex>;
 
-/// A character whose steps are judged one by one.
-struct Judged {
+/// A character among movers.
+struct AmongMovers {
   Scenery scenery;
   Controller controller{scenery, {}};
+  compare::ExactScenery exact{scenery.as_run(),
+                              {controller.character().shape.hull().begin(), controller.character().shape.hull().end()}};
   Scratch scratch = controller.make_scratch();
-  compare::Judge judge;
   CharacterState state;
   StepReport report;
-  std::vector<MoverMotion> motions;  ///< Of the next step.
+  std::vector<MoverMotion> motions{scenery.mover_count()};  ///< Of the next step.
   Vec2d gravity{0, 0};
   double dt;
-  bool looks_for_room = true;  ///< The judge does, among all that crush: for minutes, where they are many.
 
-  Judged(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
-      : scenery(SceneryDef{colliders}),
-        judge(header(length_of_step)),
-        motions(scenery.mover_count()),
-        dt(length_of_step) {
+  AmongMovers(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
+      : scenery(SceneryDef{colliders}), dt(length_of_step) {
     state.position = position;
   }
   /// Every mover goes on by so far.
-  StepJudgement step_by(const Vec2d& by) {
+  void step_by(const Vec2d& by) {
     for (MoverMotion& motion : motions) motion = {motion.to, motion.to + by};
-    return step();
+    step();
   }
-  StepJudgement step() {
-    controller.step(state, {}, {gravity, dt, motions}, scratch, report);
-    if (!looks_for_room) return {};
-    compare::TraceStep record;
-    compare::write_report(report, state, compare::Sides::as_said, record);
-    record.movers = motions;
-    return judge.judge(record);
-  }
+  void step() { controller.step(state, {}, {gravity, dt, motions}, scratch, report); }
   [[nodiscard]] Colliders crushed() const { return {report.move.crushed.begin(), report.move.crushed.end()}; }
   /// All that exact arithmetic finds on the way.
   [[nodiscard]] Colliders gone_through() const {
     Colliders all;
     const auto& path = report.move.path;
     for (std::size_t i = 0; i + 1 < path.size(); ++i)
-      for (const ColliderIndex collider : judge.scenery().met({path[i].position, motions, path[i].fraction},
-                                                              {path[i + 1].position, motions, path[i + 1].fraction}))
+      for (const ColliderIndex collider : exact.met({path[i].position, motions, path[i].fraction},
+                                                    {path[i + 1].position, motions, path[i + 1].fraction}))
         all.insert(collider);
     return all;
   }
-
- private:
-  [[nodiscard]] compare::TraceHeader header(double length_of_step) const {
-    compare::TraceHeader header;
-    header.contender = "octagon_sweep";
-    header.scalar = "double";
-    header.points.assign(controller.character().shape.hull().begin(), controller.character().shape.hull().end());
-    header.scenery = scenery.as_run();
-    header.dt = length_of_step;
-    return header;
-  }
 };
-
-/// No step enters or passes what is not named, or names what had left room or came no closer.
-bool holds(const StepJudgement& judged) {
-  return judged.entered.empty() && judged.tunnelled.empty() && judged.clipped.empty() &&
-         judged.one_way_broken.empty() && judged.crushed_with_room.empty();
-}
 
 constexpr double paper_thickness = 0.001;
 constexpr double paper_distance = 0.002;
@@ -137,10 +108,9 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
     Random random(seed);
     const RandomPapers papers(random);
     const double above_floor = random.log_between(1e-7, 0.1);
-    Judged run(papers.colliders, {0, half_height + above_floor}, random.chance(0.5) ? 1 : 1.0 / 60);
+    AmongMovers run(papers.colliders, {0, half_height + above_floor}, random.chance(0.5) ? 1 : 1.0 / 60);
     if (random.chance(0.5)) run.gravity = {0, -30};
     run.motions = papers.motions;
-    run.looks_for_room = false;
     run.step();
     const Colliders named = run.crushed();
     const Colliders met = run.gone_through();
@@ -149,7 +119,7 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
     for (const ColliderIndex collider : named) {
       EXPECT_GE(collider, first_paper) << "the niche";
       if (!met.contains(collider)) {
-        EXPECT_LE(run.judge.scenery().separation({run.state.position, run.motions, 1}, collider), contact_reach);
+        EXPECT_LE(run.exact.separation({run.state.position, run.motions, 1}, collider), contact_reach);
       }
     }
     crushed += !named.empty();
@@ -164,10 +134,11 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
 /// How many more than a state remembers.
 class MoreOnIt : public testing::TestWithParam<int> {};
 
+/// Where nothing is crushed and it stays, nothing else is passed; the judge asks it of fewer papers in
+/// tests/situations/crush.json.
 TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_back) {
   const int papers = static_cast<int>(Crushers::capacity()) + GetParam();
-  Judged run(niche_with_papers(papers), {0, half_height + 1e-6}, 1);
-  run.looks_for_room = papers < 20;
+  AmongMovers run(niche_with_papers(papers), {0, half_height + 1e-6}, 1);
   run.step_by({0, -1.9});
   ASSERT_EQ(run.crushed().size(), static_cast<std::size_t>(papers));
   EXPECT_EQ(run.crushed(), run.gone_through());
@@ -175,7 +146,7 @@ TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_bac
   const StepReport copy = run.report;
   const Vec2d stays = run.state.position;
   for (int step = 0; step < 20; ++step) {
-    EXPECT_TRUE(holds(run.step_by({0, step < 10 ? -0.01 : 0.01}))) << step;
+    run.step_by({0, step < 10 ? -0.01 : 0.01});
     EXPECT_EQ(run.state.position, stays) << step;
     EXPECT_TRUE(run.crushed().empty()) << step;
     EXPECT_EQ(run.report.status, StepStatus::stuck) << step;
@@ -192,7 +163,7 @@ TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_bac
   EXPECT_EQ(run.state.position, stays);
   ASSERT_EQ(run.state.crushers.size(), static_cast<std::size_t>(std::min(GetParam(), 8)));
   EXPECT_FALSE(run.state.crushers[0].has_side);
-  EXPECT_TRUE(holds(run.step_by({0, 3})));
+  run.step_by({0, 3});
   EXPECT_EQ(run.report.status, StepStatus::moved);
   EXPECT_TRUE(run.state.crushers.empty());
   EXPECT_EQ(run.state.position, stays);
