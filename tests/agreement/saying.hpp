@@ -1,6 +1,10 @@
 /// One and the same step, said in two ways: what each vector, place, side and number of a collider is in the other way.
 #pragma once
 
+#include "campaign/random.hpp"
+#include "campaign/random_run.hpp"
+#include "campaign/shapes.hpp"
+
 #include <paperproof/controller.hpp>
 
 #include <Eigen/LU>
@@ -65,7 +69,21 @@ struct Saying {
     def.shape = CharacterShape(points);
     return def;
   }
+  /// With the shape of all written elsewhere, and nothing turned.
+  [[nodiscard]] compare::RandomRun of(compare::RandomRun run) const {
+    run.scene.character = of(run.scene.character);
+    run.centre = of_place(run.centre);
+    run.scene.start.position = of_place(run.scene.start.position);
+    for (compare::OtherCharacter& other : run.scene.others) other.start.position = of_place(other.start.position);
+    return run;
+  }
 };
+
+/// With a shape that is written around another origin, up to 1,000 m away.
+inline Saying written_elsewhere(compare::Random& random) {
+  const double angle = random.angle();
+  return {.elsewhere = random.log_between(1e-2, 1000) * compare::towards(angle)};
+}
 
 /// What differs between a step and what the other way says; empty where nothing does. @param near are equal numbers.
 inline std::string difference(const StepReport& one, const StepReport& other, const Saying& saying, double near) {

@@ -2,6 +2,7 @@
 /// campaign's.
 #include "hero_world.hpp"
 
+#include "agreement/saying.hpp"
 #include "campaign/campaign.hpp"
 #include "campaign/random.hpp"
 #include "float_geometry.hpp"
@@ -108,7 +109,7 @@ struct Tally {
 class Twice {
  public:
   Twice(RandomRun run, Random& random)
-      : run_(moved_shape(std::move(run), random)),
+      : run_(random.chance(0.3) ? test::written_elsewhere(random).of(std::move(run)) : std::move(run)),
         fixtures_(run_.scene.movers.size()),
         hero_(fixtures_.world,
               {.character = run_.scene.character, .position = run_.scene.start.position, .surface_of = surface_of}) {
@@ -154,17 +155,6 @@ class Twice {
   }
 
  private:
-  static RandomRun moved_shape(RandomRun run, Random& random) {
-    Vec2d by{0, 0};
-    if (random.chance(0.3)) by = compare::towards(random.angle()) * random.log_between(1e-2, 1000);
-    std::vector<Vec2d> points;
-    for (const Vec2d& point : run.scene.character.shape.points()) points.emplace_back(point + by);
-    run.scene.character.shape = CharacterShape(points);
-    run.scene.start.position -= by;
-    run.centre -= by;
-    return run;
-  }
-
   bool is_same(Tally& tally) {
     const bool same_answers = hero_.report().status == report_.status && hero_.grounded() == state_.grounded;
     const double off = (hero_.position() - state_.position).norm();
