@@ -146,20 +146,12 @@ TEST(FallsThroughZero, is_the_root_where_the_parabola_comes_down) {
   EXPECT_LE(abs(*falls_through_zero<Real>(small, -1, -1) - (small - small * small / 2)), Real("1e-78"));
 }
 
-/// The left foot, at (-5, -20) px, or the right one is on a slope of `rise` over run, at (0, 0).
-Scene on_slope(double rise, double gravity) {
-  Scene scene = empty_scene(gravity);
-  const double foot = rise < 0 ? -5.0 / 32 : 5.0 / 32;
-  scene.start.position = {-foot, 0.625};  // the foot at (0, 0)
-  scene.steps = 64;
-  const Vec2d below = rise < 0 ? Vec2d(-16, 16 * rise) : Vec2d(16, -16 * rise);
-  add(scene, polygon({{-16, -16 * rise}, below, {16, 16 * rise}}));
-  return scene;
-}
-
 /// A body without friction that brakes on a slope of 1/2 (with 12 m/s², against the slope's 4): after braking it stays.
 TEST(Course, stays_at_the_wanted_speed_where_steering_is_stronger_than_the_slope) {
-  Scene scene = on_slope(0.5, 10);
+  Scene scene = empty_scene(10);
+  scene.start.position = {-5.0 / 32, 0.625};  // the right foot, at (5, -20) px, is on the slope at (0, 0)
+  scene.steps = 64;
+  add(scene, polygon({{-16, -8}, {16, -8}, {16, 8}}));
   scene.start.velocity = {4, 2};
   scene.character.acceleration = 12;
   scene.input = {InputEvent{.step = 0, .move = 0, .jump = {}}};
@@ -168,31 +160,6 @@ TEST(Course, stays_at_the_wanted_speed_where_steering_is_stronger_than_the_slope
   const Real braking = 12 + 4;
   const Real way = 8 / braking;
   expect_at(run(scene, Law::frictionless), 1, Real(-5) / 32 + way, Real(0.625) + way / 2, "braked");
-}
-
-/// 12 m/s² downhill on a slope of 1/2 need 6 m/s² of falling: with g = 5 it leaves the ground, with 10 it does not.
-TEST(Course, leaves_the_ground_where_it_speeds_up_faster_than_gravity_follows) {
-  for (const double gravity : {5.0, 10.0}) {
-    Scene scene = on_slope(-0.5, gravity);
-    scene.character.acceleration = 12;
-    scene.character.walk_speed = 60;
-    scene.input = {InputEvent{.step = 0, .move = 1, .jump = {}}};
-    const Real down = gravity == 5 ? Real(5) / 2 : Real(3);
-    expect_at(run(scene), 1, Real(5) / 32 + 6, Real(0.625) - down, "speeding up downhill");
-  }
-}
-
-/// After n steps of h a fall has gone g h² n (n + 1) / 2. It lands within a step, and a walk begins with one.
-TEST(LawOfSteps, adds_gravity_and_steering_as_a_step_begins) {
-  Scene scene = empty_scene(8);
-  scene.start.position = {0, 0.625 + 4};
-  scene.character.acceleration = 64;
-  scene.input = {InputEvent{.step = 64, .move = 1, .jump = {}}};
-  add(scene, box(-8, -1, 8, 0));
-  const Course<Real> course = run(scene, Law::octagon_sweep, Time::in_steps);
-  expect_at(course, Real(63) / 64, 0, Real(0.625) + Real(1) / 16, "falling");
-  expect_at(course, Real(127) / 128, 0, 0.625, "landing");
-  expect_at(course, Real(66) / 64, Real(3) / 64, 0.625, "walking");
 }
 
 /// Stands on a lift that rises at 1.5 m/s, turns after 1 s, and goes back; walks on it as on the ground.
@@ -209,19 +176,6 @@ TEST(Course, rides_a_lift_however_suddenly_it_turns) {
                           .loop = MoverDef::Loop::ping_pong});
   expect_at(run(scene), 1, 0.5, Real(0.625) + Real(3) / 2, "up");
   expect_at(run(scene), Real(3) / 2, Real(1) / 4 + Real(1) / 8 + Real(1) / 4, Real(0.625) + Real(3) / 4, "down");
-}
-
-/// A wedge of two steep slopes holds a fall; its lowest place is known.
-TEST(Course, ends_between_two_steep_slopes) {
-  Scene scene = empty_scene(10);
-  scene.start.position = {0.5, 6};
-  add(scene, polygon({{-8, 16}, {-8, -1}, {0, -1}, {0, 0}}));
-  add(scene, polygon({{8, 16}, {0, 0}, {0, -1}, {8, -1}}));
-  scene.steps = 192;
-  const Course<Real> course = run(scene);
-  // Slopes of 2: the arms at (±10, 10) px are on them, at height 20 / 32 of the wedge.
-  expect_at(course, 3, 0, Real(20) / 32 + Real(10) / 32, "wedged");
-  EXPECT_TRUE(course.arcs.back().stands);
 }
 
 /// Without friction and steering nothing adds to the energy: it is constant on every arc and falls at impacts alone.
