@@ -42,42 +42,6 @@ TEST_F(CommandInputs, maps_without_a_script_move_by_themselves_and_say_so_in_one
   EXPECT_TRUE(holds(place.run("check map.tmx").out, "random:1, as a map has no script"));
 }
 
-TEST_F(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
-  place.write("good.json", good_scene);
-  place.write("bad.json", "{}");
-  const std::string run =
-      "compare bad.json good.json nowhere.tmx --no-timing --contender octagon_sweep --no-reference ";
-  const Finished strict = place.run(run + "--rows strict.jsonl");
-  EXPECT_TRUE(begins(strict.err, "bad.json: "));
-  EXPECT_EQ(place.files().count("strict.jsonl"), 0U) << "nothing runs";
-
-  const Finished finished = place.run(run + "--quiet --keep-going --rows rows.jsonl");
-  EXPECT_EQ(finished.status, 2);
-  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 2) << finished.err;
-  EXPECT_TRUE(begins(finished.err, "bad.json: "));
-  EXPECT_TRUE(holds(finished.err, "\nnowhere.tmx: "));
-  const auto lines = json_lines(place.files().at("rows.jsonl"));
-  ASSERT_EQ(lines.size(), 4U) << "a header, two that failed, and the one that ran";
-  for (std::size_t failed = 1; failed <= 2; ++failed) EXPECT_EQ(lines[failed].at("verdict"), "failed");
-  EXPECT_EQ(lines[3].at("scene"), "good");
-  EXPECT_EQ(lines[3].at("verdict"), "holds");
-  EXPECT_EQ(place.run("compare good.json --keep-going --no-timing --quiet").status, 0);
-  EXPECT_TRUE(holds(place.run(run + "--keep-going").out, "2 of 3 inputs could not be used\n"));
-}
-
-TEST_F(CommandInputs, names_come_from_a_file_or_from_standard_input) {
-  place.write("good.json", good_scene);
-  place.write("list", "good.json\r\n\narticle_bullet\n");
-  const std::string run = "compare wedge_60 --no-timing --json --contender octagon_sweep --no-reference --files-from ";
-  for (const char* list : {"list", "- <list"}) {
-    std::string scenes;
-    const nlohmann::json document = nlohmann::json::parse(place.run(run + list).out);
-    for (const auto& row : document["rows"]) scenes += row["scene"].get<std::string>() + " ";
-    EXPECT_EQ(scenes, "wedge_60 good article_bullet ") << list;
-  }
-  EXPECT_TRUE(holds(place.run(run + "list --rows list").err, "--rows list: expected another file than --files-from"));
-}
-
 TEST_F(CommandInputs, a_message_is_not_cut_within_a_character) {
   for (std::size_t before = 0; before < 4; ++before) {
     std::string text(before, 'a');

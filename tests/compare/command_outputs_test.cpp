@@ -1,7 +1,8 @@
-/// What the command writes: rows in three formats, closed pipes, and what is left of a run that was killed. Full disks
-/// are in tables/calls.json.
+/// What the command writes: rows in three formats, closed pipes, and what is left of a run that was killed. Full disks,
+/// and what the command writes for other calls, are in tables/calls.json.
 #include "compare/command_workplace.hpp"
 
+#include <set>
 #include <tuple>
 
 namespace paperproof::compare {
@@ -81,10 +82,26 @@ TEST_F(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing
   }
 }
 
-TEST_F(CommandOutputs, a_closed_standard_output_is_not_what_a_file_is_opened_as) {
-  const Finished finished = place.run("compare article_bullet --no-timing --quiet --rows rows.json >&-");
-  EXPECT_EQ(finished.status, 0) << finished.err;
-  EXPECT_EQ(nlohmann::json::parse(place.files().at("rows.json")).at("paperproof_rows"), 1);
+TEST_F(CommandOutputs, the_page_of_a_sweep_has_replays_of_its_cells_and_so_has_a_page_of_its_rows) {
+  runs(
+      "sweep paper --vary speed=10:2000:log12 --vary thickness=0.001,0.01,0.1 --no-timing --quiet "
+      "--contender penetration_resolution,octagon_sweep,box2d --rows r.jsonl --report p.html");
+  runs("report rows.html r.jsonl");
+  const std::string of_rows = written("rows.html");
+  const nlohmann::json replays = element(of_rows, "cells-0");
+  const nlohmann::json of_sweep = element(written("p.html"), "cells-0");
+  EXPECT_EQ(replays.size(), 108U) << "each cell has one case";
+  // What counts as bad differs, and with it which cells come first.
+  EXPECT_TRUE(std::set(replays.begin(), replays.end()) == std::set(of_sweep.begin(), of_sweep.end()));
+  const nlohmann::json index = element(of_rows, "index");
+  for (const nlohmann::json& grid : index.at("studies")[0].at("grids"))
+    for (const nlohmann::json& line : grid.at("cells"))
+      for (const nlohmann::json& cell : line) {
+        const std::string replay = unpacked(replays.at(cell.at(4).get<std::size_t>()).at("replay").dump());
+        EXPECT_NE(replay.find("\"contender\":" + grid.at("title").dump()), std::string::npos) << replay;
+        const bool through = replay.find(R"("kind":"tunnel")") != std::string::npos;
+        EXPECT_EQ(through, begins(cell.at(2).get<std::string>(), "tunnels")) << cell;
+      }
 }
 
 }  // namespace

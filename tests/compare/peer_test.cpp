@@ -61,27 +61,6 @@ TEST_F(Peer, is_asked_when_it_meets_something_only_where_it_names_contacts) {
   EXPECT_EQ(row_without("fraction")["reason"], "step 4: a contact of the peer has no fraction, and its way is exact");
 }
 
-TEST_F(Peer, that_fails_is_told_with_its_reason_wherever_it_runs) {
-  place.write("fails.py", R"(import json, sys
-sys.stdin.readline()
-print(json.dumps({"name": "p", "version": "1", "can": ["movers"]}), flush=True)
-sys.stdin.readline()
-print(json.dumps({"characters": [{"path": [[0, 9, 1]]}]}), flush=True)
-sys.exit("no more"))");
-  const std::string peer = " --contender octagon_sweep --rows r.jsonl --peer 'python3 fails.py'";
-  const auto told = [&](const std::string& run, const std::string& words) {
-    const Finished finished = runs(run + peer);
-    EXPECT_TRUE(holds(finished.out, words)) << finished.out;
-    return finished.out;
-  };
-  const std::string why = ": step 1: the peer ended with status 1: no more";
-  const std::string swept = told("sweep paper --vary speed=10,20", "fails failed in 2 runs" + why);
-  EXPECT_TRUE(holds(swept, " failed "));
-  told("work-precision flight", "fails failed in 6 runs" + why);
-  for (const json& row : json_lines(written("r.jsonl")))
-    EXPECT_TRUE(row.value("contender", "") != "fails" || !row.contains("error_max_m")) << row;
-}
-
 TEST_F(Peer, has_a_slope_of_its_error_and_no_time) {
   const Finished told =
       runs("work-precision flight --contender octagon_sweep --rows r.jsonl" + command_of("compare/peers/straight.py"));
@@ -91,12 +70,6 @@ TEST_F(Peer, has_a_slope_of_its_error_and_no_time) {
       slopes[row["contender"]] = row["slope"].get<double>();
   EXPECT_NEAR(slopes.at("straight"), slopes.at("octagon_sweep"), 0.01) << "both fly by the law";
   EXPECT_TRUE(holds(told.out, "peers are not timed, and on none"));
-}
-
-TEST_F(Peer, may_greet_later_than_a_case_may_take) {
-  place.write("late.sh", R"(sleep 1.5; echo '{"refuses":"it is late"}')");
-  runs("sweep paper --contender octagon_sweep --limit 1 --quiet --rows r.jsonl --peer 'sh late.sh'");
-  EXPECT_EQ(json_lines(written("r.jsonl")).back()["reason"], "it is late");
 }
 
 /// Descriptor 9 is open as long as anything runs that the peer started.

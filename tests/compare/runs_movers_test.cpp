@@ -118,14 +118,5 @@ TEST(Bodies, that_box2d_cannot_have_leave_rows_that_say_why) {
   }
 }
 
-TEST(Crowd, is_refused_in_words_by_lockstep) {
-  RunOptions options = quick();
-  options.mode = Mode::lockstep;
-  for (const Row& row : run_scene(built_in("characters_head_on"), options).rows) {
-    EXPECT_EQ(row.verdict, Verdict::not_applicable);
-    EXPECT_TRUE(holds(row.reason, "lockstep is between one character and its twin"));
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::compare

@@ -34,18 +34,5 @@ TEST(PictureRuns, are_not_drawn_with_fewer_pixels_than_the_picture_has) {
   EXPECT_EQ(row_of(too_fine, "octagon_sweep").verdict, Verdict::holds);
 }
 
-TEST(TileRuns, have_the_pixels_of_the_tiles) {
-  const Scene scene = load_scene("pixel_hill", {});
-  for (const std::string knob : {"raster_pixels_per_metre", "pixels_per_tile"}) {
-    RunOptions options = quick({"pixel_tile"});
-    options.knobs = {parse_knob(knob + "=16")};
-    const Row row = row_of(run_scene(scene, options), "pixel_tile");
-    EXPECT_EQ(row.verdict, Verdict::not_applicable);
-    EXPECT_EQ(row.reason, "pixel_tile has its tiles from the scene, where " + knob + " is no knob");
-  }
-  const ReportScene all = run_scene(scene, quick());
-  for (const Row& row : all.rows) EXPECT_NE(row.verdict, Verdict::failed) << row.contender << ": " << row.reason;
-}
-
 }  // namespace
 }  // namespace paperproof::compare

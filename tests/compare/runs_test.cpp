@@ -7,17 +7,6 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(Sentence, says_who_is_wrong_and_how_far_the_others_agree) {
-  const ReportScene result = run_scene(built_in("article_bullet"), quick());
-  EXPECT_EQ(result.rows.size(), contender_names().size());
-  EXPECT_TRUE(holds(row_of(result, "penetration_resolution").reason, "platform"));
-  EXPECT_TRUE(holds(result.sentence, "agree to 0.015 m, which is Box2D's skin."));
-  const std::string wrong = result.sentence.substr(0, result.sentence.find("wrong"));
-  EXPECT_TRUE(holds(wrong, "penetration_resolution"));
-  EXPECT_FALSE(holds(wrong, "octagon_sweep"));
-  EXPECT_TRUE(holds(run_scene(empty_sky(9), quick()).sentence, "m, which is less than Box2D's skin."));
-}
-
 TEST(Replay, has_each_drop_and_crush_as_an_event) {
   Scene scene = built_in("one_way_drop");
   const RunOptions options = alone("octagon_sweep", scene.steps);
@@ -34,19 +23,6 @@ TEST(Replay, has_each_drop_and_crush_as_an_event) {
   ASSERT_EQ(crush.events.size(), 1U);
   EXPECT_EQ(crush.events[0].kind, ReportEvent::Kind::crush);
   EXPECT_EQ(crush.events[0].step, 21) << "where gap / (v h) = 21.4 falls";
-}
-
-/// It would hold on another side each time.
-TEST(Contenders, cannot_turn_what_is_one_way_and_say_so) {
-  Scene scene = empty_sky(3);
-  scene.movers = {{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 0}, {.time = 1, .at = 1}}}};
-  scene.scenery.colliders.push_back(
-      {.shape = ColliderDef::Shape::chain, .points = {{50, 50}, {51, 50}}, .one_way = Vec2d(0, 1), .mover = 0});
-  scene.ids.emplace_back("fan");
-  for (const Row& row : run_scene(scene, quick()).rows) {
-    EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender;
-    EXPECT_TRUE(holds(row.reason, "\"fan\"")) << row.contender;
-  }
 }
 
 TEST(Respawn, puts_back_who_has_left_the_map_by_ten_metres) {
@@ -102,23 +78,6 @@ TEST(Failures, become_rows_with_a_reason) {
   EXPECT_TRUE(holds(failed.reason, "nobody"));
   EXPECT_FALSE(failed.steps != 0 || failed.tunnels) << "what did not run has no numbers";
   EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds) << "the others run on";
-}
-
-TEST(Failures, to_search_a_whole_step_are_told_from_leaving_the_range) {
-  Scene scene = empty_sky(2);
-  scene.gravity = {0, 0};
-  RunOptions options = quick();
-  options.reference = false;
-  for (const auto& [metres, reason] : {std::pair{4e4, "step 0: the motion needs more than 1,000,000 units of search"},
-                                       std::pair{4e6, "step 0: the motion would leave the range of +-2e6 m"}}) {
-    scene.start.velocity = {metres / scene.dt, 0};
-    const ReportScene result = run_scene(scene, options);
-    for (const char* contender : {"wind_back", "penetration_resolution", "speculative_march", "pixel_colour", "mask"}) {
-      EXPECT_EQ(row_of(result, contender).verdict, Verdict::flagged) << contender;
-      EXPECT_TRUE(row_of(result, contender).reason.starts_with(std::string("validity: ") + reason))
-          << row_of(result, contender).reason;
-    }
-  }
 }
 
 }  // namespace

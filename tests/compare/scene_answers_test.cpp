@@ -107,30 +107,5 @@ TEST(Answers, of_a_room_are_as_narrow_as_the_room) {
   }
 }
 
-TEST(Answers, are_absent_where_an_option_changes_the_scene) {
-  const Scene scene = built_in("flush_tiles");
-  const auto has_answer = [&](const auto& change) {
-    RunOptions options = quick({"octagon_sweep"});
-    change(options);
-    const Row row = row_of(run_scene(scene, options), "octagon_sweep");
-    EXPECT_EQ(row.answer_ok.has_value(), row.answer_error.has_value());
-    return row.answer_ok.has_value();
-  };
-  EXPECT_TRUE(has_answer([](RunOptions&) {}));
-  EXPECT_TRUE(has_answer([&](RunOptions& options) { options.steps = scene.steps; })) << "as many as it has";
-  EXPECT_FALSE(has_answer([](RunOptions& options) { options.steps = 10; }));
-  EXPECT_FALSE(has_answer([](RunOptions& options) { options.random_input = 1; }));
-  EXPECT_FALSE(has_answer([](RunOptions& options) { options.mode = Mode::lockstep; }));
-}
-
-TEST(Answers, that_are_wrong_flag_the_run_and_say_what_is_wrong) {
-  const ReportScene result = run_scene(built_in("flush_tiles"), quick({"wind_back"}));
-  const Row& row = row_of(result, "wind_back");
-  EXPECT_EQ(row.verdict, Verdict::flagged);
-  EXPECT_TRUE(holds(row.reason, "answer: stands at x = ")) << row.reason;
-  EXPECT_EQ(row.answer_ok, false);
-  EXPECT_EQ(row_of(result, "box2d").answer_ok, true);
-}
-
 }  // namespace
 }  // namespace paperproof::compare

@@ -53,20 +53,6 @@ TEST(SuperTux, slopes_are_the_tile_cut_by_the_line_that_their_data_names) {
   }
 }
 
-TEST(SuperTux, sectors_are_scenes_of_their_own) {
-  const SceneFiles files;
-  files.write("data/images/tiles.strf", "(supertux-tiles (tiles (ids 1) (attributes 1)))");
-  const auto sector = [](const std::string& name, const std::string& tile) {
-    return "(sector (name '" + name + "') (tilemap (solid #t) (width 1) (height 1) (tiles " + tile +
-           ")) (spawnpoint (name 'main') (x 64) (y 0)))";
-  };
-  const std::string level = "(supertux-level " + sector("cave", "1") + sector("empty", "0") + sector("main", "1") + ")";
-  const std::vector<Scene> scenes = load_scenes(files.write("data/levels/world/a.stl", quoted(level)));
-  ASSERT_EQ(scenes.size(), 2U);
-  EXPECT_EQ(scenes[0].name, "a/cave");
-  EXPECT_EQ(scenes[1].name, "a/main");
-}
-
 const std::filesystem::path installed = "/usr/share/games/supertux2/levels";
 
 TEST(SuperTuxData, is_counted_as_by_an_independent_reader) {

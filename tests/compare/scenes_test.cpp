@@ -7,7 +7,6 @@
 #include <set>
 
 #include "oracle/exact.hpp"
-#include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 #include "scenes/validate.hpp"
 
@@ -83,30 +82,6 @@ TEST(BuiltInScenes, every_one_is_valid_has_its_own_name_and_says_what_it_is) {
   }
   EXPECT_GE(names.size(), 140U);
   EXPECT_GE(inside, 2);
-}
-
-TEST(BuiltInScenes, a_corner_meets_a_corner_or_not_by_one_ulp) {
-  for (const auto& [name, meets] : {std::pair{"corner_to_corner", false},
-                                    {"corner_to_corner_minus_ulp", false},
-                                    {"corner_to_corner_plus_ulp", true},
-                                    {"corner_to_corner_hit", true}}) {
-    const Scene scene = load_scenes(name).front();
-    const auto hull = scene.character.shape.hull();
-    const ExactScenery exact(scene.scenery, {hull.begin(), hull.end()});
-    const Vec2d way = scene.start.velocity * scene.dt * 60;
-    EXPECT_EQ(exact.first_impact(scene.start.position, way).has_value(), meets) << name;
-  }
-}
-
-TEST(Describe, names_one_way_segments_that_block_nothing) {
-  Scene scene = load_scenes("article_bullet").front();
-  scene.ids.emplace_back("ledge");
-  // Level, then straight up along one_way, then level again.
-  scene.scenery.colliders.push_back(
-      {.shape = ColliderDef::Shape::chain, .points = {{40, 0}, {41, 0}, {41, 1}, {42, 1}}, .one_way = Vec2d(0, 1)});
-  EXPECT_NE(describe(scene).find("\"ledge\": 1 segment along its one_way"), std::string::npos) << describe(scene);
-  scene.scenery.colliders.back().points[2] = {41.5, 1};
-  EXPECT_EQ(describe(scene).find("ledge"), std::string::npos);
 }
 
 }  // namespace
