@@ -8,7 +8,9 @@
 #include "records/metric.hpp"
 #include "runs/contender.hpp"
 
-#include <charconv>
+#include <boost/algorithm/string.hpp>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
 #include <map>
 #include <set>
 #include <sstream>
@@ -21,18 +23,11 @@ constexpr std::size_t statements = 83;
 constexpr std::size_t checks = 142;
 constexpr std::size_t demands = 6;
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 /// The parts of a text between separators, trimmed.
 std::vector<std::string> split(const std::string& text, const std::string& separator) {
   std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t at = 0; (at = text.find(separator, begin)) != std::string::npos; begin = at + separator.size())
-    parts.push_back(trimmed(text.substr(begin, at - begin)));
-  parts.push_back(trimmed(text.substr(begin)));
+  boost::iter_split(parts, text, boost::first_finder(separator));
+  for (std::string& part : parts) boost::trim(part);
   return parts;
 }
 
@@ -56,10 +51,8 @@ std::vector<Cells> table_below(const std::string& heading) {
     if (!below || !line.starts_with("|") || line.starts_with("|-")) continue;
     Cells cells;
     // Two runs are separated by an escaped bar.
-    for (const std::string& cell : split(line.substr(1, line.rfind('|') - 1), " | ")) {
-      cells.push_back(cell);
-      for (std::size_t at = 0; (at = cells.back().find("\\|")) != std::string::npos;) cells.back().replace(at, 2, "|");
-    }
+    for (const std::string& cell : split(line.substr(1, line.rfind('|') - 1), " | "))
+      cells.push_back(boost::replace_all_copy(cell, "\\|", "|"));
     rows.push_back(std::move(cells));
   }
   EXPECT_FALSE(rows.empty()) << heading;
@@ -96,8 +89,7 @@ std::string first_difference(const Row& one, const Row& other) {
 double number_in(const std::string& text) {
   if (text == "true" || text == "false") return text == "true" ? 1 : 0;
   double value = NAN;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : NAN;
+  return boost::conversion::try_lexical_convert(text, value) ? value : NAN;
 }
 
 /// How a row misses a condition; empty where it does not.

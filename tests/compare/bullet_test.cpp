@@ -60,12 +60,15 @@ TEST(RunCase, of_what_there_is_not_is_a_failed_row) {
   EXPECT_EQ(run_case(one).verdict, Verdict::failed);
 }
 
-TEST(PreparedStudies, ask_for_cases_that_can_be_run_in_every_corner_of_every_grid) {
+TEST(PreparedStudies, ask_for_cases_that_can_be_run_in_every_corner_of_every_grid_and_more_in_a_larger_one) {
   int loaded = 0;
-  for (const PreparedStudy& study : prepared_studies())
-    for (const GridSize size : {GridSize::quick, GridSize::standard, GridSize::full})
+  for (const PreparedStudy& study : prepared_studies()) {
+    std::vector<std::size_t> cases;
+    for (const GridSize size : {GridSize::quick, GridSize::standard, GridSize::full}) {
+      cases.push_back(0);
       for (const StudyPart& part : study.parts(size, {})) {
         EXPECT_NO_THROW(check(part.sweep)) << part.title;
+        cases.back() += part.sweep.size();
         Sweep sweep = part.sweep;
         sweep.contenders.resize(1);
         for (SweepAxis& axis : sweep.axes) axis.values = {axis.values.front(), axis.values.back()};
@@ -78,6 +81,9 @@ TEST(PreparedStudies, ask_for_cases_that_can_be_run_in_every_corner_of_every_gri
           ++loaded;
         }
       }
+    }
+    EXPECT_TRUE(cases[0] < cases[1] && cases[1] < cases[2]) << study.name;
+  }
   EXPECT_GT(loaded, 500);
 }
 

@@ -8,8 +8,6 @@
 namespace paperproof::compare::test {
 namespace {
 
-using Way = std::vector<PathPoint>;
-
 constexpr double width = 2 * half_width;
 const ExactPair& pair() {
   static const ExactPair octagons(octagon());
@@ -25,29 +23,6 @@ TEST(ExactPair, touching_is_no_overlap_and_an_ulp_more_is_one) {
   // A way that slides along the other, and one that does not and ends free as well.
   EXPECT_FALSE(pair().meet_between({0, -5}, {width, 0}, {0, 5}, {width, 0}));
   EXPECT_TRUE(pair().meet_between({0x1p-50, -5}, {width, 0}, {0x1p-50, 5}, {width, 0}));
-}
-
-TEST(ExactPair, ways_that_cross_meet_only_at_the_same_time) {
-  const Way right{{{-2, 0}, 0}, {{2, 0}, 1}};
-  // It takes no time at the half of the step: it is looked at from where the other is then.
-  const Way leap{{{-3, 0}, 0}, {{-3, 0}, 0.5}, {{3, 0}, 0.5}, {{3, 0}, 1}};
-  using Row = std::tuple<const char*, Way, Way, bool>;
-  for (const auto& [what, one, other, meet] :
-       {Row{"at one time", right, {{{0, -4}, 0}, {{0, 4}, 1}}, true},
-        Row{"it was there before", right, {{{0, -4}, 0}, {{0, 4}, 0.125}, {{0, 4}, 1}}, false},
-        // At 0.3125 its right side is at -0.4375, and at 0.5 beyond the other's left side at -0.3125.
-        Row{"gone", right, {{{0, 0}, 0}, {{0, 0}, 0.25}, {{0, 9}, 0.3125}, {{0, 9}, 1}}, false},
-        Row{"not gone", right, {{{0, 0}, 0}, {{0, 0}, 0.5}, {{0, 9}, 0.5625}, {{0, 9}, 1}}, true},
-        Row{"a leap over it", leap, {{{0, 0}, 0}, {{0, 0}, 1}}, true},
-        Row{"it is at -4 by then", leap, {{{0, 4}, 0}, {{0, -12}, 1}}, false},
-        Row{"it is at 0 by then", {{{0, 4}, 0}, {{0, -4}, 1}}, leap, true}})
-    EXPECT_EQ(pair().meet(one, other), meet) << what;
-}
-
-TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
-  // Half a width off each other's middle, the shortest way out is the other half.
-  for (const auto& [above, depth] : {std::pair{1.25 - 0.1, 0.1}, {3.0, 0.0}})
-    EXPECT_NEAR(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, above}, 0}, {{0, above}, 1}}), depth, 1e-12);
 }
 
 TraceStep resting(const Vec2d& at, const std::optional<Vec2d>& requested = {}) { return step({at, at}, requested); }

@@ -100,23 +100,5 @@ TEST(Movers, that_turn_let_who_lands_in_a_part_of_a_step_jump_in_the_next_and_us
   EXPECT_GE(jumps, 16);
 }
 
-TEST(Bodies, that_box2d_cannot_have_leave_rows_that_say_why) {
-  Scene points = empty_sky(10);
-  points.ids.emplace_back("grain");
-  points.scenery.colliders.push_back({.points = {{9, 9}, {9 + 1e-9, 9}, {9, 9 + 1e-9}}, .mover = 0});
-  points.movers.push_back({.id = "grain", .path = {{}}, .body = Body{}});
-  Scene instants = built_in("stack_1");
-  instants.dt = 1e-12;
-  for (const auto& [scene, reason] : {std::pair{points, "single point"}, {instants, "shorter than 1e-9 s"}}) {
-    const ReportScene result = run_scene(scene, quick({"octagon_sweep"}));
-    for (const char* contender : {"octagon_sweep", "box2d"}) {
-      const Row& row = row_of(result, contender);
-      EXPECT_EQ(row.verdict, Verdict::not_applicable);
-      EXPECT_TRUE(holds(row.reason, "the scene's bodies are moved by Box2D, and ")) << row.reason;
-      EXPECT_TRUE(holds(row.reason, reason)) << row.reason;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::compare

@@ -76,24 +76,12 @@ TEST(BodyEnergyGained, is_that_of_motion_height_and_springs) {
   EXPECT_FALSE(energy_of(lifted, {0, 0}).body_energy_gained_j);
 }
 
-TEST(StabilityParts, have_cases_on_every_grid_and_more_on_a_larger_one) {
-  const auto count = [](GridSize size) {
-    std::size_t cases = 0;
-    for (const StudyPart& part : stability_parts(size, {})) {
-      EXPECT_NO_THROW(check(part.sweep)) << part.title;
-      EXPECT_EQ(part.sweep.axes.size(), part.sweep.border ? 0U : 2U) << part.title;
-      cases += part.sweep.size();
-    }
-    return cases;
-  };
-  EXPECT_LT(count(GridSize::quick), count(GridSize::standard));
-  EXPECT_LT(count(GridSize::standard), count(GridSize::full));
-}
-
 TEST(StabilityParts, run_box2d_once_and_all_others_in_double_and_in_float) {
-  for (const StudyPart& part : stability_parts(GridSize::quick, {}))
+  for (const StudyPart& part : stability_parts(GridSize::quick, {})) {
+    EXPECT_EQ(part.sweep.axes.size(), part.sweep.border ? 0U : 2U) << part.title;
     for (const NamedContender& contender : part.sweep.contenders)
       EXPECT_EQ(part.sweep.scalars.size(), contender.name == "box2d" ? 1U : 2U) << part.title << " " << contender.name;
+  }
 }
 
 TEST(StabilityParts, hold_for_octagon_sweep_in_their_first_cases_and_every_replica) {
