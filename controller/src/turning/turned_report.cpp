@@ -30,7 +30,7 @@ void TurningStep::note_pushes(const Part& part) {
 void TurningStep::note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const {
   std::ptrdiff_t turned = 0;
   for (const MovingCollider& collider : memory_.moving) {
-    if (!scenery_.collider(collider.id).sensor || collider.motion.turn() == 0 || !is_there(collider.id)) continue;
+    if (!is_turning_sensor(collider)) continue;
     const bool before = overlaps(collider.id, pose_at(collider.motion, part.begin), position);
     const bool after = overlaps(collider.id, turned_pose(collider, part), position);
     if (before != after) report.sensors.insert(report.sensors.begin() + turned++, sensor_event(collider.id, after, 0));

@@ -88,6 +88,10 @@ std::span<const MoverMotion> TurningStep::hold_angles(const Box2& around) {
   return motions;
 }
 
+bool TurningStep::is_turning_sensor(const MovingCollider& collider) const {
+  return scenery_.collider(collider.id).sensor && collider.motion.turn() != 0 && is_there(collider.id);
+}
+
 /// A collider that is gone carries and crushes no more.
 void TurningStep::forget_gone(CharacterState& state) const {
   if (state.ride.ground != Ride::none && !scenery_.has(state.ride.ground)) state.ride = {};
@@ -131,10 +135,11 @@ StepStatus TurningStep::step(CharacterState& state, const Wish& wish) {
 StepStatus TurningStep::step_straight(CharacterState& state, const Wish& wish) {
   const Part whole = turn(0, 1, state.position);
   const Vec2d from = state.position;
-  note_begin();
   const StepStatus status = go(state, wish, 1, report_);
   if (is_refused(status)) return status;
   note_turned_sensors(whole, from, report_);
+  if (std::ranges::none_of(memory_.moving, [&](const auto& each) { return is_turning_sensor(each); })) return status;
+  note_begin();
   note_vertices(whole.turned(), &whole);
   note_vertices(whole.end);
   return status;

@@ -134,6 +134,7 @@ class TurningStep {
 
   // turned_report.cpp
   void note_pushes(const Part& part);
+  [[nodiscard]] bool is_turning_sensor(const MovingCollider& collider) const;
   void note_turned_sensors(const Part& part, const Vec2d& position, StepReport& report) const;
   void note_begin();
   void note_vertices(double instant, const Part* turned = nullptr);
