@@ -25,7 +25,7 @@ struct Family {
   std::string kind;    ///< `movers`: runs that are drawn alike.
   std::string name{};  ///< `tiles`: the scenery, or what moves in it.
   std::function<RandomRun(std::uint64_t)> draw;
-  std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow; any, but no other family's.
+  std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow; no other family of the kind does.
   double share = 1;              ///< Of the steps that are asked for: some are slow.
   std::vector<Coverage> covers{};
 
