@@ -31,6 +31,7 @@ using Stepper = std::function<void(CharacterState&, const Input&, const StepCont
 struct OtherWay {
   Saying saying{};
   Stepper step;
+  Stepper first{};  ///< Steps the run in the first way, where that is not as it was drawn.
 };
 
 /// What steps a character of a scene.
@@ -55,6 +56,7 @@ using Kinds = std::span<const char* const>;
 constexpr std::array all_kinds{"static", "any_up", "movers", "stairs", "tight/sensors"};
 constexpr Kinds without_sensors{all_kinds.data(), 4};
 constexpr Kinds without_stairs{all_kinds.data(), 3};
+constexpr Kinds with_movers{all_kinds.data() + 2, 1};
 
 struct Equality {
   const char* name;
@@ -218,6 +220,23 @@ OtherWay with_nothing_left_out(const RandomRun& run, Random&, OtherWay) {
   return {.step = controller_of(run.scene.scenery, run.scene.character, {.search = PieceSearch::none})};
 }
 
+/// Movers have angles that they keep; in the first way they are made turned so, and need none.
+OtherWay keeping_its_angles(const RandomRun& run, Random& random, OtherWay other) {
+  std::vector<double> angles(run.scene.movers.size());
+  for (double& angle : angles) angle = random.angle();
+  other.first = controller_of(made_turned(run.scene.scenery, angles), run.scene.character);
+  other.step = [=, as_drawn = controller_of(run.scene.scenery, run.scene.character),
+                motions = std::vector<MoverMotion>()](CharacterState& state, const Input& input,
+                                                      const StepContext& context, StepReport& report) mutable {
+    motions.assign(context.movers.begin(), context.movers.end());
+    for (std::size_t i = 0; i < motions.size(); ++i) motions[i].from_angle = motions[i].to_angle = angles[i];
+    StepContext with = context;
+    with.movers = motions;
+    as_drawn(state, input, with, report);
+  };
+  return other;
+}
+
 /// As one of two that are far apart.
 OtherWay one_of_many(const RandomRun& run, Random&, OtherWay other) {
   const CharacterDef character = other.saying.of(run.scene.character);
@@ -247,6 +266,7 @@ constexpr std::array equalities{
     Equality{"filtered_as_without", add_frame, filtered, false, 3e-4, 0, without_stairs},
     Equality{"restored_as_gone_on", as_it_is, restored_each_step},
     Equality{"with_nothing_left_out", as_it_is, with_nothing_left_out, false, 0, 0, all_kinds},
+    Equality{"keeping_its_angles", as_it_is, keeping_its_angles, true, 3e-4, 0, with_movers},
     Equality{"as_one_of_many", as_it_is, one_of_many},
     Equality{"with_its_shape_elsewhere", as_it_is, said_otherwise, false, 3e-4, rounding},
     Equality{"with_its_shape_elsewhere_in_a_level", put_in_order, edited_level, true, 3e-4, rounding},
@@ -261,8 +281,8 @@ class Twice {
         run_(run),
         script_(script_of(run_.scene)),
         cursor_(run_.scene, script_),
-        one_(controller_of(run.scene.scenery, run.scene.character)),
-        other_(equality.make(run, random, {equality.near > 0 ? written_elsewhere(random) : Saying{}, {}})) {}
+        other_(equality.make(run, random, {equality.near > 0 ? written_elsewhere(random) : Saying{}, {}})),
+        one_(other_.first ? other_.first : controller_of(run.scene.scenery, run.scene.character)) {}
 
   int steps = 0;
   int touching = 0;  ///< Something solid, or a sensor.
@@ -314,8 +334,8 @@ class Twice {
   RandomRun run_;
   compare::Script script_;
   compare::InputCursor cursor_;
-  Stepper one_;
   OtherWay other_;
+  Stepper one_;
   std::vector<MoverMotion> motions_;
   std::vector<MoverMotion> other_motions_;
 };

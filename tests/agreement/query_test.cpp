@@ -1,4 +1,6 @@
-/// cast, overlaps, contacts_at and nearest against exact arithmetic, in random scenery with movers.
+/// cast, overlaps, contacts_at, nearest and sensors_at against exact arithmetic, in random scenery with movers. In half
+/// of it these have angles that they keep, and exact arithmetic is asked of movers that are made turned.
+#include "agreement/saying.hpp"
 #include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
@@ -34,7 +36,7 @@ class Questions {
     std::vector<Wanderer> wanderers(motions_.size());
     for (int question = 0; question < 20; ++question) {
       for (std::size_t k = 0; k < motions_.size(); ++k)
-        motions_[k] = {motions_[k].to, next_offset(wanderers[k], motions_[k].to, random_)};
+        motions_[k] = {motions_[k].to, next_offset(wanderers[k], motions_[k].to, random_), angles_[k], angles_[k]};
       const Place from(random_.point(6), motions_, 0);
       const double angle = random_.chance(0.3) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
       const Vec2d displacement = compare::towards(angle) * random_.log_between(0.1, 20);
@@ -54,6 +56,15 @@ class Questions {
       add_mover(def.colliders, static_cast<MoverIndex>(mover), random, Vec2d::Zero());
     return def;
   }
+  static std::vector<double> some_angles(std::size_t movers, Random& random) {
+    std::vector<double> angles(movers);
+    if (random.chance(0.5)) std::ranges::generate(angles, [&] { return random.angle(); });
+    return angles;
+  }
+  static Scenery as_sensors(SceneryDef def) {
+    for (ColliderDef& collider : def.colliders) collider.sensor = !collider.one_way;
+    return Scenery(def);
+  }
   [[nodiscard]] StepContext context() const { return {.dt = 1, .movers = motions_}; }
   [[nodiscard]] const std::vector<ColliderDef>& colliders() const { return oracle_.scenery().colliders; }
 
@@ -64,6 +75,9 @@ class Questions {
     ASSERT_EQ(count, exact.size());
     const std::set<ColliderIndex> sorted(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(exact.size()));
     EXPECT_TRUE(std::equal(exact.begin(), exact.end(), sorted.begin(), sorted.end()));
+    std::array<ColliderIndex, 256> sensed{};
+    const std::size_t around = sensing_.sensors_at(from.position, context(), sensing_scratch_, sensed);
+    EXPECT_TRUE(std::is_permutation(exact.begin(), exact.end(), sensed.begin(), sensed.begin() + around));
   }
 
   void near(const Place& from, Tally& tally) {
@@ -121,7 +135,11 @@ class Questions {
   Scenery scenery_;
   Controller controller_{scenery_, {}};
   Scratch scratch_ = controller_.make_scratch();
-  ExactScenery oracle_{scenery_.as_run(),
+  Scenery sensors_ = as_sensors(scenery_.as_run());
+  Controller sensing_{sensors_, {}};
+  Scratch sensing_scratch_ = sensing_.make_scratch();
+  std::vector<double> angles_ = some_angles(scenery_.mover_count(), random_);
+  ExactScenery oracle_{made_turned(scenery_.as_run(), angles_),
                        {controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()}};
   std::vector<MoverMotion> motions_{scenery_.mover_count()};
 };

@@ -4,6 +4,7 @@
 #include "campaign/random.hpp"
 #include "campaign/random_run.hpp"
 #include "campaign/shapes.hpp"
+#include "geometry/pose.hpp"
 
 #include <paperproof/controller.hpp>
 
@@ -83,6 +84,19 @@ struct Saying {
 inline Saying written_elsewhere(compare::Random& random) {
   const double angle = random.angle();
   return {.elsewhere = random.log_between(1e-2, 1000) * compare::towards(angle)};
+}
+
+/// With movers that are made turned, each about its origin.
+inline SceneryDef made_turned(SceneryDef def, const std::vector<double>& angles) {
+  for (ColliderDef& collider : def.colliders) {
+    if (collider.mover == no_mover) continue;
+    const geometry::Turn turn(angles[collider.mover]);
+    for (Vec2d& p : collider.points) p = turn(p);
+    for (std::vector<Vec2d>& hole : collider.holes)
+      for (Vec2d& p : hole) p = turn(p);
+    if (collider.one_way) collider.one_way = turn(*collider.one_way);
+  }
+  return def;
 }
 
 /// What differs between a step and what the other way says; empty where nothing does. @param near are equal numbers.

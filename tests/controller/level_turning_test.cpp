@@ -1,18 +1,14 @@
 /// Movers that turn, and sensors on them. Who stands on them or is pushed by them is in tests/situations/turning.json.
-#include "agreement/saying.hpp"
 #include "controller/played.hpp"
 #include "geometry/pose.hpp"
 #include "support/random_runs.hpp"
-#include "support/same_bits.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
-#include <tuple>
 
 namespace paperproof::test {
 namespace {
@@ -162,89 +158,6 @@ TEST(LevelTurning, what_crushed_and_stands_now_is_a_solid_to_leave) {
   const std::optional<std::size_t> count =
       played.controller.overlaps(played.state.position, played.context(), played.scratch);
   EXPECT_EQ(count == 0U, status == StepStatus::moved);
-}
-
-/// The fraction of a hit (2: none), what is overlapped there, and the sensors around it.
-auto answers_of(Played& played, const Vec2d& at, const Vec2d& way) {
-  std::array<ColliderIndex, 8> inside{};
-  const auto hit = played.controller.cast(at, way, played.context(), played.scratch);
-  const auto overlapped = played.controller.overlaps(at, played.context(), played.scratch);
-  const auto sensors = played.controller.sensors_at(at, played.context(), played.scratch, inside);
-  std::ranges::sort(inside);  // two that are as near may come in either order
-  return std::tuple(hit ? hit->fraction : 2.0, overlapped, sensors, inside);
-}
-
-/// What is made turned needs no angle. Sensors, one-way colliders and questions among them.
-TEST(LevelTurning, a_mover_that_keeps_its_angle_is_as_one_that_was_made_turned) {
-  struct Course {
-    double angle;
-    Vec2d place;
-    Vec2d way;  ///< To and fro.
-  };
-  const int runs = steps_wanted("PAPERPROOF_KEPT_ANGLES", sampled(400));
-  int ridden = 0;
-  int sensed = 0;
-  int asked = 0;
-  int dropped = 0;
-  for (int seed = 1; seed <= runs; ++seed) {
-    Random random(static_cast<std::uint64_t>(seed));
-    SceneryDef as_given = room;
-    SceneryDef made_turned = room;
-    std::vector<Course> courses;
-    for (MoverIndex mover = 0; mover < 3; ++mover) {
-      courses.push_back({random.angle(), {random.between(-5, 5), random.between(1, 3)}, random.point(1)});
-      const double angle = courses.back().angle;
-      const geometry::Turn turn(angle);
-      const int colliders = random.integer(1, 2);
-      for (int i = 0; i < colliders; ++i) {
-        const double half = random.between(0.2, 2);
-        const double x = random.between(-1, 1);
-        const double thick = random.between(0.1, 0.4);
-        ColliderDef def = box(x - half, -thick, x + half, thick, mover);
-        if (random.chance(0.4)) def.points.erase(def.points.begin());
-        def.sensor = random.chance(0.2);
-        if (!def.sensor && random.chance(0.3)) def.one_way = geometry::Turn(-angle)(Vec2d(0, 1));
-        // In a wedge of two equal slopes the order of what is made decides which of them carries.
-        if (!def.sensor && colliders == 1) def.surface_speed = random.between(-2, 2);
-        as_given.colliders.push_back(def);
-        for (Vec2d& point : def.points) point = turn(point);
-        if (def.one_way) def.one_way = turn(*def.one_way);
-        made_turned.colliders.push_back(def);
-      }
-    }
-    Played one(as_given, {random.between(-5, 5), 6});
-    Played other(made_turned, one.state.position);
-    Input input;
-    for (int step = 0; step < 150; ++step) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(step));
-      if (step % 15 == 0) input = random_input(random);
-      input.drop = random.chance(0.1);
-      for (std::size_t i = 0; i < courses.size(); ++i) {
-        const auto& [angle, place, way] = courses[i];
-        const Vec2d there = place + way * std::sin(0.03 * (step + 1));
-        one.movers[i] = {step == 0 ? there : one.movers[i].to, there, angle, angle};
-        other.movers[i] = {one.movers[i].from, there};
-      }
-      one.step(input);
-      other.step(input);
-      ASSERT_EQ(difference(one.report, other.report, {}, 0), "");
-      ASSERT_TRUE(same_bits(one.state.position, other.state.position));
-      ASSERT_TRUE(same_bits(one.state.velocity, other.state.velocity));
-      ASSERT_EQ(one.state.ride.ground, other.state.ride.ground);
-      const Vec2d beside = one.state.position + random.point(1);
-      const Vec2d way = random.point(3);
-      const auto answers = answers_of(one, beside, way);
-      ASSERT_EQ(answers, answers_of(other, beside, way));
-      asked += std::get<0>(answers) < 2;
-      ridden += one.state.ride.ground != Ride::none;
-      sensed += !one.report.sensors.empty();
-      dropped += !one.report.dropped_through.empty();
-    }
-  }
-  EXPECT_GE(ridden, runs);
-  EXPECT_GE(sensed, runs / 10);
-  EXPECT_GE(asked, runs * 10);
-  EXPECT_GE(dropped, runs / 20);
 }
 
 }  // namespace
