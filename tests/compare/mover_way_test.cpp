@@ -2,6 +2,7 @@
 #include "oracle/mover_way.hpp"
 
 #include "compare/turning_planks.hpp"
+#include "scenes/mover.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,15 @@ Rational exact_value(const std::vector<MoverScript::Turn>& turns, const Rational
   const Rational end(turns[i].time);
   const Rational at(turns[i - 1].at);
   return at + std::clamp<Rational>((time - begin) / (end - begin), 0, 1) * (Rational(turns[i].at) - at);
+}
+
+/// What contenders are given of it comes to the same bits by arithmetic of its own.
+MoverPose pose_of(const MoverScript& script, double time) {
+  const MoverDef given{.id = "given", .path = script.path, .loop = script.loop, .turns = script.turns};
+  MoverPose pose = pose_at(script, time);
+  EXPECT_EQ(offset_at(given, time), pose.offset) << time;
+  EXPECT_EQ(angle_at(given, time), pose.angle) << time;
+  return pose;
 }
 
 TEST(MoverScript, is_linear_between_entries_to_a_few_roundings) {
@@ -51,7 +61,7 @@ TEST(MoverScript, is_linear_between_entries_to_a_few_roundings) {
     const Rational exact = exact_value(script.turns, first + rest) + runs * whole;
     // Times of 6 s have 2^-51 in their last place, angles change by 8 rad in 0.01 s at most.
     const double steepest = 8 / 0.01;
-    EXPECT_NEAR(pose_at(script, time).angle, static_cast<double>(exact), 8 * 0x1p-53 * (6 * steepest + 100))
+    EXPECT_NEAR(pose_of(script, time).angle, static_cast<double>(exact), 8 * 0x1p-53 * (6 * steepest + 100))
         << "round " << i;
     between += rest > 0 && rest < length;
   }
@@ -61,15 +71,17 @@ TEST(MoverScript, is_linear_between_entries_to_a_few_roundings) {
 TEST(MoverScript, is_exactly_its_entries_at_their_times_in_every_run) {
   MoverScript script{.colliders = {0}, .path = {{0, {0, 0}}, {0.25, {0.1, 0.7}}, {0.75, {0, 0}}}, .loop = Loop::loop};
   script.turns = {{0, 0}, {0.25, 0.3}, {0.75, 0.5}};
-  for (int run = 0; run < 100; ++run) {
-    const MoverPose pose = pose_at(script, 0.75 * run + 0.25);
+  for (const int run : {0, 1, 2, 3, 100, 1'000'000}) {
+    const MoverPose pose = pose_of(script, 0.75 * run + 0.25);
     EXPECT_EQ(pose.offset, Vec2d(0.1, 0.7));
     EXPECT_EQ(pose.angle, 0.3 + run * 0.5) << "angles go on";
   }
   script.loop = Loop::ping_pong;
-  EXPECT_EQ(pose_at(script, 1.25).offset, Vec2d(0.1, 0.7)) << "on the way back";
+  EXPECT_EQ(pose_of(script, 1.25).offset, Vec2d(0.1, 0.7)) << "on the way back";
   script.loop = Loop::once;
-  EXPECT_EQ(pose_at(script, 9).angle, 0.5);
+  EXPECT_EQ(pose_of(script, 9).angle, 0.5);
+  script = {.colliders = {0}, .path = {{1, {4, 5}}}, .loop = Loop::loop};
+  EXPECT_EQ(pose_of(script, 7.25).offset, Vec2d(4, 5)) << "parked";
 }
 
 /// A plank that turns about a place 1 m beside a character, and goes along.
