@@ -151,7 +151,7 @@ bool add_frame(RandomRun& run) {
   return true;
 }
 
-/// Among others that a filter leaves out, by category or by a predicate.
+/// Among others, sensors too, that a filter leaves out, by category or by a predicate.
 OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
   constexpr std::uint32_t there = 2;
   constexpr std::uint32_t elsewhere = 4;
@@ -165,6 +165,7 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
   };
   for (ColliderIndex i = 0; i < run.scene.scenery.colliders.size(); ++i) {
     while (!more.colliders.empty() && random.chance(0.4)) {
+      more.colliders.back().sensor = !more.colliders.back().one_way && random.chance(0.3);
       add(more.colliders.back(), false);
       more.colliders.pop_back();
     }

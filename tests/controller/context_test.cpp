@@ -26,27 +26,6 @@ TEST(Filter, has_the_rule_of_box2d) {
   EXPECT_TRUE(collide({.group = -3}, {.group = -4})) << "of other groups";
 }
 
-TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
-  ColliderDef coin = box(-0.1, 1, 0.1, 1.2);
-  coin.sensor = true;
-  ColliderFilter filter;
-  filter.is_there = [](ColliderIndex collider, const void* gone) {
-    return collider != *static_cast<const ColliderIndex*>(gone);
-  };
-  for (const ColliderIndex gone : {no_collider, ColliderIndex{0}, ColliderIndex{1}}) {
-    filter.user = &gone;
-    Stepper faller({box(-1, -0.2, 1, 0, 0), coin});
-    faller.at(0, 2).filter = &filter;
-    std::size_t events = 0;
-    for (int step = 0; step < 60; ++step) {
-      faller.step();
-      events += faller.report.sensors.size();
-    }
-    EXPECT_EQ(faller.state.grounded, gone != 0) << gone;
-    EXPECT_EQ(events, gone == 1 ? 0U : gone == 0 ? 2U : 1U) << gone;
-  }
-}
-
 TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
   Stepper standing({ground});
   standing.at(0, half_height + 1e-3).steps(20);
