@@ -60,6 +60,8 @@ Json header_of(const Json& said, const std::string& contender) {
     if (!collider.contains("id")) collider["id"] = std::to_string(number);
     ++number;
     if (!collider.contains("goes")) continue;
+    if (collider["goes"] != "turning" && collider["goes"] != "straight")
+      throw std::invalid_argument("goes is straight or turning, not " + collider["goes"].dump());
     Json script = Json::parse(R"({"path": [{"t": 0, "at": [0, 0]}], "loop": "once"})");
     if (collider["goes"] == "turning") script["turns"] = Json::parse(R"([{"t": 0, "at": 0}])");
     script["colliders"].push_back(collider["id"]);
@@ -210,8 +212,11 @@ std::vector<RowCase> cases_of(const Row& row) {
 std::vector<RowTrace> traces_of(const RowCase& one) {
   std::vector<RowTrace> traces;
   const Json contenders = one.said.value("contender", Json("somebody"));
-  for (const std::string contender : contenders.is_array() ? contenders : Json::array({contenders}))
+  for (const std::string contender : contenders.is_array() ? contenders : Json::array({contenders})) {
+    if (contender != "somebody" && contender != "octagon_sweep" && contender != "sampled")
+      throw std::invalid_argument("no such contender of a row: " + contender);
     traces.push_back(trace_of(one, contender));
+  }
   return traces;
 }
 
@@ -220,6 +225,7 @@ std::string missed(const Json& tells, const Json& told) {
   for (const auto& [key, wanted] : tells.items()) {
     const Json::json_pointer part("/" + key);
     if (!told.contains(part)) throw std::invalid_argument("nothing is told of " + key + " in " + told.dump());
+    if (wanted.is_object()) paperproof::test::refuse_other_bounds(wanted, key);
     const std::string fault =
         paperproof::test::fault_of(told.at(part), wanted.is_object() ? wanted : Json{{"is", wanted}});
     if (!fault.empty()) all += "\n" + key + " " + fault;

@@ -48,4 +48,10 @@ inline void refuse_other_keys(const nlohmann::json& object, const std::string& k
       throw std::invalid_argument("no such key of " + what + ": " + key);
 }
 
+/// @throws std::invalid_argument for what no part could miss.
+inline void refuse_other_bounds(const nlohmann::json& wanted, const std::string& what) {
+  refuse_other_keys(wanted, " is within at_least at_most above below ", what);
+  if (wanted.size() == wanted.count("within")) throw std::invalid_argument(what + ": nothing is asked");
+}
+
 }  // namespace paperproof::test
