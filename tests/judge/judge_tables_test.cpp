@@ -259,8 +259,12 @@ INSTANTIATE_TEST_SUITE_P(All, JudgeTables, ::testing::ValuesIn(read_rows(PAPERPR
 TEST(JudgeTable, that_no_judge_could_miss_is_refused) {
   EXPECT_EQ(missed(Json{{"hangs", true}}, Json{{"hangs", false}}), "\nhangs is false instead of true within 0");
   EXPECT_THROW((void)missed(Json{{"hang", true}}, Json{{"hangs", false}}), std::invalid_argument) << "no such answer";
+  for (const char* said : {R"({"hangs": {"abov": 1}})", R"({"hangs": {}})", R"({"hangs": {"within": 1}})"})
+    EXPECT_THROW((void)missed(Json::parse(said), Json{{"hangs", false}}), std::invalid_argument) << said;
   for (const char* said :
-       {R"({"stpes": [], "step": {"path": [[0, 0]]}})", R"({"step": {"path": [[0, 0]], "movers": {"lift": [0, 1]}}})"})
+       {R"({"stpes": [], "step": {"path": [[0, 0]]}})", R"({"contender": "sombody", "step": {"path": [[0, 0]]}})",
+        R"({"colliders": [{"chain": [[0, 0], [1, 0]], "goes": "strait"}], "step": {"path": [[0, 0]]}})",
+        R"({"step": {"path": [[0, 0]], "movers": {"lift": [0, 1]}}})"})
     EXPECT_THROW((void)traces_of({.title = "", .said = Json::parse(said)}), std::invalid_argument) << said;
 }
 
