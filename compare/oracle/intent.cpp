@@ -90,8 +90,7 @@ double Intent::use_button(const TraceStep& step, double dt, double rise, const W
 }
 
 /// Whether a step in parts jumps after its first part. A character whose jump goes on, or has ended, must have landed
-/// in a part before the last one. A new jump rises faster than the step was to rise, and as only a jump does: what
-/// lands under a jump key may be thrown up a little by a mover.
+/// in a part before the last one. A new jump rises faster than the step was to rise.
 bool Intent::jumped_later(const TraceStep& step) const {
   if (!jump_pending_) return false;
   if (step.jumping && !jumping_) return true;
@@ -100,15 +99,15 @@ bool Intent::jumped_later(const TraceStep& step) const {
     return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
   if (!landed) return false;
-  const double as_a_jump = header_->character.jump_speed / 2;
-  if (step.jumping) return step.velocity.dot(up) > std::max(rise_, as_a_jump);
+  if (step.jumping) return step.velocity.dot(up) > rise_;
   if (!step.grounded) return false;
   // It landed once more, if it went up as only a jump does.
   const double dt = length_of(step, *header_);
   for (std::size_t i = 1; i < step.path.size(); ++i) {
     const PathPoint& from = step.path[i - 1];
     const double time = (step.path[i].fraction - from.fraction) * dt;
-    if (time > 0 && (step.path[i].position - from.position).dot(up) > as_a_jump * time) return true;
+    if (time > 0 && (step.path[i].position - from.position).dot(up) > header_->character.jump_speed / 2 * time)
+      return true;
   }
   return false;
 }
