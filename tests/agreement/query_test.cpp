@@ -154,7 +154,7 @@ TEST_P(Queries, are_answered_as_by_exact_arithmetic) {
   }
   EXPECT_GE(tally.hits, tally.casts / 20);
   EXPECT_LE(tally.grazing, tally.casts / 50);
-  EXPECT_GE(tally.overlapping, 10);
+  EXPECT_GE(tally.overlapping, tally.casts / 100);
   EXPECT_GE(tally.near, tally.casts / 10);
 }
 
