@@ -44,7 +44,7 @@ struct World {
 /// Between which fractions the first overlap is with what turns, on a path: both methods must see one, or none.
 Json meeting(const World& world, const Json& asked) {
   const Json goes = movers_of(asked["movers"], world.header).front();
-  VertexWay way{.collider = 0, .instants = goes["k"]};
+  VertexWay way{.collider = 0, .instants = goes["k"], .vertices = {}};
   for (const Json& points : goes["vertices"]) way.vertices.push_back(points_of(points));
   std::vector<PathPoint> path;
   for (const Json& corner : path_of(asked["path"])) path.push_back({point_of(corner), corner[2]});
