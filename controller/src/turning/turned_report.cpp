@@ -24,6 +24,10 @@ void TurningStep::note_pushes(const Part& part) {
   }
 }
 
+bool TurningStep::is_turning_sensor(const MovingCollider& collider) const {
+  return scenery_.collider(collider.id).sensor && collider.motion.turn() != 0 && is_there(collider.id);
+}
+
 /// Reports the sensors that came over the character, or left it, as they turned at the beginning of a part. The sweep
 /// sees how they go on.
 /// @param position where the part begins. @param report of the part.

@@ -88,10 +88,6 @@ std::span<const MoverMotion> TurningStep::hold_angles(const Box2& around) {
   return motions;
 }
 
-bool TurningStep::is_turning_sensor(const MovingCollider& collider) const {
-  return scenery_.collider(collider.id).sensor && collider.motion.turn() != 0 && is_there(collider.id);
-}
-
 /// A collider that is gone carries and crushes no more.
 void TurningStep::forget_gone(CharacterState& state) const {
   if (state.ride.ground != Ride::none && !scenery_.has(state.ride.ground)) state.ride = {};
