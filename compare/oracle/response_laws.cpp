@@ -141,11 +141,6 @@ struct Unknown {
   Vec2d falls_along = Vec2d::UnitY();  ///< A fall that nothing holds.
 };
 
-/// Farther than rounding tells: else it may have landed.
-bool leaves(const Vec2d& v, const MetSurface& at) {
-  return entering(v, at) > grazing * std::max(1.0, (v - at.velocity).norm());
-}
-
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
 bool is_ground_beside(const MetSurface& at) { return at.walkable && at.is_beside; }
 bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.velocity != Vec2d::Zero(); }
@@ -208,6 +203,7 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     if (held.empty()) continue;
     if (goes_on) fall = now.unsteered.y();
     const Steered came = now;
+    // One that runs along ground may have landed on it: rounding decides.
     if (unknown.carried && may_carry(held.back()) && !leaves(came.wanted, held.back()) &&
         std::abs(came.wanted.x()) <= grazing * came.wanted.norm()) {
       now = {held.back().velocity, held.back().velocity};

@@ -10,7 +10,7 @@
 
 namespace paperproof::compare::surfaces {
 
-/// A velocity that enters a surface by no more than this share of its length runs along it.
+/// A velocity that enters or leaves a surface by no more than this share of its length runs along it.
 inline constexpr double grazing = 1e-9;
 /// Normals whose cross product is smaller are of one direction.
 inline constexpr double one_direction = 1e-9;
@@ -19,6 +19,10 @@ inline constexpr double one_direction = 1e-9;
 
 [[nodiscard]] inline bool enters(const Vec2d& v, const MetSurface& at) {
   return entering(v, at) < -grazing * std::max(1.0, (v - at.velocity).norm());
+}
+
+[[nodiscard]] inline bool leaves(const Vec2d& v, const MetSurface& at) {
+  return entering(v, at) > grazing * std::max(1.0, (v - at.velocity).norm());
 }
 
 [[nodiscard]] inline Vec2d slid(const Vec2d& v, const MetSurface& at) { return v - entering(v, at) * at.normal; }
