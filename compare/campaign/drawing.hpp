@@ -56,19 +56,19 @@ inline void add_launch(RandomRun& run, const Launch& launch) {
     run.scene.others[launch.character - 1].start.velocity = launch.velocity;
 }
 
-/// Adds sensors to one run of four, about where it begins: one that stands, and one on a mover. They change no motion,
-/// and no other draw.
+/// Adds two sensors to one run of four, about where it begins: the second is on a mover if there is any. They change no
+/// motion, and no other draw.
 inline void add_sensors(RandomRun& run, std::uint64_t seed) {
   Random random(~seed);
   if (!random.chance(0.25)) return;
   const auto movers = static_cast<int>(run.scene.movers.size());
-  for (const int mover : {-1, movers > 0 ? random.below(movers) : -1}) {
+  const MoverIndex any = movers > 0 ? static_cast<MoverIndex>(random.below(movers)) : no_mover;
+  for (const MoverIndex mover : {no_mover, any}) {
     Vec2d at = run.scene.start.position + random.point(2);
-    if (mover >= 0) at -= run.scene.movers[static_cast<std::size_t>(mover)].path.front().at;
+    if (mover != no_mover) at -= run.scene.movers[mover].path.front().at;
     const Vec2d half{random.between(0.1, 2), random.between(0.1, 2)};
-    ColliderDef sensor = box(at.x() - half.x(), at.y() - half.y(), at.x() + half.x(), at.y() + half.y());
+    ColliderDef sensor = box(at.x() - half.x(), at.y() - half.y(), at.x() + half.x(), at.y() + half.y(), mover);
     sensor.sensor = true;
-    if (mover >= 0) sensor.mover = static_cast<MoverIndex>(mover);
     run.scene.scenery.colliders.push_back(sensor);
   }
 }
