@@ -1,12 +1,13 @@
 /// Energy and jitter on made-up traces with known answers.
 #include "metrics/energy.hpp"
+#include "compare/table_file.hpp"
 #include "metrics/jitter.hpp"
+#include "records/collider_json.hpp"
 #include "scenes/formula.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 namespace paperproof::compare {
@@ -24,9 +25,7 @@ TraceHeader header() {
   return made;
 }
 
-Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
-
-/// What energy.json has happen to one character: tables/README.md says how. @return what it gains [J/kg].
+/// The energy that a character gains by the moves of a row of energy.json (tables/README.md) [J/kg].
 double gained(const Json& moves) {
   Energy energy(header(), gravity);
   Vec2d position(0, 0);
@@ -36,13 +35,13 @@ double gained(const Json& moves) {
       const Vec2d fallen = velocity + gravity * dt;
       TraceStep step;
       step.path = {{position, 0}, {position, 1}};
-      step.requested = (move.contains("wanted") ? vector_of(move["wanted"]) : fallen) * dt;
-      velocity = move.contains("falls") ? fallen : vector_of(move.value("at", Json{0, 0}));
-      position = move.contains("falls") ? Vec2d(position + velocity * dt) : vector_of(move.at("to"));
+      step.requested = (move.contains("wanted") ? point_of(move["wanted"]) : fallen) * dt;
+      velocity = move.contains("falls") ? fallen : point_of(move.value("at", Json{0, 0}));
+      position = move.contains("falls") ? Vec2d(position + velocity * dt) : point_of(move.at("to"));
       step.path.back().position = position;
       step.velocity = velocity;
       step.grounded = move.value("grounded", false);
-      if (move.contains("touched")) step.contacts.emplace_back().normal = vector_of(move["touched"]);
+      if (move.contains("touched")) step.contacts.emplace_back().normal = point_of(move["touched"]);
       energy.add(step, dt);
     }
   }
@@ -54,7 +53,7 @@ double gained(const Json& moves) {
 TEST(EnergyGained, is_what_no_jump_no_steering_and_no_walk_put_in) {
   Values values = constants();
   values["dt"] = dt;
-  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/energy.json"));
+  const Json file = read_table("energy.json");
   for (const Json& row : computed(file, values)) {
     const double expected = row.at("gained");
     if (row.contains("within"))

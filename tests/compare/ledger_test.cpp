@@ -1,12 +1,12 @@
 /// The ledger of disagreement on made-up traces: each cause, and a neighbour that is just outside of it.
 #include "metrics/ledger.hpp"
 #include "compare/judge_steps.hpp"
+#include "compare/table_file.hpp"
+#include "records/collider_json.hpp"
 #include "scenes/formula.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 namespace paperproof::compare::test {
 namespace {
@@ -73,8 +73,6 @@ std::string found_in(const Ledger& ledger) {
   return text;
 }
 
-Vec2d point_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
-
 /// A step as disagreements.json tells it: see tables/README.md.
 TraceStep step_of(const Json& told) {
   const Vec2d way = point_of(told.at("way"));
@@ -99,7 +97,7 @@ TraceStep step_of(const Json& told) {
 }
 
 TEST(Ledger, has_each_cause_and_no_other) {
-  const Json file = Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/disagreements.json"));
+  const Json file = read_table("disagreements.json");
   for (const Json& story : file.at("stories")) {
     SCOPED_TRACE(story.at("name"));
     Ledgers ledgers(story.value("lockstep", true));

@@ -2,13 +2,15 @@
 #include "metrics/metrics.hpp"
 
 #include "compare/moments.hpp"
+#include "compare/table_file.hpp"
+#include "records/collider_json.hpp"
 #include "records/metric.hpp"
 #include "records/rows_json.hpp"
 #include "scenes/formula.hpp"
+#include "support/expected.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 #include <map>
 
@@ -41,22 +43,19 @@ const std::map<std::string, double StepJudgement::*> numbers{{"clipped_depth", &
                                                              {"motion_wanted", &StepJudgement::motion_wanted},
                                                              {"motion_lost", &StepJudgement::motion_lost}};
 
-Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
-bool is_on(const Json& said) { return said.is_number() ? said != 0 : said.get<bool>(); }
-
 /// What else may be so in a step, or may have been made of it.
 const std::map<std::string, std::function<void(const Json&, TraceStep&, StepJudgement&)>> others{
     {"times", [](const Json&, TraceStep&, StepJudgement&) {}},
-    {"at", [](const Json& at, TraceStep& step, StepJudgement&) { step.path.back().position = vector_of(at); }},
+    {"at", [](const Json& at, TraceStep& step, StepJudgement&) { step.path.back().position = point_of(at); }},
     {"path",
      [](const Json& corners, TraceStep& step, StepJudgement&) {
        step.path.clear();
-       for (const Json& corner : corners) step.path.push_back({vector_of(corner), corner.at(2)});
+       for (const Json& corner : corners) step.path.push_back({point_of(corner), corner.at(2)});
      }},
-    {"requested", [](const Json& way, TraceStep& step, StepJudgement&) { step.requested = vector_of(way); }},
+    {"requested", [](const Json& way, TraceStep& step, StepJudgement&) { step.requested = point_of(way); }},
     {"movers",
      [](const Json& all, TraceStep& step, StepJudgement&) {
-       for (const Json& ends : all) step.movers.push_back({vector_of(ends.at(0)), vector_of(ends.at(1))});
+       for (const Json& ends : all) step.movers.push_back({point_of(ends.at(0)), point_of(ends.at(1))});
      }},
     {"contacts",
      [](const Json& all, TraceStep& step, StepJudgement&) {
@@ -86,9 +85,9 @@ Moment moment_of(const Json& told) {
   Moment made = moment(0);
   for (const auto& [key, value] : told.items()) {
     if (flags.contains(key)) {
-      made.step.*flags.at(key) = is_on(value);
+      made.step.*flags.at(key) = paperproof::test::is_true(value);
     } else if (judged_flags.contains(key)) {
-      made.judged.*judged_flags.at(key) = is_on(value);
+      made.judged.*judged_flags.at(key) = paperproof::test::is_true(value);
     } else if (numbers.contains(key)) {
       made.judged.*numbers.at(key) = value;
     } else if (colliders.contains(key)) {
@@ -122,12 +121,12 @@ Row row_of(const Json& told) {
   }
   Row row;
   metrics.write(row);
-  row.steps = number / characters;  // else a row says nothing of what was exempted
+  row.steps = number / characters;  // without it a row has no exemptions
   return row;
 }
 
 TEST(Metrics, of_a_run_that_was_made_up_are_those_of_its_row) {
-  for (const Json& text : Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/metrics.json"))) {
+  for (const Json& text : read_table("metrics.json")) {
     for (const Values& values : cases_of(text.value("for", Json::object()), constants())) {
       const Json told = computed(text, values);
       const Row row = row_of(told);

@@ -4,6 +4,8 @@
 
 #include "campaign/random.hpp"
 #include "campaign/shapes.hpp"
+#include "compare/table_file.hpp"
+#include "records/collider_json.hpp"
 #include "scenes/formula.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
@@ -38,12 +39,9 @@ using Surfaces = std::vector<MetSurface>;
 
 /// The rows of laws.json, with all numbers computed: tables/README.md says what they are.
 Json rows_of(const char* law) {
-  static const Json file =
-      computed(Json::parse(std::ifstream(PAPERPROOF_SOURCE_DIR "/tests/compare/tables/laws.json")), constants());
+  static const Json file = computed(read_table("laws.json"), constants());
   return file.at(law);
 }
-Vec2d vector_of(const Json& two) { return Vec2d(two.at(0), two.at(1)); }
-
 Surfaces surfaces_of(const Json& row) {
   static const std::map<std::string, bool MetSurface::*> flags{
       {"walkable", &MetSurface::walkable},   {"is_side", &MetSurface::is_side},   {"ridden", &MetSurface::ridden},
@@ -55,10 +53,10 @@ Surfaces surfaces_of(const Json& row) {
                                                                    {"spread", &MetSurface::spread}};
   Surfaces all;
   for (const Json& told : row.at("surfaces")) {
-    MetSurface& at = all.emplace_back(MetSurface{.normal = vector_of(told.at("normal"))});
+    MetSurface& at = all.emplace_back(MetSurface{.normal = point_of(told.at("normal"))});
     for (const auto& [key, value] : told.items()) {
       if (key == "velocity")
-        at.velocity = vector_of(value);
+        at.velocity = point_of(value);
       else if (key == "turning")
         at.turning = value.get<MoverIndex>();
       else if (flags.contains(key))
@@ -71,22 +69,22 @@ Surfaces surfaces_of(const Json& row) {
 }
 
 ControlledStep step_of(const Json& row) {
-  const Vec2d unsteered = vector_of(row.at("unsteered"));
+  const Vec2d unsteered = point_of(row.at("unsteered"));
   return {.wanted = unsteered + Vec2d(row.value("steering", 0.0), 0), .unsteered = unsteered};
 }
 
 void expect_outcomes(const std::vector<Vec2d>& outcomes, const Json& row) {
   const std::string what = row.at("what");
   for (const Json& made : row.value("makes", Json::array()))
-    EXPECT_LE(distance_from(outcomes, vector_of(made)), row.value("within", 1e-12)) << what;
+    EXPECT_LE(distance_from(outcomes, point_of(made)), row.value("within", 1e-12)) << what;
   for (const Json& not_made : row.value("makes_not", Json::array()))
-    EXPECT_FALSE(has(outcomes, vector_of(not_made))) << what;
+    EXPECT_FALSE(has(outcomes, point_of(not_made))) << what;
   if (row.contains("outcomes")) EXPECT_EQ(outcomes.size(), row["outcomes"]) << what;
 }
 
 TEST(FrictionlessLaw, loses_the_part_into_what_holds_relative_to_it) {
   for (const Json& row : rows_of("frictionless"))
-    expect_outcomes(frictionless_outcomes(vector_of(row.at("wanted")), surfaces_of(row)), row);
+    expect_outcomes(frictionless_outcomes(point_of(row.at("wanted")), surfaces_of(row)), row);
 }
 
 /// Between a wall and a slope of 45 degrees each round halves what is left: cos² of the angle between the normals.
@@ -128,7 +126,7 @@ TEST(ControlledLaw, makes_of_what_was_wanted) {
   for (const Json& row : rows_of("controlled")) {
     ControlledStep step = step_of(row);
     step.side_hit_ends_rise = row.value("side_hit_ends_rise", false);
-    for (const Json& side : row.value("sides", Json::array())) step.sides.push_back(vector_of(side));
+    for (const Json& side : row.value("sides", Json::array())) step.sides.push_back(point_of(side));
     expect_outcomes(controlled_outcomes(step, surfaces_of(row)), row);
   }
   // A corner of 31 and 59 degrees, gravity not along up: from rest nothing goes up the slope.
@@ -362,7 +360,7 @@ TEST(VelocityFault, names_what_is_expected) {
 
 TEST(VelocityFault, is_what_is_off_by_more_than_is_known_or_rounded) {
   for (const Json& row : rows_of("velocity_fault")) {
-    const auto fault = velocity_fault(step_of(row), surfaces_of(row), vector_of(row.at("velocity")));
+    const auto fault = velocity_fault(step_of(row), surfaces_of(row), point_of(row.at("velocity")));
     EXPECT_EQ(fault.has_value(), row.at("is_fault").get<bool>()) << row.at("what") << ": " << fault.value_or("none");
   }
 }

@@ -1,9 +1,8 @@
 #include "compare/table.hpp"
+#include "compare/table_file.hpp"
 
 #include "records/collider_json.hpp"
-#include "records/strict_json.hpp"
 #include "scenes/formula.hpp"
-#include "scenes/input_error.hpp"
 #include "scenes/write_json.hpp"
 
 #include <cmath>
@@ -11,8 +10,6 @@
 
 namespace paperproof::compare {
 namespace {
-
-const std::string folder = PAPERPROOF_SOURCE_DIR "/tests/compare/tables/";
 
 /// A word of `let` as text.
 std::string word_in(const Json& word) {
@@ -86,7 +83,7 @@ const Json& object_in(const Json& row, const char* key) {
 
 std::vector<TableDef> tests_in(const std::string& file) {
   std::vector<TableDef> tests;
-  const Json table = strict_json(read_file(folder + file, file), file);
+  const Json table = read_table(file);
   for (const Json& test : table.at("tests")) {
     const std::string name = test.at("name");
     const std::size_t dot = name.find('.');
@@ -103,7 +100,7 @@ std::vector<TableDef> tests_in(const std::string& file) {
 void check_scene_file(const SceneFiles& files, const Json& row) {
   for (const auto& [name, text] : object_in(row, "beside").items()) files.write(name, quoted(text_in(text)));
   std::string text =
-      row.contains("text") ? quoted(text_in(row["text"])) : read_file(folder + std::string(row["text_of"]), "");
+      row.contains("text") ? quoted(text_in(row["text"])) : read_file(tables + std::string(row["text_of"]), "");
   for (const auto& [from, to] : object_in(row, "change").items()) text = with(text, quoted(from), quoted(text_in(to)));
   const std::string name = row.at("file");
   if (row.contains("says")) {

@@ -125,11 +125,7 @@ Json told(const StepJudgement& one, const TraceHeader& header) {
   return all;
 }
 
-/// Of a formula, which is a number, as well.
-bool is_so(const Json& object, const char* key) {
-  const Json said = object.value(key, Json(false));
-  return said.is_boolean() ? said.get<bool>() : said != 0;
-}
+bool is_so(const Json& object, const char* key) { return paperproof::test::is_true(object.value(key, Json(false))); }
 
 using Turn = Eigen::Rotation2D<double>;
 

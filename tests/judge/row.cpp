@@ -4,13 +4,12 @@
 #include "records/trace_writer.hpp"
 #include "scenes/formula.hpp"
 #include "support/expected.hpp"
+#include "support/json_folder.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 namespace paperproof::compare::test {
@@ -116,8 +115,8 @@ Json record_of(Json said, int number, const Json& header) {
   said["path"] = path;
   said["movers"] = movers_of(said.value("movers", Json::object()), header);
   record.update(said);
-  for (const char* key : {"grounded", "jumping", "stuck", "respawn", "dropped"})  // a formula is a number
-    if (record.contains(key) && record[key].is_number()) record[key] = record[key] != 0;
+  for (const char* key : {"grounded", "jumping", "stuck", "respawn", "dropped"})
+    if (record.contains(key)) record[key] = paperproof::test::is_true(record[key]);
   for (const std::string list : {"contacts", "met"}) {
     if (!record.contains(list)) continue;
     for (Json& contact : record[list]) {
@@ -169,19 +168,9 @@ RowTrace trace_of(const RowCase& one, const std::string& contender) {
 
 std::vector<Row> read_rows(const std::string& folder) {
   std::vector<Row> rows;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    try {
-      Json file = Json::parse(std::ifstream(entry.path()));
-      const Json texts = std::move(file.at("rows"));
-      file.erase("rows");
-      for (const Json& text : texts)
-        rows.push_back({entry.path().stem().string() + "_" + text.at("name").get<std::string>(), file, text});
-    } catch (const std::exception& error) {
-      throw std::invalid_argument(entry.path().string() + ": " + error.what());
-    }
-  }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.name < b.name; });
+  paperproof::test::for_each_entry(folder, "rows", [&](const std::string& stem, const Json& file, const Json& text) {
+    rows.push_back({stem + "_" + text.at("name").get<std::string>(), file, text});
+  });
   return rows;
 }
 

@@ -3,6 +3,7 @@
 
 #include "box2d_adapter/hero_world.hpp"
 #include "records/trace.hpp"
+#include "support/expected.hpp"
 
 #include <gtest/gtest.h>
 
@@ -249,14 +250,9 @@ class Play {
     const json move = now.value("move", json(0));
     game_.listener.solved = 0;
     game_.go({.move = move.is_null() ? std::optional<double>() : move.get<double>(),
-              .jump = is_on(now, "jump"),
-              .drop = is_on(now, "drop")});
+              .jump = test::is_true(now.value("jump", json(false))),
+              .drop = test::is_true(now.value("drop", json(false)))});
     records_.push_back(record());
-  }
-  /// A button: `true`, or what a formula says.
-  static bool is_on(const json& now, const char* button) {
-    const json said = now.value(button, json(false));
-    return said.is_number() ? said != 0 : said.get<bool>();
   }
 
   [[nodiscard]] json record() const {

@@ -2,13 +2,13 @@
 
 #include "records/clause.hpp"
 #include "support/expected.hpp"
+#include "support/json_folder.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -208,22 +208,11 @@ std::vector<SituationCase> some_cases_of(const Situation& situation) {
 }
 
 std::vector<Situation> read_situations(const std::string& folder) {
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".json") paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
   std::vector<Situation> situations;
-  for (const std::filesystem::path& path : paths) {
-    try {
-      ordered_json file = ordered_json::parse(std::ifstream(path));
-      const ordered_json texts = std::move(file.at("situations"));
-      file.erase("situations");
-      for (const ordered_json& text : texts)
-        situations.push_back({.file = path.stem(), .name = text.at("name"), .text = text, .shared = file});
-    } catch (const std::exception& error) {
-      throw std::invalid_argument(path.string() + ": " + error.what());
-    }
-  }
+  for_each_entry(folder, "situations",
+                 [&](const std::string& stem, const ordered_json& file, const ordered_json& text) {
+                   situations.push_back({.file = stem, .name = text.at("name"), .text = text, .shared = file});
+                 });
   return situations;
 }
 

@@ -41,6 +41,12 @@ namespace paperproof::test {
   return {};
 }
 
+/// `true` and `false`, or what a formula says of them.
+template <class Json>
+[[nodiscard]] bool is_true(const Json& said) {
+  return said.is_number() ? said != 0 : said.template get<bool>();
+}
+
 /// @param known names between blanks.
 inline void refuse_other_keys(const nlohmann::json& object, const std::string& known, const std::string& what) {
   for (const auto& [key, value] : object.items())
