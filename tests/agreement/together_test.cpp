@@ -16,7 +16,8 @@ namespace {
 
 using stepping::Together;
 
-/// A run of the campaign's crowds, whose movers turn in some of them. There it is judged; here it is stepped.
+/// A run of one of the campaign's crowds. In some of them movers turn. The campaign judges them; this file compares
+/// steps.
 compare::RandomRun draw(std::uint64_t seed) {
   const compare::Family& family = *compare::families_named(seed % 4 == 0 ? "crowd" : "crowd_movers").front();
   compare::RandomRun run = family.draw(family.first_seed + seed);

@@ -70,9 +70,9 @@ TEST(Hero, crouches_on_a_rising_lift_before_and_after_its_step) {
   EXPECT_TRUE(game.hero.grounded());
 }
 
-/// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
-/// moved by 120 km in a frame. A wide one moved it to its edge. A press whose way was a whole number of steps
-/// overlapped the hero by rounding alone, and in the next step the hero came out from under it to its edge.
+/// A press that is turned by nearly nothing makes a wedge with the floor. It once pushed the hero 120 km in a frame; a
+/// wide press pushed the hero to the edge of the press. Where the way of a press was a whole number of steps, rounding
+/// alone made it overlap the hero, and in the next step the hero left it at its edge.
 TEST(Hero, is_squeezed_out_at_most_twice_as_fast_as_a_press_moves_or_crushed) {
   int crushed = 0;
   int squeezed = 0;

@@ -64,7 +64,7 @@ def corners_from(steps, k, first):
     return steps[k]["path"][first:] + [corner for later in steps[k + 1:] for corner in later["path"]]
 
 
-# What is done to a step: each gets all steps, its number, and what the row says.
+# These spoil a step. Each gets all steps, the number of the step, and the numbers of the row.
 
 def end_moved(steps, k, by_x, by_y):
     """The way of a step ends elsewhere, and the next begins there."""

@@ -1,5 +1,5 @@
-/// What the command writes: rows in three formats, closed pipes, and what is left of a run that was killed. Full disks,
-/// and what the command writes for other calls, are in tables/calls.json.
+/// What the command writes: rows in three formats, to a pipe that closes, and in a run that is killed.
+/// tables/calls.json has full disks and all other calls.
 #include "compare/command_workplace.hpp"
 
 #include <set>

@@ -1,5 +1,5 @@
 /// Calls that cannot be served, of every subcommand: each ends soon, with status 2, one line that is ours, and no file
-/// touched. Those whose files can be written as text are rows of tables/refused_calls.json.
+/// touched. tables/refused_calls.json has those whose files are text.
 #include "compare/command_workplace.hpp"
 #include "compare/table.hpp"
 

@@ -65,7 +65,7 @@ TEST(JudgeHanging, it_is_right_beside_random_solids) {
     std::vector<ColliderDef> solids;
     for (int k = 1 + random.below(3); k > 0; --k) {
       ColliderDef solid = polygon(star(random, random.point(1), random.between(0.2, 0.6), 3 + random.below(4)));
-      // Moved along the shortest way until it is `gap` away; what is concave may then be nearer elsewhere.
+      // It moves along the shortest way until it is `gap` away. A concave solid may then be nearer elsewhere.
       const std::vector<NearPart> parts = world({solid}).near_parts(origin, 2);
       if (parts.size() != 1) continue;
       const NearFace& face = parts.front().faces.front();

@@ -1,4 +1,4 @@
-/// Levels of SuperTux: what is no row of tables/supertux.json.
+/// Levels of SuperTux. tables/supertux.json has the other tests of them.
 #include "scenes/supertux_level.hpp"
 
 #include "compare/table.hpp"

@@ -1,4 +1,4 @@
-/// Maps of Tiled: what is no row of tables/tiled.json, as it takes more than a number; and maps that nobody here drew.
+/// Maps of Tiled that other people drew, and checks that compare more than numbers. tables/tiled.json has the others.
 #include "compare/table.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-/// Nothing fast gets through what the twin was given, whatever its thickness. What is one-way is in
-/// tests/situations/box2d.json.
+/// Nothing fast passes through a solid of the twin, of any thickness. tests/situations/box2d.json has one-way solids.
 #include "levels.hpp"
 
 #include <cmath>
