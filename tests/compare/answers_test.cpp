@@ -44,9 +44,15 @@ void check_answers(const Json& row) {
   head.path_exact = !row.value("skin", false);
   const Row found = answered(row["answers"], run, head);
   ASSERT_TRUE(found.answer_error && found.answer_ok);
-  if (row.contains("ok")) EXPECT_EQ(*found.answer_ok, row["ok"]);
-  if (row.contains("error")) EXPECT_EQ(*found.answer_error, row["error"]);
-  if (row.contains("words")) EXPECT_EQ(found.answer, row["words"]);
+  if (row.contains("ok")) {
+    EXPECT_EQ(*found.answer_ok, row["ok"]);
+  }
+  if (row.contains("error")) {
+    EXPECT_EQ(*found.answer_error, row["error"]);
+  }
+  if (row.contains("words")) {
+    EXPECT_EQ(found.answer, row["words"]);
+  }
 }
 
 const bool table = table_tests("answers.json", check_answers);

@@ -117,7 +117,9 @@ std::vector<std::string> words_of(const std::string& text) {
 /// Every call of the row is refused, once for each word of `each`.
 void check_refused(const Json& row) {
   const Workplace place;
-  if (row.contains("first")) ASSERT_EQ(place.shell(row["first"]), 0);
+  if (row.contains("first")) {
+    ASSERT_EQ(place.shell(row["first"]), 0);
+  }
   for (const auto& [name, text] : object_in(row, "files").items()) place.write(name, quoted(text_in(text)));
   for (const std::string& word : row.contains("each") ? words_of(row["each"]) : std::vector<std::string>{""})
     for (const Json& call : row.at("calls"))

@@ -15,13 +15,17 @@ void check_call(const Json& row) {
     for (const std::string& part : list("out")) EXPECT_TRUE(holds(finished.out, part)) << call;
     for (const std::string& part : list("not_out")) EXPECT_FALSE(holds(finished.out, part)) << call;
     EXPECT_TRUE(holds(finished.err, row.value("says", ""))) << call;
-    if (row.contains("err")) EXPECT_EQ(finished.err, row["err"]) << call;
+    if (row.contains("err")) {
+      EXPECT_EQ(finished.err, row["err"]) << call;
+    }
     if (!row.contains("row") && !row.contains("reason") && !row.contains("not_reason")) continue;
     const Json last = Json::parse(finished.out).at("rows").back();
     for (const auto& [key, value] : object_in(row, "row").items()) EXPECT_EQ(last.value(key, Json()), value) << last;
     const std::string reason = quoted(last.value("reason", ""));
     EXPECT_TRUE(holds(reason, quoted(row.value("reason", "")))) << last;
-    if (row.contains("not_reason")) EXPECT_FALSE(holds(reason, row["not_reason"].get<std::string>()));
+    if (row.contains("not_reason")) {
+      EXPECT_FALSE(holds(reason, row["not_reason"].get<std::string>()));
+    }
   }
 }
 

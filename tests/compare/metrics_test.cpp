@@ -139,7 +139,9 @@ TEST(Metrics, of_a_run_that_was_made_up_are_those_of_its_row) {
         else
           EXPECT_EQ(found, expected) << text["what"] << ": " << key;
       }
-      if (told.contains("words")) EXPECT_EQ(row.first_tunnel.value().words, told["words"]);
+      if (told.contains("words")) {
+        EXPECT_EQ(row.first_tunnel.value().words, told["words"]);
+      }
     }
   }
 }

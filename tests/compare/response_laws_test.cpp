@@ -79,7 +79,9 @@ void expect_outcomes(const std::vector<Vec2d>& outcomes, const Json& row) {
     EXPECT_LE(distance_from(outcomes, point_of(made)), row.value("within", 1e-12)) << what;
   for (const Json& not_made : row.value("makes_not", Json::array()))
     EXPECT_FALSE(has(outcomes, point_of(not_made))) << what;
-  if (row.contains("outcomes")) EXPECT_EQ(outcomes.size(), row["outcomes"]) << what;
+  if (row.contains("outcomes")) {
+    EXPECT_EQ(outcomes.size(), row["outcomes"]) << what;
+  }
 }
 
 TEST(FrictionlessLaw, loses_the_part_into_what_holds_relative_to_it) {

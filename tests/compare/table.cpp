@@ -109,7 +109,7 @@ void check_scene_file(const SceneFiles& files, const Json& row) {
   }
   const Scene scene = files.load(name, text);
   EXPECT_EQ(Json(scene.notes), row.value("notes", Json::array()));
-  if (row.contains("solids")) {  // without braces g++ warns where it compiles this file alone
+  if (row.contains("solids")) {
     EXPECT_EQ(solids_of(scene), row["solids"]);
   }
   const Json seen = seen_in(scene);
