@@ -77,9 +77,10 @@ inline std::string rows_in(const std::string& text) { return text.substr(text.fi
 class Workplace : public SceneFiles {
  public:
   Workplace() {}  // without it clang refuses `const Workplace place;`
-  /// The status of a line of shell code in the folder.
+  /// The status of a line of shell code in the folder. There $SOURCES is the folder of this project.
   [[nodiscard]] int shell(const std::string& line) const {
-    const int raw = std::system(("cd '" + path("") + "' && " + line).c_str());
+    const std::string begin = "export SOURCES='" PAPERPROOF_SOURCE_DIR "' && cd '" + path("") + "' && ";
+    const int raw = std::system((begin + line).c_str());
     return WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
   }
   /// @param arguments as typed in a shell, where its output may be sent elsewhere. @param before what stands before the

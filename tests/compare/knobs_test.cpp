@@ -1,4 +1,4 @@
-/// The knobs of the command line: who has which, and what cannot be one.
+/// The knobs of the command line: who has which. tables/refused_calls.json has what cannot be one.
 #include "runs/knobs.hpp"
 #include "compare/scene_runs.hpp"
 #include "runs/technique_parts.hpp"
@@ -54,16 +54,6 @@ TEST(Knobs, change_each_technique_that_has_them_on_some_scene) {
   }
 }
 
-TEST(Iterations, below_the_usual_do_not_promise_what_takes_several_impacts) {
-  for (const auto& [text, clauses] : {std::pair{"iterations=12", 21U}, {"iterations=1", 17U}}) {
-    RunOptions options = alone("octagon_sweep", 1);
-    options.knobs = {parse_knob(text)};
-    const ReportScene result = run_scene(built_in("climb45_3m"), options);
-    EXPECT_EQ(result.runs.front().header.guarantees.size(), clauses) << text;
-    EXPECT_EQ(result.rows.front().verdict, clauses == 21 ? Verdict::holds : Verdict::flagged) << text;
-  }
-}
-
 TEST(JumpRules, are_decided_by_the_knob_then_by_the_scene_then_by_who_it_is) {
   const std::vector<KnobSetting> on{parse_knob("jump_rules=on")};
   const std::vector<KnobSetting> off{parse_knob("jump_rules=off")};
@@ -83,16 +73,6 @@ TEST(JumpRules, are_decided_by_the_knob_then_by_the_scene_then_by_who_it_is) {
   scene.jump_rules = {.no_jump_toward_wall = false};
   EXPECT_EQ(in_force("speculative", {}), 0.5) << "the scene speaks of one of the two";
   EXPECT_FALSE(rules_for(*find_technique("speculative"), scene).no_jump_toward_wall);
-  EXPECT_THROW(check_knob(parse_knob("jump_rules=1"), "grid"), std::invalid_argument);
-}
-
-/// The command refuses more.
-TEST(Knobs, without_such_a_value_are_refused) {
-  for (const char* text : {"unit=1m", "unit= 1", "iterations=1.5", "pairs=some", "response="})
-    EXPECT_THROW(check_knob(parse_knob(text), "speculative"), std::invalid_argument) << text;
-  EXPECT_THROW(check_knob(parse_knob("iterations=61"), "octagon_sweep"), std::invalid_argument);
-  EXPECT_NO_THROW(check_knob(parse_knob("iterations=61"), "speculative"));
-  EXPECT_THROW(check_knob(parse_knob("raster_pixels_per_metre=1001"), "mask"), std::invalid_argument);
 }
 
 }  // namespace

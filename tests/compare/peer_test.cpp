@@ -50,17 +50,6 @@ TEST_F(Peer, that_stops_at_nothing_passes_paper_wherever_it_runs_and_its_command
   EXPECT_EQ(passed, 2);
 }
 
-TEST_F(Peer, is_asked_when_it_meets_something_only_where_it_names_contacts) {
-  runs("compare thin_platform --contender octagon_sweep --no-reference --no-timing --trace t");
-  const auto row_without = [&](const std::string& what) {
-    const std::string file = "tests/compare/parrot.py t.thin_platform.octagon_sweep.double.jsonl ";
-    return last_row(runs("compare thin_platform --json" + std::string(alone) + command_of(file + what)));
-  };
-  EXPECT_EQ(row_without("")["verdict"], "holds");
-  EXPECT_EQ(row_without("contacts")["verdict"], "holds");
-  EXPECT_EQ(row_without("fraction")["reason"], "step 4: a contact of the peer has no fraction, and its way is exact");
-}
-
 TEST_F(Peer, has_a_slope_of_its_error_and_no_time) {
   const Finished told =
       runs("work-precision flight --contender octagon_sweep --rows r.jsonl" + command_of("compare/peers/straight.py"));
