@@ -86,32 +86,6 @@ TEST(WorkPrecision, steps_err_by_the_formula_and_contenders_from_them_by_their_g
   EXPECT_THROW((void)study_work_precision({"fligt"}, {}, {}), std::invalid_argument);
 }
 
-TEST(Front, is_who_has_less_error_for_less_time) {
-  const auto row = [](const char* who, double dt, double error, double ns) {
-    Row made;
-    made.contender = who;
-    made.parameters = {{"dt_s", dt}};
-    made.error_max_m = error;
-    made.ns_per_step = ns;
-    return made;
-  };
-  // Times per second of motion: 1000, 2000, 4000, 4000, one that has no time, and one beyond a limit.
-  std::vector<Row> rows{row("mask", 0.1, 0.5, 100),      row("octagon_sweep", 0.1, 0.5, 200),
-                        row("discrete", 0.05, 0.1, 200), row("wind_back", 0.05, 0.2, 200),
-                        row("grid", 0.1, 0, 0),          row("box2d", 0.1, 0, 1)};
-  rows[4].ns_per_step.reset();
-  rows[5].reason = "progress: hangs; validity: beyond a limit";
-  mark_front(rows);
-  std::vector<std::optional<bool>> front;
-  for (const Row& one : rows) front.push_back(one.on_front);
-  EXPECT_EQ(front, (std::vector<std::optional<bool>>{true, false, true, false, {}, {}}));
-  EXPECT_EQ(
-      words_of_front("fall", rows),
-      "fall: on the front: mask, discrete. octagon_sweep is not: where its error is least, 0.5 m, mask has 0.5 m in "
-      "50 % of the time. Both make the same motion there, and a step without the sweep of the whole octagon costs "
-      "less (100 ns against 200 ns).");
-}
-
 /// A frame of four substeps is four steps of a quarter: bit for bit.
 TEST(Substeps, are_steps_of_their_own_within_one_of_the_scene) {
   const Motion& level = motions().back();
