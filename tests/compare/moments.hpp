@@ -1,7 +1,9 @@
 /// Synthetic runs for tests of what is measured: nothing moves but what a test says.
 #pragma once
 
+#include "metrics/answers.hpp"
 #include "oracle/judge.hpp"
+#include "records/row.hpp"
 #include "records/trace.hpp"
 
 #include <utility>
@@ -38,6 +40,15 @@ inline Moment moment(int number, std::vector<Contact> contacts = {}, std::vector
   moment.step.contacts = std::move(contacts);
   moment.judged.contacts = std::move(truth);
   return moment;
+}
+
+/// The row of a run that is asked for answers.
+inline Row answered(const std::vector<Answer>& answers, const std::vector<TraceStep>& run, const TraceHeader& head) {
+  AnswerCheck check(answers, head);
+  for (const TraceStep& step : run) check.add(step);
+  Row row;
+  check.write(row);
+  return row;
 }
 
 }  // namespace paperproof::compare

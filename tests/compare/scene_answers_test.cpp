@@ -1,8 +1,7 @@
 /// The exact answers of the registered scenes: octagon_sweep meets them, and a run which does something else does not.
 /// known_and_open_test.py asks the same of octagon_sweep in the scenes that take long.
+#include "compare/moments.hpp"
 #include "compare/scene_runs.hpp"
-
-#include "metrics/answers.hpp"
 
 #include <algorithm>
 
@@ -20,6 +19,12 @@ Scene shortened(const std::string& name) {
 
 /// All steps of octagon_sweep in double, and its row.
 ReportScene ran(const Scene& scene) { return run_scene(scene, alone("octagon_sweep", most_steps)); }
+
+std::vector<TraceStep> steps_of_all(const ReportRun& run) {
+  std::vector<TraceStep> all = run.steps;
+  for (const std::vector<TraceStep>& other : run.others) all.insert(all.end(), other.begin(), other.end());
+  return all;
+}
 
 TEST(Answers, ask_of_steps_that_the_run_has) {
   for (const BuiltInScene& entry : built_in_scenes()) {
@@ -66,8 +71,7 @@ TEST(Answers, are_met_by_octagon_sweep_and_each_missed_by_a_run_that_does_someth
       EXPECT_EQ(row.verdict, Verdict::holds) << name << ": " << row.reason;
     }
     const ReportRun& run = result.runs.at(0);
-    std::vector<TraceStep> all = run.steps;
-    for (const std::vector<TraceStep>& other : run.others) all.insert(all.end(), other.begin(), other.end());
+    const std::vector<TraceStep> all = steps_of_all(run);
     std::vector<std::vector<TraceStep>> spoilt(7, all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       move_off(spoilt[0][i], 1);
@@ -80,11 +84,7 @@ TEST(Answers, are_met_by_octagon_sweep_and_each_missed_by_a_run_that_does_someth
     }
     for (const Answer& answer : scene.answers) {
       const bool missed = std::any_of(spoilt.begin(), spoilt.end(), [&](const std::vector<TraceStep>& steps) {
-        AnswerCheck check({answer}, run.header);
-        for (const TraceStep& step : steps) check.add(step);
-        Row told;
-        check.write(told);
-        return told.answer_ok == false;
+        return answered({answer}, steps, run.header).answer_ok == false;
       });
       EXPECT_TRUE(missed) << name << ", answer " << (&answer - scene.answers.data());
     }
@@ -97,13 +97,7 @@ TEST(Answers, of_a_room_are_as_narrow_as_the_room) {
   const ReportRun run = ran(scene).runs.at(0);
   for (Answer answer : scene.answers) {
     answer.at_most -= 1e-3;
-    AnswerCheck check({answer}, run.header);
-    for (const TraceStep& step : run.steps) check.add(step);
-    for (const std::vector<TraceStep>& other : run.others)
-      for (const TraceStep& step : other) check.add(step);
-    Row row;
-    check.write(row);
-    EXPECT_EQ(row.answer_ok, false) << answer.along.transpose();
+    EXPECT_EQ(answered({answer}, steps_of_all(run), run.header).answer_ok, false) << answer.along.transpose();
   }
 }
 
