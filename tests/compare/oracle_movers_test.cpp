@@ -68,20 +68,6 @@ TEST(ExactMovers, head_on_they_meet_at_the_distance_over_the_sum_of_the_speeds) 
     }
 }
 
-TEST(ExactMovers, one_ulp_to_either_side_of_touching_a_lift_decides) {
-  const ExactScenery there = world({box(-1, -1, 1, 0, 0)});
-  const Motions movers{{{0, 0.1}, {0, 0.7}}};
-  // At a quarter the lift's top is at 0.1 + 0.25 (0.7 - 0.1), which no double holds; the octagon stands on it where
-  // its position is above that by 0.625.
-  const Exact top = Exact(0.1) + Exact(0.25) * (Exact(0.7) - Exact(0.1)) + Exact(0.625);
-  double above = static_cast<double>(top);
-  while (Exact(above) < top) above = one_ulp_up(above);
-  while (Exact(one_ulp_down(above)) >= top) above = one_ulp_down(above);
-  EXPECT_EQ(there.overlapped(Place({0, above}, movers, 0.25)), Colliders{});
-  for (const auto& [at, fraction] : {std::pair{above, 0.25}, {0.1 + 0.625, 0.0}, {0.7 + 0.625, 1.0}})
-    EXPECT_EQ(there.overlapped(Place({0, one_ulp_down(at)}, movers, fraction)), Colliders{0}) << fraction;
-}
-
 TEST(ExactMovers, without_motions_every_mover_is_at_offset_zero_and_too_few_are_refused) {
   const ExactScenery there = world({box(-1, -1, 1, 0, 1), box(5, 0, 6, 1)});
   EXPECT_EQ(there.overlapped({0, 0.5}), Colliders{0});

@@ -135,11 +135,5 @@ TEST(ExactScenery, near_finds_the_boxes_within_reach) {
   EXPECT_EQ(there.near({0, 1}, {9, 1}, 1), (Colliders{0, 1}));
 }
 
-TEST(ExactScenery, pixel_positions_need_no_exact_arithmetic) {
-  const ExactScenery there = world({box(0, -1, 1, 0), box(1, -1, 2, 0), box(2, -1, 3, 0)});
-  for (int i = 0; i < 64; ++i) EXPECT_EQ(there.overlapped({i / 32.0, 0.625}), Colliders{});
-  EXPECT_EQ(there.rational_decisions(), 0U);
-}
-
 }  // namespace
 }  // namespace paperproof::compare::test
