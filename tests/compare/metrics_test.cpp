@@ -14,38 +14,31 @@
 #include <functional>
 #include <map>
 
-namespace paperproof::compare {
-namespace {
-
-using Touches = std::vector<std::pair<ColliderIndex, Side>>;
+namespace paperproof {
 
 const std::map<std::string, Side> sides{
     {"left", Side::left}, {"right", Side::right}, {"top", Side::top}, {"bottom", Side::bottom}};
-const std::map<std::string, bool TraceStep::*> flags{{"stuck", &TraceStep::stuck}, {"grounded", &TraceStep::grounded}};
-const std::map<std::string, std::vector<ColliderIndex> StepJudgement::*> colliders{
-    {"end_overlap", &StepJudgement::end_overlap}, {"drawn", &StepJudgement::drawn},
-    {"pressed", &StepJudgement::pressed},         {"tunnelled", &StepJudgement::tunnelled},
-    {"clipped", &StepJudgement::clipped},         {"crushed", &StepJudgement::crushed},
-    {"dont_care", &StepJudgement::dont_care},     {"crushed_with_room", &StepJudgement::crushed_with_room}};
-const std::map<std::string, Touches StepJudgement::*> touches{{"contact_band", &StepJudgement::contact_band},
-                                                              {"deflected", &StepJudgement::deflected},
-                                                              {"ghosts", &StepJudgement::ghosts}};
-const std::map<std::string, bool StepJudgement::*> judged_flags{
-    {"stuck_refuted", &StepJudgement::stuck_refuted},
-    {"ground_refuted", &StepJudgement::ground_refuted},
-    {"hovers", &StepJudgement::hovers},
-    {"excused_crush", &StepJudgement::excused_crush},
-    {"ground_late", &StepJudgement::ground_late},
-    {"beside_another", &StepJudgement::beside_another},
-    {"first_impact_comparable", &StepJudgement::first_impact_comparable}};
-const std::map<std::string, double StepJudgement::*> numbers{{"clipped_depth", &StepJudgement::clipped_depth},
-                                                             {"ghost_speed_loss", &StepJudgement::ghost_speed_loss},
-                                                             {"motion_wanted", &StepJudgement::motion_wanted},
-                                                             {"motion_lost", &StepJudgement::motion_lost}};
+inline void from_json(const nlohmann::json& name, Side& side) { side = sides.at(name); }
+inline void to_json(nlohmann::json& name, Side side) { name = compare::name_of(side); }
+
+namespace compare {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Passing, collider, speed, thickness, angle)
+/// What a row may say of what the judge made of a step, but for `others`.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(StepJudgement, end_overlap, drawn, pressed, tunnelled, passings,
+                                                clipped, clipped_depth, crushed, crushed_with_room, excused_crush,
+                                                dont_care, contact_band, deflected, ghosts, first_impact_comparable,
+                                                hovers, motion_wanted, motion_lost, stuck_refuted, ground_refuted,
+                                                ground_late, ghost_speed_loss, beside_another)
+
+namespace {
 
 /// What else may be so in a step, or may have been made of it.
 const std::map<std::string, std::function<void(const Json&, TraceStep&, StepJudgement&)>> others{
     {"times", [](const Json&, TraceStep&, StepJudgement&) {}},
+    {"stuck", [](const Json& said, TraceStep& step, StepJudgement&) { step.stuck = said; }},
+    {"grounded",
+     [](const Json& said, TraceStep& step, StepJudgement&) { step.grounded = paperproof::test::is_true(said); }},
     {"at", [](const Json& at, TraceStep& step, StepJudgement&) { step.path.back().position = point_of(at); }},
     {"path",
      [](const Json& corners, TraceStep& step, StepJudgement&) {
@@ -72,32 +65,15 @@ const std::map<std::string, std::function<void(const Json&, TraceStep&, StepJudg
      [](const Json& all, TraceStep&, StepJudgement& judged) {
        for (const Json& one : all) judged.contacts.push_back(exact(one.at(0), sides.at(one.at(1))));
      }},
-    {"first_impact", [](const Json& at, TraceStep&, StepJudgement& judged) { judged.first_impact = at.get<double>(); }},
-    {"passings", [](const Json& all, TraceStep&, StepJudgement& judged) {
-       for (const Json& one : all)
-         judged.passings.push_back({.collider = one.at("collider"),
-                                    .speed = one.value("speed", 0.0),
-                                    .thickness = one.value("thickness", 0.0),
-                                    .angle = one.value("angle", 0.0)});
-     }}};
+    {"first_impact",
+     [](const Json& at, TraceStep&, StepJudgement& judged) { judged.first_impact = at.get<double>(); }}};
 
 Moment moment_of(const Json& told) {
+  static const nlohmann::json plain = StepJudgement();
   Moment made = moment(0);
-  for (const auto& [key, value] : told.items()) {
-    if (flags.contains(key)) {
-      made.step.*flags.at(key) = paperproof::test::is_true(value);
-    } else if (judged_flags.contains(key)) {
-      made.judged.*judged_flags.at(key) = paperproof::test::is_true(value);
-    } else if (numbers.contains(key)) {
-      made.judged.*numbers.at(key) = value;
-    } else if (colliders.contains(key)) {
-      made.judged.*colliders.at(key) = value.get<std::vector<ColliderIndex>>();
-    } else if (touches.contains(key)) {
-      for (const Json& one : value) (made.judged.*touches.at(key)).emplace_back(one.at(0), sides.at(one.at(1)));
-    } else {
-      others.at(key)(value, made.step, made.judged);
-    }
-  }
+  made.judged = nlohmann::json(told).get<StepJudgement>();
+  for (const auto& [key, value] : told.items())
+    if (!plain.contains(key)) others.at(key)(value, made.step, made.judged);
   return made;
 }
 
@@ -147,4 +123,5 @@ TEST(Metrics, of_a_run_that_was_made_up_are_those_of_its_row) {
 }
 
 }  // namespace
-}  // namespace paperproof::compare
+}  // namespace compare
+}  // namespace paperproof
