@@ -1,7 +1,6 @@
 /// What is timed: who steps when, and where from. The times themselves are no matter for tests.
 #include "runs/cost.hpp"
 #include "compare/scene_runs.hpp"
-#include "runs/input_cursor.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -57,21 +56,13 @@ TEST(Cost, box2d_alone_goes_the_way_of_the_run) {
     const Scene scene = built_in(name);
     const Scenery scenery(scene.scenery);
     const auto twin = make_contender("box2d", ScalarKind::binary64, scene, scenery);
-    const Script script = script_of(scene);
-    InputCursor cursor(scene, script);
-    std::vector<Vec2d> way;
     ASSERT_TRUE(twin->keep_wishes(true));
-    for (int step = 0; step < scene.steps; ++step) {
-      twin->step_unrecorded(cursor.at(step));
-      way.push_back(twin->pose().position);
-    }
+    const std::vector<Vec2d> way =
+        way_of(*twin, scene, [&](const StepInput& now, std::size_t) { twin->step_unrecorded(now); });
     twin->keep_wishes(false);
     place_at_start(*twin, scene);
-    InputCursor again(scene, script);
-    for (int step = 0; step < scene.steps; ++step) {
-      twin->step_bare(again.at(step), static_cast<std::size_t>(step));
-      ASSERT_EQ(twin->pose().position, way[static_cast<std::size_t>(step)]) << name << ", step " << step;
-    }
+    EXPECT_EQ(way_of(*twin, scene, [&](const StepInput& now, std::size_t step) { twin->step_bare(now, step); }), way)
+        << name;
   }
 }
 

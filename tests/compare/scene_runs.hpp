@@ -2,6 +2,8 @@
 #pragma once
 
 #include "compare/scene_files.hpp"
+#include "runs/contender.hpp"
+#include "runs/input_cursor.hpp"
 #include "runs/run.hpp"
 
 #include <gtest/gtest.h>
@@ -40,6 +42,18 @@ inline const ReportRun& run_of(const ReportScene& result, std::string_view conte
     if (run.header.contender == contender) return run;
   ADD_FAILURE() << contender << " has no replay";
   return none;
+}
+
+/// Where a contender is at the end of each step. @param make_step calls it with what is so in a step, and its number.
+inline std::vector<Vec2d> way_of(const Contender& contender, const Scene& scene, const auto& make_step) {
+  const Script script = script_of(scene);
+  InputCursor cursor(scene, script);
+  std::vector<Vec2d> way;
+  for (int step = 0; step < scene.steps; ++step) {
+    make_step(cursor.at(step), static_cast<std::size_t>(step));
+    way.push_back(contender.pose().position);
+  }
+  return way;
 }
 
 /// Nothing but a block that is never reached: whoever is here flies.

@@ -1,8 +1,7 @@
 /// Studies of time: what a step costs for its error, and among how many pieces.
 #include "studies/work_precision.hpp"
 
-#include "runs/contender.hpp"
-#include "runs/input_cursor.hpp"
+#include "compare/scene_runs.hpp"
 #include "studies/front.hpp"
 #include "studies/motions.hpp"
 #include "studies/scale.hpp"
@@ -90,19 +89,15 @@ TEST(WorkPrecision, steps_err_by_the_formula_and_contenders_from_them_by_their_g
 TEST(Substeps, are_steps_of_their_own_within_one_of_the_scene) {
   const Motion& level = motions().back();
   ASSERT_EQ(level.name, "level");
-  const auto run = [&](double dt, const std::vector<KnobSetting>& knobs, int every) {
+  const auto run = [&](double dt, const std::vector<KnobSetting>& knobs, std::size_t every) {
     const Scene scene = scene_of(level, dt);
-    const Script script = script_of(scene);
     const Scenery scenery(scene.scenery);
     const auto contender = make_contender("box2d", ScalarKind::binary32, scene, scenery, {.knobs = knobs});
-    InputCursor cursor(scene, script);
     std::vector<TraceStep> records(1);
+    const std::vector<Vec2d> way =
+        way_of(*contender, scene, [&](const StepInput& now, std::size_t) { contender->step(now, records); });
     std::vector<Vec2d> places;
-    for (int step = 0; step < scene.steps; ++step) {
-      records.front() = {};
-      contender->step(cursor.at(step), records);
-      if (step % every == every - 1) places.push_back(records.front().path.back().position);
-    }
+    for (std::size_t step = every - 1; step < way.size(); step += every) places.push_back(way[step]);
     return places;
   };
   const std::vector<Vec2d> coarse = run(1.0 / 60, {{"substeps", "4"}}, 1);
