@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <numeric>
+#include <tuple>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -133,12 +133,7 @@ Question with_a_disc(Random& random) {
 }
 
 TEST(SecondMeeting, agrees_with_the_first) {
-  struct Family {
-    const char* name;
-    std::uint64_t seed;
-    int rounds;
-    std::function<Question(Random&)> make;
-  };
+  using Family = std::tuple<const char*, std::uint64_t, int, Question (*)(Random&)>;
   for (const auto& [name, seed, all_rounds, make] :
        {Family{"at random", 28, 4000, at_random}, Family{"on a grid", 29, 4000, on_a_grid},
         Family{"grazing", 30, 1500, grazing}, Family{"discs", 31, 3000, with_a_disc}}) {

@@ -22,18 +22,6 @@ TraceHeader header(bool box2d) {
   return made;
 }
 
-/// A step by `way` of which `made` is made.
-TraceStep step(const Vec2d& from, const Vec2d& way, const Vec2d& made, std::vector<Contact> contacts = {}) {
-  TraceStep one = test::step({from, from + made}, way, std::move(contacts));
-  one.velocity = made / dt;
-  return one;
-}
-
-Contact touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& point, double fraction = 0) {
-  const Side side = side_of_normal(normal.x(), normal.y());
-  return {.collider = collider, .point = point, .normal = normal, .fraction = fraction, .side = side};
-}
-
 /// Steps of the two sides, both judged by exact arithmetic, and the ledger of what they disagree about.
 class Ledgers {
  public:
@@ -77,16 +65,16 @@ std::string found_in(const Ledger& ledger) {
 TraceStep step_of(const Json& told) {
   const Vec2d way = point_of(told.at("way"));
   const Vec2d made = told.contains("made") ? point_of(told["made"]) : way;
-  TraceStep one = step(point_of(told.at("from")), way, made);
-  for (const Json& touched : told.value("contacts", Json::array()))
-    one.contacts.push_back(touch(touched.at("with"), point_of(touched.at("normal")), point_of(touched.at("at")),
-                                 touched.value("fraction", 0.0)));
+  const Vec2d from = point_of(told.at("from"));
+  TraceStep one = step({from, from + made}, way);
+  one.velocity = made / dt;
+  for (const Json& touched : told.value("contacts", Json::array())) {
+    one.contacts.push_back(contact(touched.at("with"), point_of(touched.at("normal")), touched.value("fraction", 0.0)));
+    one.contacts.back().point = point_of(touched.at("at"));
+  }
   if (told.contains("met")) {
-    const Vec2d normal = point_of(told["met"].at("normal"));
-    one.met.push_back({.other = 1,
-                       .normal = normal,
-                       .fraction = told["met"].at("fraction"),
-                       .side = side_of_normal(normal.x(), normal.y())});
+    const Contact touched = contact(0, point_of(told["met"].at("normal")), told["met"].at("fraction"));
+    one.met.push_back({.other = 1, .normal = touched.normal, .fraction = touched.fraction, .side = touched.side});
   }
   one.capped = told.value("capped", false);
   if (told.contains("stays_from"))

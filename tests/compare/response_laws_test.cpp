@@ -18,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace paperproof::compare {
@@ -43,27 +44,21 @@ Json rows_of(const char* law) {
   return file.at(law);
 }
 Surfaces surfaces_of(const Json& row) {
-  static const std::map<std::string, bool MetSurface::*> flags{
-      {"walkable", &MetSurface::walkable},   {"is_side", &MetSurface::is_side},   {"ridden", &MetSurface::ridden},
-      {"is_beside", &MetSurface::is_beside}, {"past_rim", &MetSurface::past_rim}, {"returned", &MetSurface::returned},
-      {"climbs", &MetSurface::climbs}};
-  static const std::map<std::string, double MetSurface::*> numbers{{"met", &MetSurface::met},
-                                                                   {"left", &MetSurface::left},
-                                                                   {"stands_at", &MetSurface::stands_at},
-                                                                   {"spread", &MetSurface::spread}};
+  using Member = std::variant<bool MetSurface::*, double MetSurface::*, Vec2d MetSurface::*>;
+  static const std::map<std::string, Member> members{
+      {"normal", &MetSurface::normal},     {"velocity", &MetSurface::velocity}, {"walkable", &MetSurface::walkable},
+      {"is_side", &MetSurface::is_side},   {"ridden", &MetSurface::ridden},     {"is_beside", &MetSurface::is_beside},
+      {"past_rim", &MetSurface::past_rim}, {"returned", &MetSurface::returned}, {"climbs", &MetSurface::climbs},
+      {"met", &MetSurface::met},           {"left", &MetSurface::left},         {"stands_at", &MetSurface::stands_at},
+      {"spread", &MetSurface::spread}};
   Surfaces all;
   for (const Json& told : row.at("surfaces")) {
     MetSurface& at = all.emplace_back(MetSurface{.normal = point_of(told.at("normal"))});
-    for (const auto& [key, value] : told.items()) {
-      if (key == "velocity")
-        at.velocity = point_of(value);
-      else if (key == "turning")
+    for (const auto& [key, value] : told.items())
+      if (key == "turning")
         at.turning = value.get<MoverIndex>();
-      else if (flags.contains(key))
-        at.*flags.at(key) = value;
-      else if (key != "normal")
-        at.*numbers.at(key) = value;
-    }
+      else
+        std::visit([&at, &said = value](auto member) { said.get_to(at.*member); }, members.at(key));
   }
   return all;
 }
