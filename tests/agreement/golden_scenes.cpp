@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace paperproof::golden {
@@ -54,10 +53,8 @@ ColliderDef random_paper(Random& random, const Vec2d& at) {
   return papers[random.below(4)];
 }
 
-using MakePiece = std::function<ColliderDef(Random&, const Vec2d&)>;
-
 Scene make_scene(const std::string& name, const Vec2d& origin, std::uint64_t seed, int pieces,
-                 const MakePiece& make_piece) {
+                 ColliderDef (*make_piece)(Random&, const Vec2d&)) {
   Scene scene{name, origin, {}, {}};
   std::vector<ColliderDef>& colliders = scene.scenery.colliders;
   colliders.push_back(box(origin - Vec2d(1, 1), arena_width + 2, 1));

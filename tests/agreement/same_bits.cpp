@@ -16,17 +16,10 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+namespace paperproof::golden {
 namespace {
-
-using paperproof::Vec2d;
-using paperproof::golden::arena_height;
-using paperproof::golden::arena_width;
-using paperproof::golden::make_scenes;
-using paperproof::golden::Random;
-using paperproof::golden::Scene;
 
 constexpr int steps_per_run = 5000;
 constexpr int first_steps = 1000;  ///< Hashed apart.
@@ -35,61 +28,34 @@ constexpr double dt = 1.0 / 60;
 
 class Hash {
  public:
-  template <class Value>
-  void add(Value value) {
-    if constexpr (std::is_same_v<Value, double>) {
-      add_bits(std::bit_cast<std::uint64_t>(value));
-    } else {
-      add_bits(static_cast<std::uint64_t>(value));
-    }
-  }
-  void add(const paperproof::Vec2d& value) {
-    add(value.x());
-    add(value.y());
+  /// One after the other.
+  template <class... Values>
+  void add(const Values&... values) {
+    (add_one(values), ...);
   }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:
+  void add_one(const Vec2d& value) { add(value.x(), value.y()); }
+  void add_one(double value) { add_one(std::bit_cast<std::uint64_t>(value)); }
   // FNV-1a, byte by byte (Fowler, Noll, Vo; draft-eastlake-fnv).
-  void add_bits(std::uint64_t bits) {
+  void add_one(auto value) {
+    auto bits = static_cast<std::uint64_t>(value);
     for (int byte = 0; byte < 8; ++byte, bits >>= 8) value_ = (value_ ^ (bits & 0xff)) * 0x100000001b3U;
   }
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-void add_step(Hash& hash, const paperproof::CharacterState& state, const paperproof::StepReport& report) {
-  hash.add(state.position);
-  hash.add(state.velocity);
-  hash.add(state.last_free);
-  for (const bool flag : {state.has_last_free, state.grounded, state.jumping, state.jump_held, state.jump_pending,
-                          state.wall_left, state.wall_right}) {
-    hash.add(flag);
-  }
-  hash.add(state.stuck_steps);
-  hash.add(report.status);
-  hash.add(report.requested);
-  for (const paperproof::PathPoint& corner : report.move.path) {
-    hash.add(corner.position);
-    hash.add(corner.fraction);
-  }
-  for (const paperproof::Contact& contact : report.move.contacts) {
-    hash.add(contact.collider);
-    hash.add(contact.point);
-    hash.add(contact.normal);
-    hash.add(contact.fraction);
-    hash.add(contact.separation);
-    hash.add(contact.side);
-  }
-  hash.add(state.crushed);
-  hash.add(state.ride.ground);
-  hash.add(state.ride.place);
-  hash.add(state.ride.velocity);
-  for (const paperproof::ColliderIndex collider : report.move.crushed) hash.add(collider);
-  for (const paperproof::SensorEvent& event : report.sensors) {
-    hash.add(event.sensor);
-    hash.add(event.change);
-    hash.add(event.fraction);
-  }
+void add_step(Hash& hash, const CharacterState& state, const StepReport& report) {
+  hash.add(state.position, state.velocity, state.last_free, state.has_last_free, state.grounded, state.jumping,
+           state.jump_held, state.jump_pending, state.wall_left, state.wall_right, state.stuck_steps);
+  hash.add(report.status, report.requested);
+  for (const PathPoint& corner : report.move.path) hash.add(corner.position, corner.fraction);
+  for (const Contact& contact : report.move.contacts)
+    hash.add(contact.collider, contact.point, contact.normal, contact.fraction, contact.separation, contact.side);
+  hash.add(state.crushed, state.ride.ground, state.ride.place, state.ride.velocity);
+  for (const ColliderIndex collider : report.move.crushed) hash.add(collider);
+  for (const SensorEvent& event : report.sensors) hash.add(event.sensor, event.change, event.fraction);
 }
 
 struct RunResult {
@@ -98,16 +64,16 @@ struct RunResult {
   int steps_with_contact = 0;
 };
 
-paperproof::CharacterDef character_def() { return {.snap = 0.25}; }
+const CharacterDef character{.snap = 0.25};
 
-paperproof::CharacterState shot(Random& random, const Scene& scene) {
-  paperproof::CharacterState state;
+CharacterState shot(Random& random, const Scene& scene) {
+  CharacterState state;
   state.position = random.point(scene.origin, scene.origin + Vec2d(arena_width, arena_height));
   state.velocity = random.point({-200, -200}, {200, 200});
   return state;
 }
 
-paperproof::Input any_input(Random& random) {
+Input any_input(Random& random) {
   return {.move = static_cast<double>(random.below(5)) / 2 - 1, .jump = random.below(3) == 0};
 }
 
@@ -115,17 +81,14 @@ paperproof::Input any_input(Random& random) {
 /// @param make one step of all: it adds to the hash what came of it. @return whether there was a contact.
 template <class Make>
 RunResult make_steps(const Scene& scene, int steps, int first, const Make& make) {
-  std::vector<paperproof::MoverMotion> motions(scene.shuttles.size());
+  std::vector<MoverMotion> motions(scene.shuttles.size());
   Hash hash;
   RunResult result;
   for (int step = 0; step < steps; ++step) {
     if (step == first) result.first_hash = hash.value();
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      motions[i].from = scene.shuttles[i].offset_at(step * dt);
-      motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt);
-    }
-    const paperproof::StepContext context{{0.0, -30.0}, double(dt), motions};
-    if (make(step, context, hash)) ++result.steps_with_contact;
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      motions[i] = {scene.shuttles[i].offset_at(step * dt), scene.shuttles[i].offset_at((step + 1) * dt)};
+    result.steps_with_contact += make(step, StepContext{{0.0, -30.0}, dt, motions}, hash);
   }
   result.hash = hash.value();
   return result;
@@ -133,14 +96,14 @@ RunResult make_steps(const Scene& scene, int steps, int first, const Make& make)
 
 /// Walks and jumps at random; now and then the character is put somewhere else and shot in some direction.
 RunResult run(const Scene& scene, std::string_view kind, int steps) {
-  const paperproof::Scenery scenery(scene.scenery);
-  const auto controller = paperproof::make_controller(scenery, character_def(), {.name = kind});
-  paperproof::Scratch scratch = controller.make_scratch();
-  paperproof::StepReport report;
-  paperproof::CharacterState state;
-  paperproof::Input input;
+  const Scenery scenery(scene.scenery);
+  const TechniqueController controller = make_controller(scenery, character, {.name = kind});
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
+  CharacterState state;
+  Input input;
   Random random(5);
-  return make_steps(scene, steps, first_steps, [&](int step, const auto& context, Hash& hash) {
+  return make_steps(scene, steps, first_steps, [&](int step, const StepContext& context, Hash& hash) {
     if (step % steps_between_shots == 0) state = shot(random, scene);
     if (step % 20 == 0) input = any_input(random);
     controller.step(state, input, context, scratch, report);
@@ -152,17 +115,17 @@ RunResult run(const Scene& scene, std::string_view kind, int steps) {
 /// Several that take turns: the steps are shared between them.
 RunResult run_together(const Scene& scene, int steps) {
   constexpr std::size_t count = 8;
-  paperproof::Level level(scene.scenery);
-  const paperproof::Controller controller(level, character_def());
-  paperproof::Scratch scratch = controller.make_scratch();
-  paperproof::TogetherScratch turns;
-  std::vector<paperproof::StepReport> reports(count);
-  std::vector<paperproof::CharacterState> states(count);
-  std::vector<paperproof::Companion> companions(count);
+  Level level(scene.scenery);
+  const Controller controller(level, character);
+  Scratch scratch = controller.make_scratch();
+  TogetherScratch turns;
+  std::vector<StepReport> reports(count);
+  std::vector<CharacterState> states(count);
+  std::vector<Companion> companions(count);
   for (std::size_t i = 0; i < count; ++i)
-    companions[i] = {&controller, &states[i], {}, level.add(body_of(character_def())), &scratch, &reports[i]};
+    companions[i] = {&controller, &states[i], {}, level.add(body_of(character)), &scratch, &reports[i]};
   Random random(8);
-  const auto make = [&](int step, const auto& context, Hash& hash) {
+  const auto make = [&](int step, const StepContext& context, Hash& hash) {
     for (std::size_t i = 0; i < count; ++i) {
       if (step % steps_between_shots == 0) states[i] = shot(random, scene);
       if (step % 20 == 0) companions[i].input = any_input(random);
@@ -172,7 +135,7 @@ RunResult run_together(const Scene& scene, int steps) {
     for (std::size_t i = 0; i < count; ++i) {
       hash.add(companions[i].turn);
       add_step(hash, states[i], reports[i]);
-      for (const paperproof::Contact& contact : reports[i].move.contacts)
+      for (const Contact& contact : reports[i].move.contacts)
         have_met = have_met || contact.collider >= companions[0].body;
     }
     return have_met;
@@ -194,22 +157,18 @@ std::string line_of(const Run& run, int steps) {
     else
       line << result.first_hash << ' ' << result.hash << ' ' << std::dec << result.steps_with_contact;
     return line.str();
-  } catch (const paperproof::NotExpressible&) {
+  } catch (const NotExpressible&) {
     return "not_expressible";
   }
-}
-
-void add_lines(const Scene& scene, int steps, Lines& lines) {
-  for (const std::string_view kind : paperproof::technique_names())
-    lines[scene.name + ' ' + std::string(kind) + " double"] =
-        line_of([&](int count) { return run(scene, kind, count); }, steps);
-  lines[scene.name + " together double"] = line_of([&](int count) { return run_together(scene, count); }, steps);
 }
 
 Lines run_all(int steps) {
   Lines lines;
   for (const Scene& scene : make_scenes()) {
-    add_lines(scene, steps, lines);
+    for (const std::string_view kind : technique_names())
+      lines[scene.name + ' ' + std::string(kind) + " double"] =
+          line_of([&](int count) { return run(scene, kind, count); }, steps);
+    lines[scene.name + " together double"] = line_of([&](int count) { return run_together(scene, count); }, steps);
   }
   return lines;
 }
@@ -222,10 +181,9 @@ Lines read_lines(const char* file, bool first) {
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     std::string scene, technique, scalar, rest;
-    if (words >> scene && !scene.starts_with('#') && words >> technique >> scalar &&
-        std::getline(words >> std::ws, rest)) {
-      lines[scene + ' ' + technique + ' ' + scalar] = first ? rest.substr(0, rest.find(' ')) : rest;
-    }
+    if (line.starts_with('#') || !(words >> scene >> technique >> scalar >> std::ws)) continue;
+    std::getline(words, rest);
+    lines[scene + ' ' + technique + ' ' + scalar] = first ? rest.substr(0, rest.find(' ')) : rest;
   }
   return lines;
 }
@@ -249,8 +207,10 @@ int compare(const Lines& golden, const Lines& here) {
 }
 
 }  // namespace
+}  // namespace paperproof::golden
 
 int main(int argc, char** argv) {
+  using namespace paperproof::golden;
   const bool first = argc > 2 && std::string(argv[2]) == "fifth";
   const Lines here = run_all(first ? first_steps : steps_per_run);
   if (argc > 1) return compare(read_lines(argv[1], first), here);
