@@ -3,7 +3,7 @@
 
 #include "campaign/random.hpp"
 
-#include <paperproof/types.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -12,11 +12,6 @@
 namespace paperproof::test {
 
 using Points = std::vector<Vec2d>;
-
-struct Polygon {
-  Points outer;
-  std::vector<Points> holes;
-};
 
 class Random : public compare::Random {
  public:
@@ -36,37 +31,37 @@ inline Points star_ring(Random& random, std::size_t size, const Vec2d& centre, d
   return ring;
 }
 
-inline Polygon star(Random& random) { return {star_ring(random, 5 + random.index(30), {0, 0}, 0.2, 2), {}}; }
+inline ColliderDef star(Random& random) { return {.points = star_ring(random, 5 + random.index(30), {0, 0}, 0.2, 2)}; }
 
 /// Whole coordinates: many vertices on one line, many sides parallel; some rings touch themselves.
-inline Polygon star_on_grid(Random& random) {
-  Polygon polygon = star(random);
-  for (Vec2d& vertex : polygon.outer) vertex = Vec2d(std::round(4 * vertex.x()), std::round(4 * vertex.y()));
+inline ColliderDef star_on_grid(Random& random) {
+  ColliderDef polygon = star(random);
+  for (Vec2d& vertex : polygon.points) vertex = Vec2d(std::round(4 * vertex.x()), std::round(4 * vertex.y()));
   return polygon;
 }
 
 /// Teeth on a bar; the gaps' corners are all on one line.
-inline Polygon comb(Random& random) {
-  Polygon polygon;
+inline ColliderDef comb(Random& random) {
+  ColliderDef polygon;
   const std::size_t teeth = 2 + random.index(10);
   for (std::size_t i = 0; i < teeth; ++i) {
     const double x = 3 * static_cast<double>(i);
     const double tip = random.between(1, 20);
-    polygon.outer.insert(polygon.outer.end(), {{x, 0}, {x, tip}, {x + random.between(1, 2), tip}, {x + 2, 0}});
+    polygon.points.insert(polygon.points.end(), {{x, 0}, {x, tip}, {x + random.between(1, 2), tip}, {x + 2, 0}});
   }
-  polygon.outer.push_back({3 * static_cast<double>(teeth), -1});
-  polygon.outer.push_back({0, -1});
+  polygon.points.push_back({3 * static_cast<double>(teeth), -1});
+  polygon.points.push_back({0, -1});
   return polygon;
 }
 
 /// Star-shaped holes in the cells of a grid, some cells left out.
-inline Polygon holed(Random& random) {
-  Polygon polygon;
+inline ColliderDef holed(Random& random) {
+  ColliderDef polygon;
   const std::size_t columns = 1 + random.index(4);
   const std::size_t rows = 1 + random.index(4);
   const double width = 4 * static_cast<double>(columns);
   const double height = 4 * static_cast<double>(rows);
-  polygon.outer = {{-2, -2}, {width - 2, -2}, {width - 2, height - 2}, {-2, height - 2}};
+  polygon.points = {{-2, -2}, {width - 2, -2}, {width - 2, height - 2}, {-2, height - 2}};
   for (std::size_t i = 0; i < columns * rows; ++i) {
     if (random.index(4) == 0) continue;
     const Vec2d centre(4 * static_cast<double>(i % columns), 4 * static_cast<double>(i / columns));
@@ -77,8 +72,8 @@ inline Polygon holed(Random& random) {
 
 /// Square holes with whole coordinates, side by side and above one another: their sides and corners are in line with
 /// each other, with the outline's, and with the bridges between them.
-inline Polygon rooms(Random& random) {
-  Polygon polygon{{{-1, -1}, {15, -1}, {15, 3}, {19, 3}, {19, 15}, {-1, 15}, {-1, 7}}, {}};
+inline ColliderDef rooms(Random& random) {
+  ColliderDef polygon{.points = {{-1, -1}, {15, -1}, {15, 3}, {19, 3}, {19, 15}, {-1, 15}, {-1, 7}}};
   for (std::size_t i = 0; i < 25; ++i) {
     if (random.index(3) == 0) continue;
     const Vec2d at(3 * static_cast<double>(i % 5), 3 * static_cast<double>(i / 5));
@@ -91,9 +86,9 @@ inline Polygon rooms(Random& random) {
 }
 
 /// So far from the origin that rounding puts vertices on a coarse lattice: nearly straight corners, thin slivers.
-inline Polygon far_away(Random& random) {
+inline ColliderDef far_away(Random& random) {
   const Vec2d centre = random.point(1e6);
-  return {star_ring(random, 5 + random.index(40), centre, 1e-9, 4e-9), {}};
+  return {.points = star_ring(random, 5 + random.index(40), centre, 1e-9, 4e-9)};
 }
 
 }  // namespace paperproof::test

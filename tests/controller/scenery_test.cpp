@@ -14,7 +14,6 @@ using compare::chain;
 using geometry::orientation_sign;
 using test::one_way;
 using test::Points;
-using test::Polygon;
 using test::refusal_of;
 using test::Where;
 using test::where_is;
@@ -98,7 +97,7 @@ std::size_t cut(const ColliderDef& def, test::Random& random) {
 
 struct Family {
   const char* name;
-  Polygon (*make)(test::Random&);
+  ColliderDef (*make)(test::Random&);
   bool always_valid;
 };
 
@@ -111,8 +110,7 @@ TEST_P(Cutting, pieces_tile_random_polygons_exactly_whatever_the_winding) {
   for (unsigned seed = 0; seed < polygons; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     test::Random random(seed);
-    const Polygon polygon = GetParam().make(random);
-    ColliderDef def{.points = polygon.outer, .holes = polygon.holes};
+    ColliderDef def = GetParam().make(random);
     if (seed % 2 == 1) {
       std::reverse(def.points.begin(), def.points.end());
       std::rotate(def.points.begin(), def.points.begin() + 1, def.points.end());
