@@ -1,12 +1,10 @@
 /// More of everything than a report or a state keeps inline: movers that crush, what lies on a character. No fixed
 /// number decides what is safe or what is named. Contacts and corners of one step, pistons, and what comes beside are
 /// in tests/situations.
-#include "campaign/shapes.hpp"
+#include "controller/stepping.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
-
-#include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
@@ -22,37 +20,25 @@ using compare::half_height;
 using compare::half_width;
 using Colliders = std::set<ColliderIndex>;
 
-/// A character among movers.
-struct AmongMovers {
-  Scenery scenery;
-  Controller controller{scenery, {}};
-  compare::ExactScenery exact{scenery.as_run(),
-                              {controller.character().shape.hull().begin(), controller.character().shape.hull().end()}};
-  Scratch scratch = controller.make_scratch();
-  CharacterState state;
-  StepReport report;
-  std::vector<MoverMotion> motions{scenery.mover_count()};  ///< Of the next step.
-  Vec2d gravity{0, 0};
-  double dt;
+/// A character among movers, which nothing pulls.
+struct AmongMovers : stepping::Stepper {
+  compare::ExactScenery exact{scenery->as_run(),
+                              {sweep().character().shape.hull().begin(), sweep().character().shape.hull().end()}};
 
   AmongMovers(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
-      : scenery(SceneryDef{colliders}), dt(length_of_step) {
+      : Stepper(colliders) {
     state.position = position;
+    gravity = {0, 0};
+    dt = length_of_step;
   }
-  /// Every mover goes on by so far.
-  void step_by(const Vec2d& by) {
-    for (MoverMotion& motion : motions) motion = {motion.to, motion.to + by};
-    step();
-  }
-  void step() { controller.step(state, {}, {gravity, dt, motions}, scratch, report); }
   [[nodiscard]] Colliders crushed() const { return {report.move.crushed.begin(), report.move.crushed.end()}; }
   /// All that exact arithmetic finds on the way.
   [[nodiscard]] Colliders gone_through() const {
     Colliders all;
     const auto& path = report.move.path;
     for (std::size_t i = 0; i + 1 < path.size(); ++i)
-      for (const ColliderIndex collider : exact.met({path[i].position, motions, path[i].fraction},
-                                                    {path[i + 1].position, motions, path[i + 1].fraction}))
+      for (const ColliderIndex collider : exact.met({path[i].position, movers, path[i].fraction},
+                                                    {path[i + 1].position, movers, path[i + 1].fraction}))
         all.insert(collider);
     return all;
   }
@@ -110,7 +96,7 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
     const double above_floor = random.log_between(1e-7, 0.1);
     AmongMovers run(papers.colliders, {0, half_height + above_floor}, random.chance(0.5) ? 1 : 1.0 / 60);
     if (random.chance(0.5)) run.gravity = {0, -30};
-    run.motions = papers.motions;
+    run.movers = papers.motions;
     run.step();
     const Colliders named = run.crushed();
     const Colliders met = run.gone_through();
@@ -119,7 +105,7 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
     for (const ColliderIndex collider : named) {
       EXPECT_GE(collider, first_paper) << "the niche";
       if (!met.contains(collider)) {
-        EXPECT_LE(run.exact.separation({run.state.position, run.motions, 1}, collider), contact_reach);
+        EXPECT_LE(run.exact.separation({run.state.position, run.movers, 1}, collider), contact_reach);
       }
     }
     crushed += !named.empty();
@@ -139,14 +125,14 @@ class MoreOnIt : public testing::TestWithParam<int> {};
 TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_back) {
   const int papers = static_cast<int>(Crushers::capacity()) + GetParam();
   AmongMovers run(niche_with_papers(papers), {0, half_height + 1e-6}, 1);
-  run.step_by({0, -1.9});
+  run.step_with_mover_by(0, -1.9);
   ASSERT_EQ(run.crushed().size(), static_cast<std::size_t>(papers));
   EXPECT_EQ(run.crushed(), run.gone_through());
   EXPECT_EQ(run.state.crushers.size(), Crushers::capacity());
   const StepReport copy = run.report;
   const Vec2d stays = run.state.position;
   for (int step = 0; step < 20; ++step) {
-    run.step_by({0, step < 10 ? -0.01 : 0.01});
+    run.step_with_mover_by(0, step < 10 ? -0.01 : 0.01);
     EXPECT_EQ(run.state.position, stays) << step;
     EXPECT_TRUE(run.crushed().empty()) << step;
     EXPECT_EQ(run.report.status, StepStatus::stuck) << step;
@@ -154,16 +140,16 @@ TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_bac
   ASSERT_EQ(copy.move.crushed.size(), static_cast<std::size_t>(papers)) << "a copy keeps its names itself, each once";
   EXPECT_EQ(copy.move.crushed.back(), first_paper + static_cast<ColliderIndex>(papers) - 1);
   // The remembered ones are off before the others: it still does not know where the others came from.
-  for (std::size_t k = 0; k < run.motions.size(); ++k) {
-    const Vec2d from = run.motions[k].to;
-    run.motions[k] = {from, k < Crushers::capacity() ? from + Vec2d(0, 1.9) : from};
+  for (std::size_t k = 0; k < run.movers.size(); ++k) {
+    const Vec2d from = run.movers[k].to;
+    run.movers[k] = {from, k < Crushers::capacity() ? from + Vec2d(0, 1.9) : from};
   }
   run.step();
   EXPECT_EQ(run.report.status, StepStatus::stuck);
   EXPECT_EQ(run.state.position, stays);
   ASSERT_EQ(run.state.crushers.size(), static_cast<std::size_t>(std::min(GetParam(), 8)));
   EXPECT_FALSE(run.state.crushers[0].has_side);
-  run.step_by({0, 3});
+  run.step_with_mover_by(0, 3);
   EXPECT_EQ(run.report.status, StepStatus::moved);
   EXPECT_TRUE(run.state.crushers.empty());
   EXPECT_EQ(run.state.position, stays);

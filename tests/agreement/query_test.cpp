@@ -1,12 +1,10 @@
 /// cast, overlaps, contacts_at, nearest and sensors_at against exact arithmetic, in random scenery with movers. In half
 /// of it these have angles that they keep, and exact arithmetic is asked of movers that are made turned.
 #include "agreement/saying.hpp"
-#include "campaign/shapes.hpp"
+#include "controller/stepping.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
-
-#include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
@@ -27,10 +25,10 @@ struct Tally {
   int near = 0;
 };
 
-/// One controller and the oracle in one scenery.
+/// One character and the oracle in one scenery, and in a second one, whose solids are sensors.
 class Questions {
  public:
-  Questions(Terrain family, std::uint64_t seed) : random_(seed), scenery_(random_scenery(family, random_)) {}
+  Questions(Terrain family, std::uint64_t seed) : random_(seed), solids_(random_colliders(family, random_)) {}
 
   void ask(Tally& tally) {
     std::vector<Wanderer> wanderers(motions_.size());
@@ -48,35 +46,35 @@ class Questions {
   }
 
  private:
-  static SceneryDef random_scenery(Terrain family, Random& random) {
+  static std::vector<ColliderDef> random_colliders(Terrain family, Random& random) {
     SceneryDef def = random_terrain(family, random, Vec2d::Zero());
     while (def.colliders.size() < 4) def.colliders.push_back(compare::polygon({{50, 50}, {51, 50}, {50, 51}}));
     const int movers = random.integer(0, 3);
     for (int mover = 0; mover < movers; ++mover)
       add_mover(def.colliders, static_cast<MoverIndex>(mover), random, Vec2d::Zero());
-    return def;
+    return def.colliders;
   }
   static std::vector<double> some_angles(std::size_t movers, Random& random) {
     std::vector<double> angles(movers);
     if (random.chance(0.5)) std::ranges::generate(angles, [&] { return random.angle(); });
     return angles;
   }
-  static Scenery as_sensors(SceneryDef def) {
-    for (ColliderDef& collider : def.colliders) collider.sensor = !collider.one_way;
-    return Scenery(def);
+  static std::vector<ColliderDef> as_sensors(std::vector<ColliderDef> colliders) {
+    for (ColliderDef& collider : colliders) collider.sensor = !collider.one_way;
+    return colliders;
   }
   [[nodiscard]] StepContext context() const { return {.dt = 1, .movers = motions_}; }
   [[nodiscard]] const std::vector<ColliderDef>& colliders() const { return oracle_.scenery().colliders; }
 
   void overlaps(const Place& from, const std::vector<ColliderIndex>& exact, Tally& tally) {
     std::array<ColliderIndex, 256> found{};
-    const auto count = controller_.overlaps(from.position, context(), scratch_, found);
+    const auto count = solids_.sweep().overlaps(from.position, context(), solids_.scratch, found);
     tally.overlapping += !exact.empty();
     ASSERT_EQ(count, exact.size());
     const std::set<ColliderIndex> sorted(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(exact.size()));
     EXPECT_TRUE(std::equal(exact.begin(), exact.end(), sorted.begin(), sorted.end()));
     std::array<ColliderIndex, 256> sensed{};
-    const std::size_t around = sensing_.sensors_at(from.position, context(), sensing_scratch_, sensed);
+    const std::size_t around = sensors_.sweep().sensors_at(from.position, context(), sensors_.scratch, sensed);
     EXPECT_TRUE(std::is_permutation(exact.begin(), exact.end(), sensed.begin(), sensed.begin() + around));
   }
 
@@ -84,8 +82,8 @@ class Questions {
     constexpr double rounding = 1e-9;
     const double within = random_.log_between(1e-3, 3);
     std::array<Contact, 64> contacts;
-    const std::size_t count = controller_.contacts_at(from.position, within, context(), scratch_, contacts);
-    const auto nearest = controller_.nearest(from.position, within, context(), scratch_);
+    const std::size_t count = solids_.sweep().contacts_at(from.position, within, context(), solids_.scratch, contacts);
+    const auto nearest = solids_.sweep().nearest(from.position, within, context(), solids_.scratch);
     ASSERT_EQ(nearest.has_value(), count > 0);
     for (std::size_t i = 0; i < count; ++i) {
       const Contact& contact = contacts[i];
@@ -112,7 +110,7 @@ class Questions {
 
   void cast(const Place& from, const Vec2d& displacement, Tally& tally) {
     ++tally.casts;
-    const auto hit = controller_.cast(from.position, displacement, context(), scratch_);
+    const auto hit = solids_.sweep().cast(from.position, displacement, context(), solids_.scratch);
     const Place to(from.position + displacement, motions_, 1);
     double first = 2;
     for (ColliderIndex collider = 0; collider < colliders().size(); ++collider)
@@ -132,16 +130,13 @@ class Questions {
   }
 
   Random random_;
-  Scenery scenery_;
-  Controller controller_{scenery_, {}};
-  Scratch scratch_ = controller_.make_scratch();
-  Scenery sensors_ = as_sensors(scenery_.as_run());
-  Controller sensing_{sensors_, {}};
-  Scratch sensing_scratch_ = sensing_.make_scratch();
-  std::vector<double> angles_ = some_angles(scenery_.mover_count(), random_);
-  ExactScenery oracle_{made_turned(scenery_.as_run(), angles_),
-                       {controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()}};
-  std::vector<MoverMotion> motions_{scenery_.mover_count()};
+  stepping::Stepper solids_;
+  stepping::Stepper sensors_{as_sensors(solids_.scenery->as_run().colliders)};
+  std::vector<double> angles_ = some_angles(solids_.movers.size(), random_);
+  ExactScenery oracle_{
+      made_turned(solids_.scenery->as_run(), angles_),
+      {solids_.sweep().character().shape.hull().begin(), solids_.sweep().character().shape.hull().end()}};
+  std::vector<MoverMotion>& motions_ = solids_.movers;
 };
 
 class Queries : public ::testing::TestWithParam<Terrain> {};

@@ -1,9 +1,8 @@
 /// A character whose input does not change comes to rest, bit for bit, under a gravity up to 60 degrees off up: in
 /// corners, notches and funnels, and at walls. The campaign judges the way there: slanted.
 #include "campaign/draw.hpp"
+#include "controller/stepping.hpp"
 #include "support/steps_wanted.hpp"
-
-#include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
@@ -32,21 +31,19 @@ TEST_P(SlantedGravity, brings_to_rest_who_is_steered_alike_for_long) {
   for (std::uint64_t seed = first; seed < first + sampled(std::uint64_t{1000}); ++seed) {
     const compare::RandomRun run = draw_slanted(GetParam(), seed);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Scenery scenery(run.scene.scenery);
-    const Controller controller(scenery, run.scene.character);
-    Scratch scratch = controller.make_scratch();
-    const StepContext context{.gravity = run.scene.gravity, .dt = run.scene.dt};
-    if (std::abs(context.gravity.x()) < 1) continue;  // it takes minutes to the wall
+    if (std::abs(run.scene.gravity.x()) < 1) continue;  // it takes minutes to the wall
+    stepping::Stepper player(run.scene.scenery.colliders, run.scene.character);
+    player.gravity = run.scene.gravity;
+    player.dt = run.scene.dt;
+    CharacterState& state = player.state;
+    state.position = run.scene.start.position;
     Input input;
     // With the key at 0 it is braked in each step, and pulled again: it creeps, by gravity times dt.
     if (seed % 3 > 0) input.move = seed % 3 == 1 ? -1 : 1;
-    CharacterState state;
-    state.position = run.scene.start.position;
-    StepReport report;
     int unchanged = 0;
     for (int step = 0; step < most_steps && unchanged < rest && is_in_hall(state); ++step) {
       const CharacterState before = state;
-      (void)controller.step(state, input, context, scratch, report);
+      player.step(input);
       unchanged = state == before ? unchanged + 1 : 0;
     }
     if (!is_in_hall(state)) continue;

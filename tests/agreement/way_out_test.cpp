@@ -1,12 +1,10 @@
 /// Starts inside solids with a last free place: each comes out on its side, by a way that is not longer than any that
 /// trial finds there. Without a last free place the campaign asks for the shortest way: inside.
-#include "campaign/campaign.hpp"
-#include "campaign/shapes.hpp"
+#include "campaign/families.hpp"
+#include "controller/stepping.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
-
-#include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
@@ -22,10 +20,13 @@ using Colliders = std::vector<ColliderIndex>;
 /// What is asked of a way that is found by trial [m].
 constexpr double roomy = 1e-4;
 
-/// A scene of the family `inside`, and exact answers about it.
-struct Solids {
+/// A character in a scene of the family `inside`, which nothing pulls, and exact answers about it.
+struct Solids : stepping::Stepper {
   explicit Solids(const compare::RandomRun& run)
-      : start(run.scene.start.position), scenery(run.scene.scenery), controller(scenery, {}) {}
+      : Stepper(run.scene.scenery.colliders), start(run.scene.start.position) {
+    state.position = start;
+    gravity = {0, 0};
+  }
 
   /// Whether a way passes nothing else.
   [[nodiscard]] bool is_open(const Vec2d& from, const Vec2d& to, const Colliders& may_pass) const {
@@ -59,10 +60,8 @@ struct Solids {
   }
 
   Vec2d start;
-  Scenery scenery;
-  Controller controller;
-  compare::ExactScenery oracle{
-      scenery.as_run(), {controller.character().shape.hull().begin(), controller.character().shape.hull().end()}};
+  compare::ExactScenery oracle{scenery->as_run(),
+                               {sweep().character().shape.hull().begin(), sweep().character().shape.hull().end()}};
 };
 
 class WayOut : public ::testing::TestWithParam<const compare::Family*> {};
@@ -73,20 +72,16 @@ TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_ther
   int to_its_side = 0;
   for (std::uint64_t seed = GetParam()->first_seed; starts < wanted && !HasFailure(); ++seed) {
     SCOPED_TRACE(GetParam()->replay_of(seed));
-    const Solids solids(GetParam()->draw(seed));
+    Solids solids(GetParam()->draw(seed));
     const Colliders inside = solids.oracle.overlapped(solids.start);
     Random random(seed);
-    CharacterState state;
-    state.position = solids.start;
-    state.last_free = solids.start + random.point(9);
-    state.has_last_free = true;
-    const Vec2d last_free = state.last_free;
+    const Vec2d last_free = solids.start + random.point(9);
+    solids.state.last_free = last_free;
+    solids.state.has_last_free = true;
     if (inside.empty() || !solids.oracle.overlapped(last_free).empty()) continue;
-    Scratch scratch = solids.controller.make_scratch();
-    StepReport report;
-    solids.controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report);
+    solids.step();
     ++starts;
-    const auto& path = report.move.path;
+    const auto& path = solids.report.move.path;
     const bool is_out = path.size() > 1 && path[1].fraction == 0 && solids.oracle.overlapped(path[1].position).empty();
     const bool on_its_side = is_out && solids.oracle.met(last_free, path[1].position).empty();
     to_its_side += on_its_side;

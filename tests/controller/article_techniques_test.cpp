@@ -12,7 +12,7 @@ namespace paperproof::stepping {
 namespace {
 
 TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
-  const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
+  const std::vector<ColliderDef> corner{box(-4, -1, 4, 0), box(-4, 0, -1, 4), box(1, 0, 4, 4)};
   for (const std::string_view kind : technique_names()) {
     if (kind == "octagon_sweep") continue;  // is the controller itself
     SCOPED_TRACE(kind);
@@ -40,7 +40,7 @@ TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
   for (const double bad : {0.0, -1.0, 1001.0, nan})
     cases.push_back({{.raster_pixels_per_metre = bad}, "raster_pixels_per_metre:"});
   for (const int bad : {0, -4, 4097}) cases.push_back({{.pixels_per_tile = bad}, "pixels_per_tile:"});
-  const Scenery square(SceneryDef{{rectangle(0, 0, 1, 1)}});
+  const Scenery square(SceneryDef{{box(0, 0, 1, 1)}});
   for (const std::string_view kind : technique_names()) {
     SCOPED_TRACE(kind);
     const auto message = [&](const ArticleKnobs& knobs) {
@@ -64,7 +64,7 @@ TEST(Movers, that_carry_and_crush_make_no_technique_take_memory) {
   const double free = 10.4 / 64;
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
-    Stepper rider({compare::box(-9, -3, 9, 0, 0), compare::box(-9, 2 * half_height + free, 9, 9, 1)}, {}, kind);
+    Stepper rider({box(-9, -3, 9, 0, 0), box(-9, 2 * half_height + free, 9, 9, 1)}, {}, kind);
     rider.gravity = {0, -px};
     rider.dt = 1;
     rider.at(0, half_height).report.reserve(8);
@@ -83,7 +83,7 @@ TEST(Movers, that_carry_and_crush_make_no_technique_take_memory) {
 TEST(MovingRefusals, of_steps_that_conveyors_make_too_long) {
   for (const std::string_view kind : moving_kinds) {
     SCOPED_TRACE(kind);
-    Stepper by_conveyor({conveyor(rectangle(-9, -1, 9, 0), 1e300)}, {}, kind);
+    Stepper by_conveyor({conveyor(box(-9, -1, 9, 0), 1e300)}, {}, kind);
     EXPECT_EQ(by_conveyor.fly_from({0, 1}, {0, -2}).status, StepStatus::out_of_range);
     EXPECT_EQ(by_conveyor.report.move.position, Vec2d(0, 1));
   }
@@ -93,8 +93,8 @@ TEST(MovingRefusals, of_what_a_technique_cannot_express_say_so) {
   const auto refusal = [](std::string_view kind, const ColliderDef& collider) {
     return refusal_by<NotExpressible>([&] { Stepper({collider}, {}, kind); });
   };
-  const ColliderDef mover = compare::box(0, 0, 1, 1, 0);
-  const ColliderDef belt = conveyor(rectangle(0, 0, 1, 1), 1);
+  const ColliderDef mover = box(0, 0, 1, 1, 0);
+  const ColliderDef belt = conveyor(box(0, 0, 1, 1), 1);
   for (const std::string_view kind : {"grid", "pixel_colour", "pixel_tile", "mask", "wind_back"})
     for (const ColliderDef& each : {mover, belt})
       EXPECT_EQ(refusal(kind, each), std::string(kind) + " is for scenery that stands still");
@@ -122,7 +122,7 @@ TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
     for (int i = 0; i < 30; ++i) {
       const Vec2d low = random.point(9);
       const Vec2d high = low + Vec2d{random.between(0.1, 2), random.between(0.1, 2)};
-      boxes.push_back(rectangle(low.x(), low.y(), high.x(), high.y()));
+      boxes.push_back(box(low.x(), low.y(), high.x(), high.y()));
     }
     Stepper stepper(boxes, {}, TechniqueDef{.name = "bounding_box", .article = {.iterations = 64}});
     const auto free = [&](const Vec2d& position) {

@@ -101,7 +101,7 @@ Stepper in_float(std::vector<ColliderDef> colliders) {
     for (Vec2d& point : collider.points) point = point.cast<float>().cast<double>();
     collider.radius = static_cast<double>(static_cast<float>(collider.radius));
   }
-  return Stepper(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)}),
+  return Stepper(std::make_unique<Scenery>(SceneryDef{std::move(colliders)}),
                  [&](const Scenery& level) { return TechniqueController(make_controller_in_float(level, {})); });
 }
 
@@ -110,7 +110,7 @@ TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
   test::Random random(5);
   int contacts = 0;
   for (int run = 0; run < 100; ++run) {
-    std::vector<ColliderDef> colliders{rectangle(-9, -2, 9, -1), rectangle(-6, -1, -5, 99), rectangle(5, -1, 6, 99)};
+    std::vector<ColliderDef> colliders{box(-9, -2, 9, -1), box(-6, -1, -5, 99), box(5, -1, 6, 99)};
     for (int i = random.integer(1, 8); i > 0; --i) {
       const double x = random.between(-4, 4);
       const double y = random.between(-1, 2);

@@ -11,8 +11,6 @@
 namespace paperproof::stepping {
 namespace {
 
-using compare::box;
-
 const ColliderDef ground = box(-9, -1, 9, 0);
 
 TEST(Filter, has_the_rule_of_box2d) {
@@ -147,7 +145,7 @@ TEST(Query, finds_nothing_where_it_may_not_be_asked) {
 }
 
 TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
-  Stepper idle({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 4)});
+  Stepper idle({box(-9, -1, 9, 0), box(1, 0, 2, 4)});
   idle.at(0, half_height + 5e-7).steps(60, {.move = 1});
   ASSERT_TRUE(idle.state.wall_right);
   idle.steps(60, {.move = 0});

@@ -13,8 +13,6 @@
 namespace paperproof::stepping {
 namespace {
 
-using compare::box;
-
 /// Some techniques are for scenery that stands still.
 bool knows_movers(std::string_view kind) {
   const auto make = [kind] { (void)Stepper({box(0, 0, 1, 1, 0)}, {}, kind); };
@@ -108,20 +106,16 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   EXPECT_EQ(far.at(0, 1).step(), StepStatus::moved) << "as far away as a character may be";
 }
 
-/// The wall is 0.3 m away. A press stays pending, so each reach begins anew.
+/// The wall is 0.3 m away. A press stays pending, so each reach begins anew. `make_controller` would set the reach.
 TEST(Jumps, toward_a_wall_are_refused_as_far_away_as_the_character_says) {
-  const Scenery scenery(SceneryDef{{box(-9, -1, 9, 0), box(half_width + 0.3, 0, 9, 4)}});
   for (const auto& [reach, jumped] : {std::pair{0.29, true}, {0.31, false}}) {
-    const Controller controller(scenery, {.no_jump_toward_wall = true, .wall_reach = reach});
-    Scratch scratch = controller.make_scratch();
-    StepReport report;
-    CharacterState state;
-    state.position = {0, half_height + 1e-6};
-    const StepContext context{{0, -10}, frame};
-    controller.step(state, {}, context, scratch, report);
-    ASSERT_TRUE(state.grounded);
-    controller.step(state, {.move = 1, .jump = true}, context, scratch, report);
-    EXPECT_EQ(state.jumping, jumped) << reach;
+    const CharacterDef character{.no_jump_toward_wall = true, .wall_reach = reach};
+    Stepper walker(std::make_unique<Scenery>(SceneryDef{{box(-9, -1, 9, 0), box(half_width + 0.3, 0, 9, 4)}}),
+                   [&](const Scenery& level) { return TechniqueController(Controller(level, character)); });
+    walker.at(0, half_height + 1e-6).step();
+    ASSERT_TRUE(walker.state.grounded);
+    walker.step({.move = 1, .jump = true});
+    EXPECT_EQ(walker.state.jumping, jumped) << reach;
   }
 }
 

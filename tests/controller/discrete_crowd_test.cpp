@@ -42,7 +42,7 @@ TEST(DiscreteCrowd, pushed_against_a_wall_overlap_by_what_four_rounds_leave_a_qu
   const double apart = 0.25;
   const double v = 0.65;
   const double wall = 3 * half_width + apart + gap;
-  Flying two({{0, 0}, {2 * half_width + apart, 0}}, {rectangle(wall, -5, wall + 1, 5)});
+  Flying two({{0, 0}, {2 * half_width + apart, 0}}, {box(wall, -5, wall + 1, 5)});
   two.states[0].velocity = {v, 0};
   two.step();
   EXPECT_NEAR(two.gap(0, 1), -(v - apart) / 4, 4 * gap);
@@ -72,7 +72,7 @@ TEST(DiscreteCrowd, with_more_pairs_than_there_is_room_for_says_that_something_w
   constexpr std::size_t most = 530;  // 530 * 529 / 2 pairs are more than 256 for each and one piece
   std::vector<Vec2d> places;
   for (std::size_t i = 0; i < most; ++i) places.emplace_back(1e-4 * static_cast<double>(i), 0);
-  Flying all(places, {rectangle(-5, -9, 5, -8)});
+  Flying all(places, {box(-5, -9, 5, -8)});
   for (CrowdMember& member : all.report.members) member.step.reserve(64);
   const std::size_t before = tests::allocations();
   ASSERT_EQ(all.step(), StepStatus::moved);
@@ -103,13 +103,13 @@ TEST(DiscreteCrowd, an_input_that_is_refused_changes_nothing_for_anybody) {
       {"nobody's memory", [](Flying& t) { t.scratch = {.most_characters = 3, .own = {}, .maker = {}}; }},
       {"another's memory",
        [](Flying& t) {
-         static const Flying other({{0, 1}, {2, 1}, {4, 1}}, {compare::box(9, 0, 10, 1, 0)});
+         static const Flying other({{0, 1}, {2, 1}, {4, 1}}, {box(9, 0, 10, 1, 0)});
          t.scratch = other.crowd.make_scratch(3);
        }},
       {"a report of two", [](Flying& t) { t.report = CrowdReport(2); }},
       {"too fast", [](Flying& t) { t.states[1].velocity.x() = 3e6; }, StepStatus::out_of_range}};
   for (const auto& [what, spoil, status] : all) {
-    Flying three({{0, 1}, {2, 1}, {4, 1}}, {compare::box(9, 0, 10, 1, 0)});
+    Flying three({{0, 1}, {2, 1}, {4, 1}}, {box(9, 0, 10, 1, 0)});
     three.states[0].velocity = {1, 1};
     spoil(three);
     const std::vector<CharacterState> before = three.states;
@@ -130,7 +130,7 @@ TEST(DiscreteCrowd, is_no_crowd_of_another_technique) {
 /// On the ground and on a lift beside a wall that moves.
 TEST(DiscreteCrowd, takes_no_memory_in_a_step) {
   for (const MoverIndex mover : {no_mover, MoverIndex{0}}) {
-    Flying all(a_dozen(), {compare::box(-20, -1, 20, 0, mover), compare::box(-4, 0.1, -3, 3, mover == 0 ? 1 : 0)});
+    Flying all(a_dozen(), {box(-20, -1, 20, 0, mover), box(-4, 0.1, -3, 3, mover == 0 ? 1 : 0)});
     std::size_t impacts = 0;
     EXPECT_EQ(allocations_once_known(all, [&] { impacts += all.report.impacts; }), 0U);
     EXPECT_GT(impacts, 100U);

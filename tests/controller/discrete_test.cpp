@@ -38,7 +38,7 @@ class Bodies {
 
   /// A box of a metre, by its centre.
   Body& add_box(const Vec2d& position, const Vec2d& movement = {0, 0}) {
-    return add(rectangle(-0.5, -0.5, 0.5, 0.5).points, position, movement);
+    return add(box(-0.5, -0.5, 0.5, 0.5).points, position, movement);
   }
 
   std::vector<Body> all;

@@ -22,7 +22,7 @@ TEST(Squares, are_solid_where_a_polygon_with_bays_and_holes_is_and_name_the_firs
   ColliderDef polygon{.points = {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 2}, {3, 2}, {3, 4}, {0, 4}}};
   polygon.holes = {{{1, 1}, {1, 2}, {2, 2}, {2, 1}}};
   for (const double side : {1.0, 0.5}) {
-    const Squares squares(SceneryDef{{polygon, rectangle(3, 3, 6, 4)}}, side, tolerance);
+    const Squares squares(SceneryDef{{polygon, box(3, 3, 6, 4)}}, side, tolerance);
     for (int column = -2; column < 14; ++column) {
       for (int row = -2; row < 10; ++row) {
         const double x = std::floor(column * side);
@@ -41,19 +41,19 @@ TEST(Squares, are_solid_where_a_polygon_with_bays_and_holes_is_and_name_the_firs
 
 TEST(Squares, are_refused_with_the_reason_where_scenery_is_not_made_of_them) {
   const auto refusal = [](const ColliderDef& collider, double side = 1) {
-    return refusal_by<NotExpressible>([&] { Squares(SceneryDef{{rectangle(0, 0, 1, 1), collider}}, side, tolerance); });
+    return refusal_by<NotExpressible>([&] { Squares(SceneryDef{{box(0, 0, 1, 1), collider}}, side, tolerance); });
   };
   const std::string not_whole = ": collider 1 is not made of whole squares of 1 m";
   EXPECT_EQ(refusal({.points = {{0, 0}, {2, 0}, {2, 1}}}), "the grid cannot express a slope" + not_whole);
   EXPECT_EQ(refusal(chain({{0, 0}, {1, 0}})), "the grid cannot express a chain" + not_whole);
   const std::string between = "the grid cannot express an edge between two squares" + not_whole;
-  EXPECT_EQ(refusal(rectangle(0, 0, 1.5, 1)), between);
-  ColliderDef holed = rectangle(0, 0, 3, 3);
+  EXPECT_EQ(refusal(box(0, 0, 1.5, 1)), between);
+  ColliderDef holed = box(0, 0, 3, 3);
   holed.holes = {{{1, 1}, {2, 1}, {2, 1.5}, {1, 1.5}}};
   EXPECT_EQ(refusal(holed), between);
   EXPECT_EQ(refusal(holed, 0.5), "");
-  EXPECT_EQ(refusal(rectangle(0, 0, 1 + tolerance / 2, 1)), "") << "a touch is no edge of its own";
-  EXPECT_NE(refusal(rectangle(1e6, 1e6, 1e6 + 1, 1e6 + 1)), "") << "a million squares each way";
+  EXPECT_EQ(refusal(box(0, 0, 1 + tolerance / 2, 1)), "") << "a touch is no edge of its own";
+  EXPECT_NE(refusal(box(1e6, 1e6, 1e6 + 1, 1e6 + 1)), "") << "a million squares each way";
 }
 
 TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
@@ -65,12 +65,12 @@ TEST(GridMoves, go_in_one_of_four_directions_and_never_into_a_solid_square) {
       const bool border = column == 0 || row == 0 || column == 23 || row == 23;
       const bool start = column == 12 && row == 12;
       if (start || (!border && random.below(4) != 0)) continue;
-      tiles.push_back(rectangle(column, row, column + 1, row + 1));
+      tiles.push_back(box(column, row, column + 1, row + 1));
       solid.insert({column, row});
     }
   }
   // As large as a square, so that its centre is the position.
-  Stepper walk(tiles, of_shape(CharacterShape(rectangle(-0.5, -0.5, 0.5, 0.5).points)), "grid");
+  Stepper walk(tiles, of_shape(CharacterShape(box(-0.5, -0.5, 0.5, 0.5).points)), "grid");
   walk.gravity = {0, 0};
   walk.dt = 1.0 / 64;
   walk.at(12.5, 12.5).report.reserve(16);

@@ -1,6 +1,6 @@
 /// A level that changes between steps. That it gives the bits of scenery that is built at once is in
 /// tests/agreement/equalities_test.cpp.
-#include "controller/played.hpp"
+#include "controller/stepping.hpp"
 #include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
@@ -8,10 +8,8 @@
 #include <cmath>
 #include <set>
 
-namespace paperproof::test {
+namespace paperproof::stepping {
 namespace {
-
-using compare::box;
 
 TEST(LevelIds, count_from_zero_and_never_name_another_collider) {
   Level level;
@@ -50,9 +48,10 @@ TEST(LevelEdits, what_is_refused_changes_nothing) {
 }
 
 TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
-  Played played({{box(0, 0, 1, 1, 1)}});
+  Stepper played = player_in({box(0, 0, 1, 1, 1)});
   const auto step = [&](double dt) {
-    return played.controller.step(played.state, {}, {{0, -30}, dt, played.movers}, played.scratch, played.report);
+    played.dt = dt;
+    return played.step();
   };
   played.movers.resize(1);
   EXPECT_EQ(step(frame), StepStatus::invalid_input);
@@ -65,20 +64,20 @@ TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
 }
 
 TEST(LevelSteps, allocate_nothing_while_what_is_near_stays) {
-  Played played({{box(-10, -1, 10, 0), box(-2, 0, 2, 0.5, 0)}}, {0, 1.2});
-  for (int i = 0; i < 30; ++i) played.step_by({0, 0.01});
+  Stepper played = player_in({box(-10, -1, 10, 0), box(-2, 0, 2, 0.5, 0)}, {0, 1.2});
+  for (int i = 0; i < 30; ++i) played.step_with_mover_by(0, 0.01);
   const std::size_t before = tests::allocations();
-  for (int i = 0; i < 60; ++i) played.step_by({0, 0.01});
+  for (int i = 0; i < 60; ++i) played.step_with_mover_by(0, 0.01);
   ASSERT_EQ(played.state.ride.ground, 1U);
   EXPECT_EQ(tests::allocations(), before);
 }
 
 TEST(LevelEdits, a_level_that_is_assigned_or_moved_from_is_read_anew) {
   const auto stands_after = [](const auto& change) -> bool {
-    Played played({{box(-10, -1, 10, 0)}});
+    Stepper played = player_in({box(-10, -1, 10, 0)});
     played.steps(30);
     EXPECT_TRUE(played.state.grounded);
-    change(played.level);
+    change(*played.scenery);
     played.step();
     const bool stands = played.state.grounded;
     played.steps(30);
@@ -99,16 +98,16 @@ TEST(LevelEdits, a_level_that_is_assigned_or_moved_from_is_read_anew) {
 }
 
 TEST(LevelEdits, a_rider_stays_on_what_is_replaced_and_falls_in_the_step_in_which_it_is_removed) {
-  Played played({{box(-2, -1, 2, 0, 0)}}, {0, 0.7});
+  Stepper played = player_in({box(-2, -1, 2, 0, 0)}, {0, 0.7});
   for (int i = 0; i < 120; ++i) {
-    if (i == 60) played.level.replace(0, box(-1, -1, 1, 0, 0));
-    played.step_by({0.05, 0.02});
+    if (i == 60) played.scenery->replace(0, box(-1, -1, 1, 0, 0));
+    played.step_with_mover_by(0.05, 0.02);
     ASSERT_TRUE(i <= 30 || played.state.ride.ground == 0) << i;
   }
   EXPECT_NEAR(played.state.position.x(), played.movers[0].to.x(), 0.2);
   const Vec2d before = played.state.position;
-  played.level.remove(0);
-  played.level.add(box(-2, -100, 2, -99, 0));  // takes the slot
+  played.scenery->remove(0);
+  played.scenery->add(box(-2, -100, 2, -99, 0));  // takes the slot
   played.step();
   EXPECT_FALSE(played.state.grounded);
   EXPECT_EQ(played.state.ride.ground, no_collider);
@@ -117,20 +116,20 @@ TEST(LevelEdits, a_rider_stays_on_what_is_replaced_and_falls_in_the_step_in_whic
 
 /// The id of the ground was taken for an index of what is near: memory beyond it was read.
 TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_ground) {
-  SceneryDef tiles;
-  for (int i = 0; i < 20'000; ++i) tiles.colliders.push_back(box(i, -1, i + 1, 0));
-  Played played(tiles, {19'900.5, 0.7});
+  std::vector<ColliderDef> tiles;
+  for (int i = 0; i < 20'000; ++i) tiles.push_back(box(i, -1, i + 1, 0));
+  Stepper played = player_in(tiles, {19'900.5, 0.7});
   played.steps(30);
   ASSERT_GT(played.state.ground.collider, 10'000U);
   const CharacterState before = played.state;
-  EXPECT_EQ(played.controller.move(played.state, {3e6, 0}, played.context(), played.scratch, played.report),
+  EXPECT_EQ(played.sweep().move(played.state, {3e6, 0}, played.context(), played.scratch, played.report),
             StepStatus::out_of_range);
   EXPECT_EQ(played.state, before);
 }
 
 /// The place of a ground that is none was read from a restored state, and named memory beyond the ids.
 TEST(LevelStep, reads_no_ground_of_a_state_that_stands_on_none) {
-  Played played({{box(-10, -1, 10, 0)}}, {0, 5});
+  Stepper played = player_in({box(-10, -1, 10, 0)}, {0, 5});
   played.state.ground.collider = 4'000'000'000;
   EXPECT_EQ(played.step(), StepStatus::moved);
 }
@@ -146,7 +145,7 @@ TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
         first.mover = 0;
         second.mover = 1;
       }
-      Played played({{first, second}});
+      Stepper played = player_in({first, second});
       played.steps(60);
       return played.state.position;
     };
@@ -156,4 +155,4 @@ TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
 }
 
 }  // namespace
-}  // namespace paperproof::test
+}  // namespace paperproof::stepping

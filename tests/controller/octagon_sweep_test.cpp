@@ -18,7 +18,7 @@ namespace {
 
 /// Two floors, and a step down to a third one.
 TEST(Ground, names_the_collider_that_is_stood_on) {
-  Stepper walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, {.snap = 0.5});
+  Stepper walker({box(-4, -1, 0, 0), box(0, -1, 2, 0), box(2, -1, 9, -0.05)}, {.snap = 0.5});
   walker.at(-1, half_height + 0.01).steps(20);
   std::vector<ColliderIndex> grounds;
   for (int step = 0; step < 50; ++step) {
@@ -35,7 +35,7 @@ TEST(Ground, names_the_collider_that_is_stood_on) {
 TEST(Ground, is_air_walkable_or_steep) {
   // A slope of 60 degrees that ends on a floor.
   const double rise = 4 * std::tan(60 * degree);
-  Stepper faller({rectangle(-1, -1, 20, 0), rectangle(-1, 0, 0, rise), polygon({{0, rise}, {0, 0}, {4, 0}})});
+  Stepper faller({box(-1, -1, 20, 0), box(-1, 0, 0, rise), polygon({{0, rise}, {0, 0}, {4, 0}})});
   faller.gravity = {0, -30};
   faller.at(2, rise).step();
   EXPECT_EQ(faller.report.move.ground.state, GroundState::air);
@@ -98,8 +98,7 @@ TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_not
 
 TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
   std::vector<ColliderDef> colliders;
-  for (int k = 0; k < 300; ++k)
-    colliders.push_back(rectangle(-1 - k * 0.01, -1 - k * 0.01, 1 + k * 0.01, 1 + k * 0.01));
+  for (int k = 0; k < 300; ++k) colliders.push_back(box(-1 - k * 0.01, -1 - k * 0.01, 1 + k * 0.01, 1 + k * 0.01));
   Stepper stepper(colliders);
   stepper.gravity = {-30, 0};  // back to them: the step touches something, too
   stepper.at(0.1, 0.3);
@@ -113,8 +112,8 @@ TEST(StartInside, of_hundreds_of_solids_at_once_does_not_allocate) {
 }
 
 TEST(StartInside, without_a_way_out_counts_the_steps_as_far_as_a_byte_goes) {
-  Stepper stepper({rectangle(-2, -2, 2, 2), rectangle(-3, -3, -2.5, 3), rectangle(2.5, -3, 3, 3),
-                   rectangle(-2.5, -3, 2.5, -2.5), rectangle(-2.5, 2.5, 2.5, 3)});
+  Stepper stepper(
+      {box(-2, -2, 2, 2), box(-3, -3, -2.5, 3), box(2.5, -3, 3, 3), box(-2.5, -3, 2.5, -2.5), box(-2.5, 2.5, 2.5, 3)});
   stepper.at(0.5, 1);
   for (int n = 1; n <= 300; ++n) {
     ASSERT_EQ(stepper.step({.move = 1}), StepStatus::stuck);
@@ -128,7 +127,7 @@ TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the
   // of the lower one with the normal n = (2, 1) / sqrt(5): that is (2 x + y - 3 m - 30 px) / sqrt(5) away from the
   // lower tile's corner at (1, 1). Its top is 0.1 m below the feet.
   const double slack = 0.4;  // of 2 x + y
-  Stepper character({compare::box(0, 0, 1, 1, 0), compare::box(1, 1, 2, 2, 0)});
+  Stepper character({box(0, 0, 1, 1, 0), box(1, 1, 2, 2, 0)});
   const double y = 1 + half_height + 0.1;
   character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
   character.state.crushers.push_back({.collider = 1, .has_side = false});
@@ -223,7 +222,7 @@ Stepper rider_on(const std::vector<ColliderDef>& ground, double x) {
 class Lift : public ::testing::TestWithParam<Vec2d> {};
 
 TEST_P(Lift, carries_for_an_hour_without_a_step_of_difference) {
-  Stepper rider = rider_on({compare::box(-1.5, -0.25, 1.5, 0, 0)}, 0.1);
+  Stepper rider = rider_on({box(-1.5, -0.25, 1.5, 0, 0)}, 0.1);
   const Vec2d start = rider.state.position;
   double furthest_off_in_ulps = 0;
   for (int step = 1; step <= an_hour; ++step) {
@@ -248,7 +247,7 @@ class Belt : public ::testing::TestWithParam<double> {};
 TEST_P(Belt, carries_for_an_hour_without_a_toggle) {
   std::vector<ColliderDef> tiles;
   for (int i = -1; i < 8000; ++i) {
-    tiles.push_back(compare::box(i, -1, i + 1, 0, GetParam() != 0 ? 0 : no_mover));
+    tiles.push_back(box(i, -1, i + 1, 0, GetParam() != 0 ? 0 : no_mover));
     tiles.back().surface_speed = 2;
   }
   Stepper rider = rider_on(tiles, 0);

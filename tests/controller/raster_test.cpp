@@ -85,7 +85,7 @@ TEST(Rasteriser, gives_each_pixel_of_two_polygons_with_a_common_edge_to_exactly_
 }
 
 TEST(Rasteriser, respects_holes) {
-  ColliderDef frame = rectangle(0, 0, 10, 10);
+  ColliderDef frame = box(0, 0, 10, 10);
   frame.holes.push_back({{3, 3}, {7, 3}, {7, 7}, {3, 7}});
   EXPECT_EQ(pixels_of(frame, 1).size(), 100U - 16U);
   EXPECT_FALSE(raster::rasterise({{frame}}, 1).is_white({5, 5}));
@@ -117,10 +117,10 @@ TEST(Rasteriser, draws_a_chain_as_a_line_without_gaps_or_thickness) {
 }
 
 TEST(Rasteriser, draws_neither_sensors_nor_what_moves) {
-  const ColliderDef solid = rectangle(0, 0, 1, 1);
+  const ColliderDef solid = box(0, 0, 1, 1);
   ColliderDef sensor = chain({{-100, 0}, {1e6, 7}});
   sensor.sensor = true;
-  const ColliderDef mover = compare::box(4, 0, 5, 1, 0);
+  const ColliderDef mover = box(4, 0, 5, 1, 0);
   const Bitmap level = raster::rasterise({{sensor, solid, mover}}, 32);
   const Bitmap alone = raster::rasterise({{solid}}, 32);
   EXPECT_EQ(level.box().lower, alone.box().lower);
@@ -145,7 +145,7 @@ TEST(Rasteriser, says_why_it_cannot_draw_something) {
 
 TEST(Colours, go_round_from_1_to_255_and_leave_0_to_the_background) {
   SceneryDef tiles;
-  for (int x = 0; x < 300; ++x) tiles.colliders.push_back(rectangle(x, -1, x + 1, 0));
+  for (int x = 0; x < 300; ++x) tiles.colliders.push_back(box(x, -1, x + 1, 0));
   const raster::ColourPicture picture(tiles, 2);
   for (int x = 0; x < 600; ++x) ASSERT_EQ(picture.colour({x, -1}), 1 + x / 2 % 255);
   for (const Pixel& outside : {Pixel{-1, -1}, Pixel{0, 0}, Pixel{0, -3}, Pixel{600, -1}})
@@ -202,7 +202,7 @@ TEST(Sprite, has_the_outermost_pixel_of_each_row_and_column_on_its_edges) {
 TEST(Mask, refuses_a_picture_that_is_not_as_large_as_the_character) {
   TechniqueDef too_low{.name = "mask"};
   too_low.sprite.assign(39, std::string(20, '#'));
-  EXPECT_THROW(Stepper({rectangle(0, 0, 1, 1)}, {}, too_low), std::invalid_argument);
+  EXPECT_THROW(Stepper({box(0, 0, 1, 1)}, {}, too_low), std::invalid_argument);
 }
 
 // Tiles whose pixels say what a collision does. See also tests/situations/techniques.json.

@@ -21,70 +21,66 @@ constexpr std::uint64_t seed = 20;
 constexpr std::size_t steps = 240;
 
 /// What the grid expresses.
-SceneryDef whole_squares(test::Random& random) {
-  SceneryDef def{{rectangle(-12, -2, 12, -1)}};
+std::vector<ColliderDef> whole_squares(Random& random) {
+  std::vector<ColliderDef> squares{box(-12, -2, 12, -1)};
   for (int i = 0; i < 30; ++i) {
     const int x = random.integer(-12, 11);
     const int y = random.integer(-1, 7);
-    if (x != 0 || y != 3) def.colliders.push_back(rectangle(x, y, x + 1, y + 1));
+    if (x != 0 || y != 3) squares.push_back(box(x, y, x + 1, y + 1));
   }
-  return def;
+  return squares;
 }
 
-/// A random level and a character in it, which is thrown now and then.
-struct Walk {
-  test::Random random{seed};
-  Scenery scenery;
-  TechniqueController controller;
+/// A character in a random level.
+Stepper walker_in(Terrain family, std::string_view kind) {
+  Random random(seed);
+  return {kind == "grid" ? whole_squares(random) : test::random_terrain(family, random, {0, 0}).colliders, {}, kind};
+}
 
-  Walk(Terrain family, std::string_view kind)
-      : scenery(kind == "grid" ? whole_squares(random) : test::random_terrain(family, random, {0, 0})),
-        controller(make_controller(scenery, CharacterDef{}, {.name = kind})) {}
+/// It is thrown now and then.
+void take(std::size_t step, const TechniqueController& controller, CharacterState& state, Scratch& scratch,
+          StepReport& report) {
+  Random keys(step / 10);
+  if (step % 60 == 30) state.velocity = keys.point(300);
+  // What fell out of the level comes in again.
+  if (state.position.cwiseAbs().maxCoeff() > 12) state.position = {0, 3};
+  const Input input{.move = keys.integer(-1, 1), .jump = keys.chance(0.5)};
+  controller.step(state, input, {{0, -30}, frame}, scratch, report);
+}
 
-  void take(std::size_t step, CharacterState& state, Scratch& scratch, StepReport& report) const {
-    test::Random keys(step / 10);
-    if (step % 60 == 30) state.velocity = keys.point(300);
-    // What fell out of the level comes in again.
-    if (state.position.cwiseAbs().maxCoeff() > 12) state.position = {0, 3};
-    const Input input{.move = keys.integer(-1, 1), .jump = keys.chance(0.5)};
-    controller.step(state, input, {{0, -30}, 1.0 / 60}, scratch, report);
+/// @return whether the steps after this one come to the same states from a copy of its state.
+bool goes_on(std::size_t after, const TechniqueController& controller, const std::vector<CharacterState>& all,
+             bool fresh_scratch) {
+  CharacterState state = all[after];
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
+  for (std::size_t i = after + 1; i < all.size(); ++i) {
+    if (fresh_scratch) scratch = controller.make_scratch();
+    take(i, controller, state, scratch, report);
+    if (!same_bits(state, all[i]) || state != all[i]) return false;
   }
-
-  /// @return whether the steps after this one come to the same states from a copy of its state.
-  [[nodiscard]] bool goes_on(std::size_t after, const std::vector<CharacterState>& all, bool fresh_scratch) const {
-    CharacterState state = all[after];
-    Scratch scratch = controller.make_scratch();
-    StepReport report;
-    for (std::size_t i = after + 1; i < all.size(); ++i) {
-      if (fresh_scratch) scratch = controller.make_scratch();
-      take(i, state, scratch, report);
-      if (!same_bits(state, all[i]) || state != all[i]) return false;
-    }
-    return true;
-  }
-};
+  return true;
+}
 
 /// @return steps with contact; nothing where the technique does not express the level.
 std::optional<int> expect_replays(Terrain family, std::string_view kind) {
-  std::optional<Walk> walk;
+  std::optional<Stepper> walker;
   try {
-    walk.emplace(family, kind);
+    walker.emplace(walker_in(family, kind));
   } catch (const NotExpressible&) {  // a picture and a one-way chain, for example
     return {};
   }
   SCOPED_TRACE(testing::Message() << test::name_of(family) << ", " << kind << ", seed " << seed);
   std::vector<CharacterState> all(steps);
-  Scratch scratch = walk->controller.make_scratch();
-  StepReport report;
   int contacts = 0;
   const auto walk_all = [&] {
-    CharacterState state;
-    state.position = {0, 3};
+    walker->state = {};
+    walker->at(0, 3);
     contacts = 0;
     for (std::size_t i = 0; i < steps; ++i) {
-      walk->take(i, state, scratch, report);
-      all[i] = state;
-      contacts += !report.move.contacts.empty();
+      take(i, walker->controller, walker->state, walker->scratch, walker->report);
+      all[i] = walker->state;
+      contacts += !walker->report.move.contacts.empty();
     }
   };
   walk_all();
@@ -93,8 +89,8 @@ std::optional<int> expect_replays(Terrain family, std::string_view kind) {
   EXPECT_EQ(tests::allocations(), before) << "a step takes no memory where the scratch knows all that is near";
   bool elsewhere = false;
   {
-    const std::jthread thread([&] { elsewhere = walk->goes_on(steps / 2, all, true); });
-    EXPECT_TRUE(walk->goes_on(steps / 2, all, false));
+    const std::jthread thread([&] { elsewhere = goes_on(steps / 2, walker->controller, all, true); });
+    EXPECT_TRUE(goes_on(steps / 2, walker->controller, all, false));
   }
   EXPECT_TRUE(elsewhere) << "in another thread";
   return contacts;
@@ -142,10 +138,8 @@ TEST(SavedStates, are_restored_whole_and_have_the_bytes_of_equal_states_and_no_o
 }
 
 TEST(SavedBytes, of_any_kind_give_a_state_that_is_refused_or_stepped) {
-  test::Random random(seed);
-  const Walk walk(Terrain::tiles, "octagon_sweep");
-  Scratch scratch = walk.controller.make_scratch();
-  StepReport report;
+  Random random(seed);
+  Stepper walker = walker_in(Terrain::tiles, "octagon_sweep");
   int refused = 0;
   for (int i = 0; i < 2000; ++i) {
     SavedState noise = save(busy());
@@ -154,9 +148,9 @@ TEST(SavedBytes, of_any_kind_give_a_state_that_is_refused_or_stepped) {
       const int place = random.below(static_cast<int>(sizeof noise));
       bytes[place] = static_cast<unsigned char>(random.below(256));
     }
-    CharacterState state = restored(noise);
-    const bool cannot = is_refused(walk.controller.step(state, {}, {{0, -10}, 1.0 / 60}, scratch, report));
-    EXPECT_TRUE(cannot || state.position.allFinite());
+    walker.state = restored(noise);
+    const bool cannot = is_refused(walker.step());
+    EXPECT_TRUE(cannot || walker.state.position.allFinite());
     refused += cannot;
   }
   EXPECT_GT(refused, 0);

@@ -1,11 +1,8 @@
 /// Ground that is straight but for the rounding of its vertices: a walk does not leave it (the law is at
 /// `leaves` of step_ground.hpp). The rest of such walks the campaign judges: lines/ramp.
-#include "campaign/shapes.hpp"
+#include "controller/stepping.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
-
-#include <paperproof/controller.hpp>
-#include <paperproof/tolerances.hpp>
 
 #include <gtest/gtest.h>
 
@@ -67,21 +64,20 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
     Random random(seed);
     const std::vector<Vec2d> line = random_ramp(random);
     CharacterDef character;
-    const Vec2d gravity{0, random.between(-40, -10)};
-    character.acceleration = -0.9 * gravity.y();  // downhill it would run off steep ground with more
+    const double gravity = -random.between(-40, -10);
+    character.acceleration = 0.9 * gravity;  // downhill it would run off steep ground with more
     character.walk_speed = random.log_between(0.5, std::min(12.0, std::sqrt(8 * character.acceleration)));
     const double dt = 1 / random.between(30, 240);
     double steepest = 0;  // rise over run
     for (std::size_t i = 0; i + 1 < line.size(); ++i) steepest = std::max(steepest, std::abs(std::tan(slope(line, i))));
     const double climb = character.walk_speed * steepest;
-    character.jump_speed = climb - gravity.y() * dt + random.log_between(1e-6, 12);  // it may hardly leave
-    const Scenery scenery(SceneryDef{made_of(line, random)});
-    const Controller controller(scenery, character);
-    Scratch scratch = controller.make_scratch();
+    character.jump_speed = climb + gravity * dt + random.log_between(1e-6, 12);  // it may hardly leave
+    stepping::Stepper walker(made_of(line, random), character);
+    walker.gravity = {0, -gravity};
+    walker.dt = dt;
     const Box2& shape = character.shape.box();
-    CharacterState state;
+    CharacterState& state = walker.state;
     state.position = (line.front() + line.back()) / 2 + Vec2d{0, 1.2};
-    StepReport report;
     double move = random.chance(0.5) ? 1 : -1;
     int same = 0;  // steps of one wish
     for (int step = 0; step < 600; ++step) {
@@ -93,12 +89,11 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
       move = wish;
       const CharacterState before = state;
       const bool presses_key = state.grounded && random.chance(0.02);
-      ASSERT_EQ(controller.step(state, {.move = move, .jump = presses_key}, {gravity, dt}, scratch, report),
-                StepStatus::moved);
+      ASSERT_EQ(walker.step({.move = move, .jump = presses_key}), StepStatus::moved);
       if (presses_key && !before.jump_held) {
         ++presses;
         ASSERT_TRUE(state.jumping && !state.grounded);
-        ASSERT_NEAR(report.requested.y(), (character.jump_speed + gravity.y() * dt) * dt, 1e-15);
+        ASSERT_NEAR(walker.report.requested.y(), (character.jump_speed - gravity * dt) * dt, 1e-15);
         same = 0;
         continue;
       }

@@ -18,7 +18,7 @@ ColliderDef sensor(ColliderDef def, MoverIndex mover = no_mover) {
 
 TEST(SensorOrder, is_that_of_time_for_any_number_of_events) {
   std::vector<ColliderDef> row;
-  for (int i = 19; i >= 0; --i) row.push_back(sensor(rectangle(2 * i + 1, -1, 2 * i + 1.5, 1)));
+  for (int i = 19; i >= 0; --i) row.push_back(sensor(box(2 * i + 1, -1, 2 * i + 1.5, 1)));
   Stepper stepper(row);
   stepper.sweep().reserve({{0, 0}, {100, 0}}, stepper.scratch);
   stepper.at(0, 0).fly(100, 0);
@@ -44,13 +44,13 @@ std::vector<Visit> visits() {
   const Vec2d start{0.5, 0.625};
   const Vec2d right{6, 0};
   return {{"neither squares nor level", sensor(polygon({{4, 0.1}, {5.3, 0}, {4.6, 1.7}})), start, right},
-          {"half a square", sensor(rectangle(4, 0, 4.5, 3)), start, right},
-          {"between two pixels", sensor(rectangle(4.001, -0.5, 4.011, 3)), start, right},
+          {"half a square", sensor(box(4, 0, 4.5, 3)), start, right},
+          {"between two pixels", sensor(box(4.001, -0.5, 4.011, 3)), start, right},
           {"a line", sensor(chain({{4.2, -1}, {4.7, 3}})), start, right},
-          {"a floor that is none", sensor(rectangle(-3, 2, 3, 3)), start + Vec2d(0, 6), {0, 0}, {0, -10}},
-          {"in the solid as well", sensor(rectangle(2, -1, 3, 3)), start, right},
-          {"around the start", sensor(rectangle(-1, -2, 3, 3)), start, right, {0, 0}, {Change::exit}},
-          {"too far for any picture", sensor(rectangle(1e6, 0, 1e6 + 1, 3)), start, right, {0, 0}, {}},
+          {"a floor that is none", sensor(box(-3, 2, 3, 3)), start + Vec2d(0, 6), {0, 0}, {0, -10}},
+          {"in the solid as well", sensor(box(2, -1, 3, 3)), start, right},
+          {"around the start", sensor(box(-1, -2, 3, 3)), start, right, {0, 0}, {Change::exit}},
+          {"too far for any picture", sensor(box(1e6, 0, 1e6 + 1, 3)), start, right, {0, 0}, {}},
           {"on the move", sensor(polygon({{6, 0.1}, {7.3, 0}, {6.6, 1.7}}), 0), start, right}};
 }
 
@@ -58,7 +58,7 @@ TEST(SensorsOfAController, change_no_bit_of_the_motion_by_any_technique) {
   for (const std::string_view kind : technique_names())
     for (const Visit& visit : visits()) {
       SCOPED_TRACE(std::string(kind) + ", " + visit.what);
-      const std::vector<ColliderDef> solids{rectangle(-4, -2, 16, -1), rectangle(12, -1, 13, 6)};
+      const std::vector<ColliderDef> solids{box(-4, -2, 16, -1), box(12, -1, 13, 6)};
       std::vector<ColliderDef> watched{visit.sensor};
       watched.insert(watched.end(), solids.begin(), solids.end());
       Stepper with(watched, {}, kind);
@@ -85,7 +85,7 @@ TEST(SensorsOfAController, change_no_bit_of_the_motion_by_any_technique) {
 }
 
 TEST(SensorsOfAController, a_step_that_is_refused_reports_nothing) {
-  Stepper stepper({sensor(rectangle(1, -1, 2, 1))});
+  Stepper stepper({sensor(box(1, -1, 2, 1))});
   stepper.at(0, 0).fly(4, 0);
   EXPECT_EQ(stepper.report.sensors.size(), 2U);
   stepper.at(0, 0).fly(5e6, 0);

@@ -10,7 +10,6 @@ namespace paperproof {
 namespace {
 
 using namespace stepping;
-using compare::box;
 using test::Random;
 
 /// A floor, a lift, a press that can come down to 1 m above the floor, and a wall.

@@ -9,11 +9,13 @@
 #include <paperproof/techniques.hpp>
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace paperproof::stepping {
 
+using compare::box;
 using compare::degree;
 using compare::half_height;
 using compare::half_width;
@@ -28,10 +30,6 @@ inline constexpr double frame = 1.0 / 60;
 
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
-
-inline ColliderDef rectangle(double left, double bottom, double right, double top) {
-  return compare::box(left, bottom, right, top);
-}
 
 inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
   return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
@@ -56,7 +54,7 @@ inline CharacterDef of_shape(const CharacterShape& shape) {
 }
 
 struct Stepper {
-  std::unique_ptr<const Scenery> scenery;  ///< Stays where it is when the stepper is moved.
+  std::unique_ptr<Scenery> scenery;  ///< Stays where it is when the stepper is moved.
   TechniqueController controller;
   Scratch scratch;
   CharacterState state;
@@ -69,10 +67,10 @@ struct Stepper {
 
   explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
                    const TechniqueDef& technique = {})
-      : Stepper(std::make_unique<const Scenery>(SceneryDef{std::move(colliders)}),
+      : Stepper(std::make_unique<Scenery>(SceneryDef{std::move(colliders)}),
                 [&](const Scenery& level) { return make_controller(level, character, technique); }) {}
   template <class Make>
-  Stepper(std::unique_ptr<const Scenery> level, const Make& make)
+  Stepper(std::unique_ptr<Scenery> level, const Make& make)
       : scenery(std::move(level)),
         controller(make(*scenery)),
         scratch(controller.make_scratch()),
@@ -119,6 +117,14 @@ struct Stepper {
     for (int i = 0; i < count; ++i) step(input);
   }
 };
+
+/// In a game: it pulls down, and ground is at height zero if nothing else is said.
+inline Stepper player_in(std::vector<ColliderDef> colliders, const Vec2d& position = {0, half_height + 0.005}) {
+  Stepper character(std::move(colliders));
+  character.gravity = {0, -30};
+  character.state.position = position;
+  return character;
+}
 
 /// Every field, NaN and the sign of zero included.
 inline bool same_bits(const CharacterState& a, const CharacterState& b) {

@@ -63,14 +63,10 @@ struct Together {
     step_together(companions_, context(), turns);
     for (std::size_t k = 0; k < order.size(); ++k) turn[order[k]] = companions_[k].turn;
   }
-  /// The movers go on from where they are.
-  void step_with_movers_to(const std::vector<MoverMotion>& places) {
-    for (std::size_t k = 0; k < movers.size(); ++k)
-      movers[k] = {movers[k].to, places[k].to, movers[k].to_angle, places[k].to_angle};
+  /// Its mover stays, and turns on to an angle.
+  void step_with_mover_turned_to(double angle) {
+    movers[0] = {{0, 0}, {0, 0}, movers[0].to_angle, angle};
     step();
-  }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) step();
   }
   [[nodiscard]] bool is_body(ColliderIndex collider) const {
     return std::find(bodies.begin(), bodies.end(), collider) != bodies.end();
@@ -91,7 +87,7 @@ struct Together {
   std::vector<Companion> companions_;
 };
 
-[[nodiscard]] inline ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
+[[nodiscard]] inline ColliderDef floor_at_zero() { return box(-20, -1, 20, 0); }
 
 /// In a game: it pulls down, and a step is a frame.
 [[nodiscard]] inline Together under_gravity(const std::vector<Vec2d>& positions,

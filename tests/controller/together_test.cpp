@@ -10,7 +10,6 @@ namespace paperproof {
 namespace {
 
 using namespace stepping;
-using compare::box;
 
 /// Ids, which decide the turns, ascend along the characters or descend, and so does the array.
 void put_in_order(int order, Together& all) {
@@ -22,14 +21,12 @@ void put_in_order(int order, Together& all) {
 const CharacterDef walker{.snap = 0.2, .step_height = 0.25};
 
 bool nobody_is_crushed(const Together& all) {
-  return std::all_of(all.reports.begin(), all.reports.end(), [](const StepReport& report) {
+  return std::ranges::all_of(all.reports, [](const StepReport& report) {
     return report.move.crushed.empty() && report.status == StepStatus::moved;
   });
 }
 
-bool all_stand(const Together& all) {
-  return std::all_of(all.states.begin(), all.states.end(), [](const CharacterState& state) { return state.grounded; });
-}
+bool all_stand(const Together& all) { return std::ranges::all_of(all.states, &CharacterState::grounded); }
 
 /// How lifts carry that do not turn is in tests/situations/together.json.
 TEST(Together, a_tower_on_a_lift_that_tilts_is_carried_without_a_crush_and_never_in_the_air) {
@@ -40,11 +37,9 @@ TEST(Together, a_tower_on_a_lift_that_tilts_is_carried_without_a_crush_and_never
     Together tower = under_gravity(places, {box(-3, -1, 3, 0, 0)}, walker);
     put_in_order(order, tower);
     for (Input& input : tower.inputs) input.move = 0;
-    tower.steps(5);
-    for (int step = 1; step <= 600; ++step) {
-      tower.step_with_movers_to({{{0, 0}, {0, 0}, 0, 0.3 * std::sin(1.5 * step * frame)}});
-      ASSERT_TRUE(nobody_is_crushed(tower)) << step;
-      ASSERT_TRUE(all_stand(tower)) << step;
+    for (int step = -4; step <= 600; ++step) {
+      tower.step_with_mover_turned_to(0.3 * std::sin(1.5 * std::max(step, 0) * frame));
+      ASSERT_TRUE(nobody_is_crushed(tower) && (step < 1 || all_stand(tower))) << step;
     }
     EXPECT_EQ(tower.states[0].ride.ground, 0U);
     for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(tower.states[i].ride.ground, tower.bodies[i - 1]);
@@ -136,7 +131,7 @@ TEST(Together, on_a_plank_that_rocks_two_stand_and_one_that_walks_stops_at_the_o
     put_in_order(order, two);
     two.inputs[0].move = 0.5;
     for (int step = 1; step <= 300; ++step) {
-      two.step_with_movers_to({{{0, 0}, {0, 0}, 0, 0.2 * std::sin(3 * step * frame)}});
+      two.step_with_mover_turned_to(0.2 * std::sin(3 * step * frame));
       ASSERT_TRUE(nobody_is_crushed(two) && (step < 20 || all_stand(two))) << step;
     }
     EXPECT_NEAR(two.gap(0, 1), 0, 0.02) << "upright, on ground that is not level";

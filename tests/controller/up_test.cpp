@@ -20,11 +20,11 @@ StepStatus step_with(Stepper& stepper, const Vec2d& up) {
 }
 
 CharacterDef box_shaped(double half_width, double bottom, double top) {
-  return of_shape(CharacterShape(rectangle(-half_width, bottom, half_width, top).points));
+  return of_shape(CharacterShape(box(-half_width, bottom, half_width, top).points));
 }
 
 TEST(Up, that_is_no_unit_vector_is_refused) {
-  Stepper stepper({rectangle(-9, -1, 9, 0)});
+  Stepper stepper({box(-9, -1, 9, 0)});
   stepper.at(0, 3);
   const CharacterState before = stepper.state;
   for (const Vec2d& up : {Vec2d{0, 0}, Vec2d{0, 1.0001}, Vec2d{nan, 1}, Vec2d{0, nan}, Vec2d{infinity, 0}, Vec2d{1, 1},
@@ -37,13 +37,13 @@ TEST(Up, that_is_no_unit_vector_is_refused) {
   }
   for (int i = 0; i < 1000; ++i)
     ASSERT_EQ(step_with(stepper, Vec2d{7 * std::cos(i), 7 * std::sin(i)}.normalized()), StepStatus::moved) << i;
-  Stepper boxed({rectangle(-9, -1, 9, 0)}, {}, "bounding_box");
+  Stepper boxed({box(-9, -1, 9, 0)}, {}, "bounding_box");
   EXPECT_EQ(step_with(boxed, {0, 1}), StepStatus::moved);
   EXPECT_EQ(step_with(boxed, {0, -1}), StepStatus::invalid_input) << "of another technique";
 }
 
 TEST(Up, decides_how_fast_a_fall_may_be) {
-  Stepper faller({rectangle(-9, -99, 9, -98)}, {.max_fall_speed = 5});
+  Stepper faller({box(-9, -99, 9, -98)}, {.max_fall_speed = 5});
   const Vec2d up{0.6, 0.8};
   for (int step = 0; step < 60; ++step) step_with(faller, up);
   EXPECT_NEAR(faller.state.velocity.dot(up), -5, 1e-12);
@@ -51,7 +51,7 @@ TEST(Up, decides_how_fast_a_fall_may_be) {
 }
 
 TEST(Up, decides_the_sides_of_questions) {
-  Stepper stepper({rectangle(-9, -1, 9, 0)});
+  Stepper stepper({box(-9, -1, 9, 0)});
   const auto side_below = [&](const Vec2d& up) {
     return stepper.sweep().nearest({0, 1}, 2, {.up = up}, stepper.scratch)->side;
   };
@@ -63,8 +63,8 @@ TEST(Up, decides_the_sides_of_questions) {
 
 /// Nobody comes to stand on two heads: the order in which they are found decides which of the two carries.
 TEST(Up, of_several_turns_with_the_scene) {
-  const SceneryDef walls{{rectangle(-6, -6, 6, -5), rectangle(5, -6, 6, 6), rectangle(-6, 5, 6, 6),
-                          rectangle(-6, -6, -5, 6), rectangle(-2, -5, 0, -3)}};
+  const SceneryDef walls{
+      {box(-6, -6, 6, -5), box(5, -6, 6, 6), box(-6, 5, 6, 6), box(-6, -6, -5, 6), box(-2, -5, 0, -3)}};
   std::array<test::Saying, 4> turned;
   std::vector<Together> scenes;
   for (test::Saying& saying : turned) {
@@ -95,8 +95,8 @@ TEST(Up, of_several_turns_with_the_scene) {
 }
 
 TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
-  const ColliderDef lift = compare::box(-3, -1, 3, 0, 0);
-  Stepper rider({lift, rectangle(-1, 2, 1, 3), rectangle(40, -1, 50, 0)}, {.coyote_time = 0.1});
+  const ColliderDef lift = box(-3, -1, 3, 0, 0);
+  Stepper rider({lift, box(-1, 2, 1, 3), box(40, -1, 50, 0)}, {.coyote_time = 0.1});
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.1, 0);
   ASSERT_NE(rider.state.ride.ground, no_collider);
@@ -112,7 +112,7 @@ TEST(Teleport, keeps_velocity_and_button_and_forgets_the_place) {
 }
 
 TEST(KnockBack, leaves_the_ground_and_what_carries) {
-  Stepper rider({compare::box(-3, -1, 3, 0, 0)}, {.coyote_time = 0.1, .jump_cut = 0.25, .snap = 0.5});
+  Stepper rider({box(-3, -1, 3, 0, 0)}, {.coyote_time = 0.1, .jump_cut = 0.25, .snap = 0.5});
   rider.gravity = {0, -30};
   rider.at(0, half_height + 1e-3).steps(10);
   rider.step_with_mover_by(0.05, 0);
@@ -129,25 +129,24 @@ TEST(KnockBack, leaves_the_ground_and_what_carries) {
 
 TEST(Shape, may_change_between_steps) {
   // A lift carries the character below a bar, and out again.
-  const Scenery scenery(SceneryDef{{compare::box(-3, -1, 9, 0, 0), rectangle(2, 1, 4, 2)}});
-  const Controller standing(scenery, box_shaped(0.3, -0.4, 1.2));
-  const Controller crouching(scenery, box_shaped(0.3, -0.4, 0.4));
-  Scratch high = standing.make_scratch();
-  Scratch flat = crouching.make_scratch();
-  StepReport report;
+  const std::vector<ColliderDef> level{box(-3, -1, 9, 0, 0), box(2, 1, 4, 2)};
+  Stepper standing(level, box_shaped(0.3, -0.4, 1.2));
+  Stepper crouching(level, box_shaped(0.3, -0.4, 0.4));
+  standing.gravity = crouching.gravity = {0, -30};
   CharacterState state;
   state.position = {0, 0.401};
-  MoverMotion motion;
   int crouched = 0;
   bool is_low = false;
   for (int step = 0; step < 120; ++step) {
-    motion = {motion.to, motion.to + Vec2d{0.05, 0}};
-    const StepContext context{{0, -30}, frame, std::span(&motion, 1)};
     is_low = state.position.x() > 1 && state.position.x() < 2.5;  // the button to crouch
-    is_low = is_low || standing.overlaps(state.position, context, high) != std::size_t{0};
-    (is_low ? crouching : standing).step(state, {}, context, is_low ? flat : high, report);
+    standing.movers[0] = crouching.movers[0] = {{0.05 * step, 0}, {0.05 * (step + 1), 0}};
+    is_low =
+        is_low || standing.sweep().overlaps(state.position, standing.context(), standing.scratch) != std::size_t{0};
+    Stepper& now = is_low ? crouching : standing;
+    now.state = state;
+    ASSERT_EQ(now.step(), StepStatus::moved) << step;
+    state = now.state;
     crouched += is_low;
-    ASSERT_EQ(report.status, StepStatus::moved) << step;
     ASSERT_EQ(state.stuck_steps, 0);
     if (step < 2) continue;
     ASSERT_EQ(state.ride.ground, 0U) << step;
