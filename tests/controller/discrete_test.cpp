@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 
 namespace paperproof::stepping {
 namespace {
 
+using discrete::Body;
 using discrete::BodyIndex;
 using discrete::find_impact;
 using discrete::Pair;
@@ -19,51 +19,30 @@ using discrete::Reaches;
 constexpr double gap = Tolerances{}.stop;
 constexpr double touch = Tolerances{}.touch;
 
-/// Bodies, and the outlines that they refer to.
-class Bodies {
- public:
-  using Body = discrete::Body;
-
-  Body& add(std::vector<Vec2d> outline, const Vec2d& position, const Vec2d& movement = {0, 0}) {
-    outlines_.push_back(std::move(outline));
-    Body body;
-    body.outline = std::span<const Vec2d>(outlines_.back());
-    body.box = {outlines_.back().front(), outlines_.back().front()};
-    for (const Vec2d& vertex : outlines_.back()) body.box = body.box.merged({vertex, vertex});
-    body.position = position;
-    body.movement = body.velocity = movement;
-    all.push_back(body);
-    return all.back();
-  }
-
-  /// A box of a metre, by its centre.
-  Body& add_box(const Vec2d& position, const Vec2d& movement = {0, 0}) {
-    return add(box(-0.5, -0.5, 0.5, 0.5).points, position, movement);
-  }
-
-  std::vector<Body> all;
-
- private:
-  std::deque<std::vector<Vec2d>> outlines_;  // their addresses stay
-};
+/// @param outline must outlive the body.
+Body body_of(const std::vector<Vec2d>& outline, const Vec2d& position, const Vec2d& movement) {
+  Body body{.outline = std::span<const Vec2d>(outline), .box = Box2::around(outline), .base = {}};
+  body.position = position;
+  body.movement = body.velocity = movement;
+  return body;
+}
 
 TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
   Random random(52);
   int hits = 0;
   for (int i = 0; i < 10'000; ++i) {
-    Bodies bodies;
     const Vec2d start = random.point(4);
     const Vec2d end = random.point(1);
     const Vec2d of_both = random.point(5);
-    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), start, end - start + of_both);
-    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), {0, 0}, of_both);
-    const auto overlap_at = [&](double time) {
-      auto moved = bodies.all[0];
-      moved.position = start + (end - start) * time;  // seen from the other
-      return discrete::began_overlapping(moved, bodies.all[1], 0.0);
+    const std::vector<Vec2d> outline = on_an_ellipse(random, {0, 0}, {1, 1});
+    const std::vector<Vec2d> other_outline = on_an_ellipse(random, {0, 0}, {1, 1});
+    const Body body = body_of(outline, start, end - start + of_both);
+    const Body other = body_of(other_outline, {0, 0}, of_both);
+    const auto overlap_at = [&](double time) {  // seen from the other
+      return discrete::began_overlapping(body_of(outline, start + (end - start) * time, {0, 0}), other, 0.0);
     };
     if (overlap_at(0)) continue;
-    const auto impact = find_impact(bodies.all[0], bodies.all[1], touch);
+    const auto impact = find_impact(body, other, touch);
     ASSERT_EQ(impact.has_value(), overlap_at(1)) << "seed 52, case " << i;
     if (!impact) continue;
     ++hits;
@@ -76,17 +55,19 @@ TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
 
 TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   // The mover is expected to end in all three boxes, of which the last, whose top is the highest, is met first.
-  Bodies bodies;
-  for (const double y : {-2.5, -2.0, -1.5}) bodies.add_box({0, y}).inverse_mass = 0;
-  bodies.add_box({0, 1}, {0, -3});
-  for (BodyIndex i = 0; i < 3; ++i) ASSERT_TRUE(find_impact(bodies.all[3], bodies.all[i], touch));
+  const std::vector<Vec2d> metre = box(-0.5, -0.5, 0.5, 0.5).points;
+  std::vector<Body> bodies;
+  for (const double y : {-2.5, -2.0, -1.5}) bodies.push_back(body_of(metre, {0, y}, {0, 0}));
+  for (Body& body : bodies) body.inverse_mass = 0;
+  bodies.push_back(body_of(metre, {0, 1}, {0, -3}));
+  for (BodyIndex i = 0; i < 3; ++i) ASSERT_TRUE(find_impact(bodies[3], bodies[i], touch));
   discrete::Solver solver{gap, touch};
-  ASSERT_TRUE(solver.solve_once(bodies.all));
+  ASSERT_TRUE(solver.solve_once(bodies));
   ASSERT_EQ(solver.solved().size(), 1U) << "after the first impact there is no other";
   EXPECT_EQ(solver.solved()[0].bodies.second, 2U);
   EXPECT_DOUBLE_EQ(solver.solved()[0].impact.time, (1 - 0.5 - -1.0) / 3);
-  EXPECT_DOUBLE_EQ(bodies.all[3].expected().y(), -0.5 + gap);
-  EXPECT_FALSE(solver.solve_once(bodies.all)) << "nothing is left";
+  EXPECT_DOUBLE_EQ(bodies[3].expected().y(), -0.5 + gap);
+  EXPECT_FALSE(solver.solve_once(bodies)) << "nothing is left";
 }
 
 /// Sorted. @param find fills a list.
