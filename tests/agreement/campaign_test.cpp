@@ -1,12 +1,14 @@
 /// The guarantee of octagon_sweep over every family of random runs: steps break only what is known and open, and enough
 /// happens in them.
 #include "campaign/campaign.hpp"
-#include "agreement/known_and_open.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <fstream>
 
 namespace paperproof::test {
 namespace {
@@ -14,6 +16,29 @@ namespace {
 using compare::Clause;
 using compare::Family;
 using compare::Findings;
+
+/// What random runs may break of the guarantee, because it is known and open.
+const nlohmann::json& known_and_open() {
+  static const nlohmann::json known = nlohmann::json::parse(std::ifstream(PAPERPROOF_KNOWN_AND_OPEN));
+  return known;
+}
+
+/// How many of so many steps of a family may break a clause. The file has the share of each family that broke it where
+/// that was measured: no other may; or of all runs together, where there are no families. What one run breaks it breaks
+/// for several steps: runs come by chance, their number varies by its root, and each counts for as many steps as the
+/// worst did.
+/// @param runs as the file names them: "static", "any_up", "movers", "turning", "crowd" and so on.
+int most_broken(const std::string& runs, Clause clause, int steps, const std::string& family) {
+  for (const nlohmann::json& entry : known_and_open().at("random")) {
+    if (entry.at("runs") != runs || entry.at("clause") != std::string(name_of(clause))) continue;
+    const double share = entry.contains("families") ? entry.at("families").value(family, 0.0)
+                                                    : entry.at("steps_in_a_million").get<double>();
+    const double expected = share * steps / 1e6;
+    const double worst = entry.at("steps_of_one_run").get<double>();
+    return expected > 0 ? static_cast<int>(expected + 4 * std::sqrt(expected * worst) + worst) : 0;
+  }
+  return 0;
+}
 
 class Campaign : public ::testing::TestWithParam<Family> {};
 
