@@ -1,14 +1,12 @@
 /// One table of equalities: the same run in another way gives the same bits. The runs are the campaign's.
 #include "agreement/saying.hpp"
 #include "campaign/campaign.hpp"
-#include "campaign/shapes.hpp"
+#include "controller/stepping.hpp"
 #include "runs/input_cursor.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
-#include <paperproof/controller.hpp>
 #include <paperproof/saved_state.hpp>
-#include <paperproof/techniques.hpp>
 #include <paperproof/together.hpp>
 
 #include <gtest/gtest.h>
@@ -34,19 +32,12 @@ struct OtherWay {
   Stepper first{};  ///< Steps the run in the first way, where that is not as it was drawn.
 };
 
-/// What steps a character of a scene.
-struct World {
-  explicit World(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {})
-      : scenery(def), controller(make_controller(scenery, character, technique)) {}
-
-  Scenery scenery;
-  TechniqueController controller;
-  Scratch scratch = controller.make_scratch();
-};
+/// What steps a character of a scene: its own state is not used.
+using World = stepping::Stepper;
 
 Stepper controller_of(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {}) {
-  return [world = std::make_shared<World>(def, character, technique)](CharacterState& state, const Input& input,
-                                                                      const StepContext& context, StepReport& report) {
+  return [world = std::make_shared<World>(def.colliders, character, technique)](
+             CharacterState& state, const Input& input, const StepContext& context, StepReport& report) {
     world->controller.step(state, input, context, world->scratch, report);
   };
 }
@@ -205,7 +196,7 @@ OtherWay filtered(const RandomRun& run, Random& random, OtherWay other) {
 
 /// Saved as bytes and restored in each step, with memory that others have used or nobody has.
 OtherWay restored_each_step(const RandomRun& run, Random&, OtherWay) {
-  const auto world = std::make_shared<World>(run.scene.scenery, run.scene.character);
+  const auto world = std::make_shared<World>(run.scene.scenery.colliders, run.scene.character);
   return {.step = [world](CharacterState& state, const Input& input, const StepContext& context, StepReport& report) {
     CharacterState elsewhere = state;
     elsewhere.position += Vec2d(1, 1);
@@ -244,7 +235,7 @@ OtherWay one_of_many(const RandomRun& run, Random&, OtherWay other) {
   SceneryDef def = other.saying.of(run.scene.scenery);
   const auto body = static_cast<ColliderIndex>(def.colliders.size());
   for (int i = 0; i < 2; ++i) def.colliders.push_back(body_of(character));
-  const auto world = std::make_shared<World>(def, character);
+  const auto world = std::make_shared<World>(def.colliders, character);
   const auto turns = std::make_shared<TogetherScratch>();
   other.step = [=](CharacterState& state, const Input& input, const StepContext& context, StepReport& report) {
     CharacterState elsewhere;

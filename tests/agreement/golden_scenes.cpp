@@ -57,15 +57,11 @@ Scene make_scene(const std::string& name, const Vec2d& origin, std::uint64_t see
                  ColliderDef (*make_piece)(Random&, const Vec2d&)) {
   Scene scene{name, origin, {}, {}};
   std::vector<ColliderDef>& colliders = scene.scenery.colliders;
-  colliders.push_back(box(origin - Vec2d(1, 1), arena_width + 2, 1));
-  colliders.push_back(box(origin + Vec2d(-1, arena_height), arena_width + 2, 1));
-  colliders.push_back(box(origin - Vec2d(1, 0), 1, arena_height));
-  colliders.push_back(box(origin + Vec2d(arena_width, 0), 1, arena_height));
+  colliders = {box(origin - Vec2d(1, 1), arena_width + 2, 1), box(origin + Vec2d(-1, arena_height), arena_width + 2, 1),
+               box(origin - Vec2d(1, 0), 1, arena_height), box(origin + Vec2d(arena_width, 0), 1, arena_height)};
   Random random(seed);
-  for (int piece = 0; piece < pieces; ++piece) {
-    const Vec2d at = random.point(origin, origin + Vec2d(arena_width, arena_height));
-    colliders.push_back(make_piece(random, at));
-  }
+  for (int piece = 0; piece < pieces; ++piece)
+    colliders.push_back(make_piece(random, random.point(origin, origin + Vec2d(arena_width, arena_height))));
   return scene;
 }
 

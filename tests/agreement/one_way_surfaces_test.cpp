@@ -14,10 +14,7 @@ namespace {
 using compare::ExactScenery;
 using compare::Place;
 
-Vec2d whole(Random& random, int reach) {
-  const double x = random.integer(-reach, reach);
-  return {x, static_cast<double>(random.integer(-reach, reach))};
-}
+Vec2d whole(Random& random, int reach) { return Vec2d{random.integer(-reach, reach), random.integer(-reach, reach)}; }
 
 /// One to six chains, all with one direction.
 SceneryDef random_chains(Random& random) {

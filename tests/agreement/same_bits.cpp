@@ -196,11 +196,9 @@ int compare(const Lines& golden, const Lines& here) {
     return lines.contains(key) ? lines.at(key) : "absent";
   };
   for (const auto& [key, ignored] : all) {
-    const std::string expected = value_of(golden, key);
-    const std::string found = value_of(here, key);
-    if (expected == found) continue;
+    if (value_of(golden, key) == value_of(here, key)) continue;
     ++differences;
-    std::cout << key << ": golden " << expected << ", here " << found << '\n';
+    std::cout << key << ": golden " << value_of(golden, key) << ", here " << value_of(here, key) << '\n';
   }
   std::cout << here.size() << " runs, " << differences << " differences\n";
   return differences == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

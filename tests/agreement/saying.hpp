@@ -19,6 +19,14 @@
 
 namespace paperproof::test {
 
+/// Says points and directions of a collider in another way.
+inline void say_anew(ColliderDef& collider, const auto& way) {
+  for (Vec2d& p : collider.points) p = way(p);
+  for (std::vector<Vec2d>& hole : collider.holes)
+    for (Vec2d& p : hole) p = way(p);
+  if (collider.one_way) collider.one_way = way(*collider.one_way);
+}
+
 /// How one and the same thing is said in another way of a run: vectors are multiplied, colliders are numbered anew, and
 /// a character is said to be somewhere else, as its shape is written around another origin.
 struct Saying {
@@ -56,10 +64,7 @@ struct Saying {
   }
   [[nodiscard]] SceneryDef of(SceneryDef def) const {
     for (ColliderDef& collider : def.colliders) {
-      for (Vec2d& p : collider.points) p = of(p);
-      for (std::vector<Vec2d>& hole : collider.holes)
-        for (Vec2d& p : hole) p = of(p);
-      if (collider.one_way) collider.one_way = of(*collider.one_way);
+      say_anew(collider, [this](const Vec2d& v) { return of(v); });
       if (mirrors()) collider.surface_speed = -collider.surface_speed;
     }
     return def;
@@ -88,14 +93,8 @@ inline Saying written_elsewhere(compare::Random& random) {
 
 /// With movers that are made turned, each about its origin.
 inline SceneryDef made_turned(SceneryDef def, const std::vector<double>& angles) {
-  for (ColliderDef& collider : def.colliders) {
-    if (collider.mover == no_mover) continue;
-    const geometry::Turn turn(angles[collider.mover]);
-    for (Vec2d& p : collider.points) p = turn(p);
-    for (std::vector<Vec2d>& hole : collider.holes)
-      for (Vec2d& p : hole) p = turn(p);
-    if (collider.one_way) collider.one_way = turn(*collider.one_way);
-  }
+  for (ColliderDef& collider : def.colliders)
+    if (collider.mover != no_mover) say_anew(collider, geometry::Turn(angles[collider.mover]));
   return def;
 }
 

@@ -1,9 +1,7 @@
 /// What is common to every technique: what is refused (input, movers that no step can begin with, scratch memory of
 /// another), and what no situation can say of a walk. How a character falls, walks and jumps is in
 /// tests/situations/motion.json and jumps.json.
-#include "campaign/shapes.hpp"
 #include "controller/states.hpp"
-#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +14,7 @@ namespace {
 /// Some techniques are for scenery that stands still.
 bool knows_movers(std::string_view kind) {
   const auto make = [kind] { (void)Stepper({box(0, 0, 1, 1, 0)}, {}, kind); };
-  return test::refusal_by<NotExpressible>(make).empty();
+  return refusal_by<NotExpressible>(make).empty();
 }
 
 /// Stands on a floor. Gravity is half a metre per second in each step: nothing is rounded.

@@ -63,14 +63,6 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::string_view what = argv[1];
   const int number = std::atoi(argv[2]);
-  double result = 0;
-  if (what == "walk")
-    result = steps(number, 1);
-  else if (what == "shared")
-    result = steps(number, characters);
-  else if (what == "set_up")
-    result = set_up(number);
-  else
-    return 2;
+  const double result = what == "set_up" ? set_up(number) : steps(number, what == "walk" ? 1 : characters);
   std::printf("%.17g\n", result);
 }

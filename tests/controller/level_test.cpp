@@ -49,18 +49,16 @@ TEST(LevelEdits, what_is_refused_changes_nothing) {
 
 TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
   Stepper played = player_in({box(0, 0, 1, 1, 1)});
-  const auto step = [&](double dt) {
-    played.dt = dt;
-    return played.step();
-  };
   played.movers.resize(1);
-  EXPECT_EQ(step(frame), StepStatus::invalid_input);
+  EXPECT_EQ(played.step(), StepStatus::invalid_input);
   played.movers.resize(2);
-  played.movers[1].to_angle = std::nan("");
-  EXPECT_EQ(step(frame), StepStatus::invalid_input);
+  played.movers[1].to_angle = nan;
+  EXPECT_EQ(played.step(), StepStatus::invalid_input);
   played.movers[1] = {};
-  EXPECT_EQ(step(-frame), StepStatus::invalid_input);
-  EXPECT_EQ(step(frame), StepStatus::moved);
+  played.dt = -frame;
+  EXPECT_EQ(played.step(), StepStatus::invalid_input);
+  played.dt = frame;
+  EXPECT_EQ(played.step(), StepStatus::moved);
 }
 
 TEST(LevelSteps, allocate_nothing_while_what_is_near_stays) {

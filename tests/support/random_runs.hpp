@@ -14,7 +14,6 @@ using compare::all_terrains;
 using compare::name_of;
 using compare::next_offset;
 using compare::play_level;
-using compare::play_shape;
 using compare::PlayLevel;
 using compare::Random;
 using compare::random_terrain;
