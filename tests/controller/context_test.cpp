@@ -13,16 +13,7 @@ namespace {
 
 const ColliderDef ground = box(-9, -1, 9, 0);
 
-TEST(Filter, has_the_rule_of_box2d) {
-  EXPECT_TRUE(collide({}, {}));
-  EXPECT_FALSE(collide({.mask = 2}, {}));
-  EXPECT_FALSE(collide({}, {.mask = 2}));
-  EXPECT_TRUE(collide({.category = 2, .mask = 4}, {.category = 4, .mask = 2}));
-  EXPECT_FALSE(collide({.category = 2, .mask = 4}, {.category = 4, .mask = 1}));
-  EXPECT_FALSE(collide({.group = -3}, {.group = -3})) << "one negative group";
-  EXPECT_TRUE(collide({.mask = 0, .group = 3}, {.mask = 0, .group = 3})) << "one positive group";
-  EXPECT_TRUE(collide({.group = -3}, {.group = -4})) << "of other groups";
-}
+// That two filters collide as Box2D says is in tests/box2d_adapter/world_scenery_test.cpp.
 
 TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
   Stepper standing({ground});
