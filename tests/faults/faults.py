@@ -2,21 +2,22 @@
 """Which faults do the tests find? Draws small faults at random, puts one at a time into a copy of the project, builds
 it, and runs the tests.
 
-  faults.py draw [--seed N] [--each N] [--spare N] > faults.json
-      N faults for each part of the project, each an operator and a place drawn by the seed, and spare ones for those
-      that do not compile or change nothing.
-  faults.py run FAULTS RESULTS [--into FOLDER] [--full]
+  faults.py draw [--seed N] > faults.json
+      Eight faults for each part of the project, each an operator and a place drawn by the seed, and twelve spare ones
+      for those that do not compile or change nothing.
+  faults.py run FAULTS RESULTS [--full]
       RESULTS is a JSON file with one entry for each fault. A fault that has an entry is not run again.
-      FOLDER (build/faults) gets the copy and its build.
+      The copy and its build are in build/faults.
       --full: faults that the quick tests did not find meet the slow ones as well.
-  faults.py table RESULTS...
-      One line for each fault, and how many were found; of several files, side by side.
+  faults.py table RESULTS
+      One line for each fault, and how many were found.
 
 Needs what `tests/run.sh` needs. A fault takes one to five minutes on two cores."""
 import argparse, json, os, random, re, shutil, subprocess, sys, time
+from pathlib import Path
 
-here = os.path.dirname(os.path.abspath(__file__))
-project = os.path.dirname(os.path.dirname(here))
+project = Path(__file__).resolve().parents[2]
+each, spare = 8, 12
 
 # Where faults are put: a part, its folders, and what of them is left out.
 parts = {
@@ -49,13 +50,12 @@ passed_over = re.compile(r'^\s*(//|#|\*|template|static_assert|using |namespace 
 
 
 def sources(part):
+    """Paths within the project."""
     folders, left_out = parts[part]
     for folder in folders:
-        for at, _, files in sorted(os.walk(os.path.join(project, folder))):
-            path = os.path.relpath(at, project)
-            if any(path == out or path.startswith(out + '/') for out in left_out):
-                continue
-            yield from (os.path.join(path, name) for name in sorted(files) if name.endswith(('.cpp', '.hpp')))
+        paths = [path.relative_to(project) for path in (project / folder).rglob('*.[ch]pp')]
+        kept = [path for path in paths if not any(path.is_relative_to(out) for out in left_out)]
+        yield from sorted(kept, key=lambda path: (str(path.parent), path.name))
 
 
 def changes_of(line):
@@ -69,17 +69,16 @@ def changes_of(line):
                 yield name, line[:match.start()] + replace(match) + line[match.end():]
 
 
-def draw(seed, each, spare):
-    """`each` + `spare` faults of every part, in the order in which they are tried: operators by turns, as they are drawn."""
+def draw(seed):
+    """Faults of every part, in the order in which they are tried: operators by turns, as they are drawn."""
     drawn = []
     for part in parts:
         dice = random.Random(f'{seed} {part}')
         by_operator = {}
         for path in sources(part):
-            with open(os.path.join(project, path)) as file:
-                for number, line in enumerate(file.read().split('\n'), 1):
-                    for name, after in changes_of(line):
-                        by_operator.setdefault(name, []).append((path, number, line, after))
+            for number, line in enumerate((project / path).read_text().split('\n'), 1):
+                for name, after in changes_of(line):
+                    by_operator.setdefault(name, []).append((str(path), number, line, after))
         turn = []
         for number in range(each + spare):
             if not turn:
@@ -94,19 +93,16 @@ def draw(seed, each, spare):
 class Copy:
     """A copy of the project with a build of its own."""
 
-    def __init__(self, folder, full):
-        self.folder = os.path.abspath(folder)
-        self.build = os.path.join(self.folder, 'build/release')
-        os.makedirs(self.folder, exist_ok=True)
+    def __init__(self, full):
+        self.folder = project / 'build/faults'
+        self.build = self.folder / 'build/release'
         tracked = subprocess.run(['git', 'ls-files', '-z'], cwd=project, check=True, capture_output=True, text=True).stdout
         for path in filter(None, tracked.split('\0')):
-            to, of = os.path.join(self.folder, path), os.path.join(project, path)
-            if not os.path.exists(of):
-                continue
-            os.makedirs(os.path.dirname(to), exist_ok=True)
-            if not os.path.exists(to) or open(to, 'rb').read() != open(of, 'rb').read():
+            to, of = self.folder / path, project / path
+            to.parent.mkdir(parents=True, exist_ok=True)
+            if of.exists() and not (to.exists() and to.read_bytes() == of.read_bytes()):
                 shutil.copy(of, to)
-        if not os.path.exists(self.build):
+        if not self.build.exists():
             settings = subprocess.run(['bash', '-c', '. compare/packages.sh; printf "%s\n" "${whole_build[@]}"'], cwd=self.folder,
                                       check=True, capture_output=True, text=True).stdout.split()
             subprocess.run(['cmake', '--preset', 'release', *settings], cwd=self.folder, check=True, stdout=sys.stderr)
@@ -144,17 +140,16 @@ class Copy:
 
 def put(copy, fault):
     """Puts a fault into the copy. Lines may have moved since it was drawn. @return the text without it, or None."""
-    path = os.path.join(copy.folder, fault['path'])
-    if not os.path.exists(path):
+    path = copy.folder / fault['path']
+    if not path.exists():
         return None
-    text = open(path).read()
+    text = path.read_text()
     lines = text.split('\n')
     places = [number for number, line in enumerate(lines) if line == fault['before']]
     if not places:
         return None
     lines[min(places, key=lambda number: abs(number + 1 - fault['line']))] = fault['after']
-    with open(path, 'w') as file:
-        file.write('\n'.join(lines))
+    path.write_text('\n'.join(lines))
     return text
 
 
@@ -173,13 +168,12 @@ def try_fault(copy, fault, full):
             found, how = copy.failing('slow'), 'full'
         return {**fault, 'found': how if found else None, 'tests': found, 'seconds': round(time.time() - begin)}
     finally:
-        with open(os.path.join(copy.folder, fault['path']), 'w') as file:
-            file.write(before)
+        (copy.folder / fault['path']).write_text(before)
 
 
-def run(drawn, path, folder, full):
-    results = json.load(open(path)) if os.path.exists(path) else []
-    copy = Copy(folder, full)
+def run(drawn, path, full):
+    results = json.loads(path.read_text()) if path.exists() else []
+    copy = Copy(full)
     for part in parts:
         mine = [fault for fault in drawn['faults'] if fault['part'] == part]
         for fault in mine:
@@ -192,41 +186,35 @@ def run(drawn, path, folder, full):
             result = try_fault(copy, fault, full)
             result['tried'] = 'full' if full else 'quick'
             results = [r for r in results if r not in old] + [result]
-            with open(path, 'w') as file:
-                json.dump(results, file, indent=1)
+            path.write_text(json.dumps(results, indent=1))
             print(part, fault['number'], fault['operator'], result.get('found'), *result.get('tests', [])[:1], flush=True)
 
 
-def table(files):
-    runs = [[r for r in json.load(open(path)) if 'no_fault' not in r] for path in files]
-    for result in runs[0]:
-        same = [next((r for r in other if (r['part'], r['number']) == (result['part'], result['number'])), {}) for other in runs]
-        words = ['not run' if not r else f"{r.get('found') or 'survives'} {r.get('seconds', 0)} s {(r.get('tests') or [''])[0]}" for r in same]
-        print(f"{result['part']} {result['number']} {result['operator']}, {result['path']}:{result['line']} | {' | '.join(words)}")
-    for path, results in zip(files, runs):
-        quick = sum(r.get('found') == 'quick' for r in results)
-        print(f"{path}: of {len(results)} faults {sum(bool(r.get('found')) for r in results)} are found, {quick} of them by the quick tests")
+def table(results):
+    tried = [r for r in results if 'no_fault' not in r]
+    for r in tried:
+        words = f"{r['found'] or 'survives'} {r['seconds']} s {''.join(r['tests'][:1])}"
+        print(f"{r['part']} {r['number']} {r['operator']}, {r['path']}:{r['line']} | {words}")
+    quick = sum(r['found'] == 'quick' for r in tried)
+    print(f"of {len(tried)} faults {sum(bool(r['found']) for r in tried)} are found, {quick} of them by the quick tests")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     what = parser.add_subparsers(dest='what', required=True)
-    drawing = what.add_parser('draw')
-    for name, value in (('--seed', 1), ('--each', 8), ('--spare', 12)):
-        drawing.add_argument(name, type=int, default=value)
+    what.add_parser('draw').add_argument('--seed', type=int, default=1)
     running = what.add_parser('run')
-    running.add_argument('faults')
-    running.add_argument('results')
-    running.add_argument('--into', default=os.path.join(project, 'build/faults'))
+    running.add_argument('faults', type=Path)
+    running.add_argument('results', type=Path)
     running.add_argument('--full', action='store_true')
-    what.add_parser('table').add_argument('results', nargs='+')
+    what.add_parser('table').add_argument('results', type=Path)
     given = parser.parse_args()
     if given.what == 'draw':
-        json.dump(draw(given.seed, given.each, given.spare), sys.stdout, indent=1)
+        json.dump(draw(given.seed), sys.stdout, indent=1)
     elif given.what == 'run':
-        run(json.load(open(given.faults)), given.results, given.into, given.full)
+        run(json.loads(given.faults.read_text()), given.results, given.full)
     else:
-        table(given.results)
+        table(json.loads(given.results.read_text()))
 
 
 if __name__ == '__main__':
