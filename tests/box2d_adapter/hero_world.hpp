@@ -74,11 +74,6 @@ struct World {
     fixture.SetSensor(true);
     return fixture;
   }
-  b2Fixture& circle(b2BodyType type, const b2Vec2& at, float radius, float density = 1) {
-    b2CircleShape shape;
-    shape.m_radius = radius;
-    return add(type, at, shape, density);
-  }
   /// @param points from right to left, where the front is above.
   b2Fixture& chain(const std::vector<b2Vec2>& points, b2BodyType type = b2_staticBody) {
     b2ChainShape shape;
@@ -104,15 +99,6 @@ struct Game : World {
   }
   void run(int frames, const Input& input = {.move = 0.0}) {
     for (int i = 0; i < frames; ++i) go(input);
-  }
-  /// @return how high the feet came [m].
-  double highest(int frames, const Input& input = {.move = 0.0}) {
-    double most = feet();
-    for (int i = 0; i < frames; ++i) {
-      go(input);
-      most = std::max(most, feet());
-    }
-    return most;
   }
 
   [[nodiscard]] double x() const { return hero.position().x(); }

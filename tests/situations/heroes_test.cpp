@@ -109,6 +109,8 @@ class Play {
       b2RevoluteJointDef def;
       def.Initialize(&body(joint.at("bodies").at(0)), &body(joint.at("bodies").at(1)),
                      vector_of<b2Vec2>(joint.at("at")));
+      def.enableMotor = joint.contains("motor");
+      def.maxMotorTorque = joint.value("motor", 0.0F);
       game_.world.CreateJoint(&def);
     }
     records_.push_back(record());
@@ -125,6 +127,7 @@ class Play {
     const json each_frame = part.value("each_frame", json::object());
     for (int frame = 0; frame < told.value("frames", 0); ++frame) {
       situation_.values["frame"] = frame;
+      compare::name_numbers(each_frame.value("let", json::object()), situation_.values);
       if (part.contains("while") && compare::value_of(part["while"], values()) == 0) break;
       json now = told;
       now.update(compare::computed(each_frame, values()));
@@ -178,7 +181,7 @@ class Play {
     made.GetBody()->SetBullet(text.value("bullet", false));
     if (text.value("weightless", false)) made.GetBody()->SetGravityScale(0);
     made.GetBody()->SetAngularDamping(text.value("angular_damping", 0.0F));
-    surfaces_[&made] = {named(text.value("blocks", "as_in_box2d"), blockings), text.value("surface_speed", 0.0)};
+    surfaces_[&made].blocks = named(text.value("blocks", "as_in_box2d"), blockings);
     const std::string id = text.at("id");
     fixtures_[id] = &made;
     json rest = text;
@@ -195,6 +198,9 @@ class Play {
                          text.value("angle", one.GetAngle()));
       if (text.contains("velocity")) one.SetLinearVelocity(vector_of<b2Vec2>(text["velocity"]));
       if (text.contains("spin")) one.SetAngularVelocity(text["spin"]);
+      if (text.contains("surface_speed")) surfaces_[&fixture(id)].speed = text["surface_speed"];
+      if (text.contains("motor"))
+        static_cast<b2RevoluteJoint*>(one.GetJointList()->joint)->SetMotorSpeed(text["motor"]);
     }
   }
 
@@ -279,6 +285,7 @@ class Play {
             {"velocity", written(hero.velocity())},
             {"grounded", hero.grounded()},
             {"ground", id_of(hero.ground())},
+            {"rides", hero.state().ride.ground != Ride::none},
             {"contacts", contacts},
             {"touching", ids_of(game_.listener.touching)},
             {"begun", begun},

@@ -150,6 +150,7 @@ Values in_step(int step, const std::vector<json>& records, Values values) {
   for (const auto& [id, body] : bodies.items()) {
     values[id + "_x"] = body["at"][0];
     values[id + "_y"] = body["at"][1];
+    values[id + "_angle"] = body["angle"];
     values[id + "_speed"] = body["speed"];
   }
   return values;
