@@ -137,9 +137,16 @@ json part_of(const json& record, const std::string& of) {
 Values in_step(int step, const std::vector<json>& records, Values values) {
   values["step"] = step;
   const auto add = [&](const std::string& before, int of) {
+    const json& record = records[static_cast<std::size_t>(of)];
     for (const auto& [name, pointer] : short_names()) {
-      const json part = part_of(records[static_cast<std::size_t>(of)], pointer);
+      const json part = part_of(record, pointer);
       if (part.is_number()) values[before + name] = part;
+    }
+    const json movers = record.value("movers", json::object());
+    for (const auto& [id, ends] : movers.items()) {
+      if (ends.is_object()) continue;  // it turns
+      values[before + id + "_x"] = ends[1][0];
+      values[before + id + "_y"] = ends[1][1];
     }
   };
   add("", step);
