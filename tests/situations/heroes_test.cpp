@@ -14,11 +14,6 @@ using nlohmann::json;
 using test::Situation;
 using test::SituationCase;
 
-const std::vector<Situation>& all_situations() {
-  static const std::vector<Situation> all = test::read_situations(PAPERPROOF_SITUATIONS "/heroes");
-  return all;
-}
-
 template <class Vector>
 Vector vector_of(const json& two) {
   return Vector(two.at(0), two.at(1));
@@ -329,7 +324,8 @@ TEST_P(HeroSituations, come_to_what_they_must) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, HeroSituations, ::testing::ValuesIn(all_situations()),
+INSTANTIATE_TEST_SUITE_P(All, HeroSituations,
+                         ::testing::ValuesIn(test::read_situations(PAPERPROOF_SITUATIONS "/heroes")),
                          [](const auto& situation) { return situation.param.file + "_" + situation.param.name; });
 
 }  // namespace

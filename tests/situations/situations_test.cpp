@@ -21,11 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<Situation>& all_situations() {
-  static const std::vector<Situation> all = read_situations(PAPERPROOF_SITUATIONS);
-  return all;
-}
-
 /// The steps of a trace file.
 std::vector<json> records_of(const std::string& path) {
   std::vector<json> records;
@@ -104,67 +99,32 @@ TEST_P(Situations, come_to_what_they_must) {
     EXPECT_TRUE(broken_.contains(clause)) << clause << " is broken no more";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Situations, ::testing::ValuesIn(all_situations()),
+INSTANTIATE_TEST_SUITE_P(All, Situations, ::testing::ValuesIn(read_situations(PAPERPROOF_SITUATIONS)),
                          [](const auto& situation) { return situation.param.file + "_" + situation.param.name; });
 
-/// A situation of two steps: a fall of one metre, and a rest.
+const json& notation() {
+  static const json file = json::parse(std::ifstream(PAPERPROOF_SITUATIONS "/notation/expectations.json"));
+  return file;
+}
+
+/// Which sentence an expectation makes of the records there.
+std::string missed_there(const json& expected) {
+  SituationCase situation;
+  situation.values = {{"high", 2}};
+  situation.expected = json::array({expected});
+  const std::vector<std::string> sentences = missed(situation, notation().at("records").get<std::vector<json>>());
+  return sentences.empty() ? "" : sentences.front();
+}
+
 TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
-  const std::vector<json> records{
-      json::parse(R"({"path": [[0, 2, 0], [0, 1, 1]], "grounded": false, "contacts": []})"),
-      json::parse(R"({"path": [[0, 1, 0]], "grounded": true, "contacts": [{"side": "bottom"}]})")};
-  const std::vector<std::pair<const char*, const char*>> rows{
-      {R"({"step": 0, "of": "y", "is": "=high - 1"})", ""},
-      {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.25})", ""},
-      {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.24})", "in step 0 y is 1 instead of 1.25 within 0.24"},
-      {R"({"step": 0, "of": "y", "is": 3, "because": "it rises"})",
-       "in step 0 y is 1 instead of 3 within 0 (it rises)"},
-      {R"({"step": 0, "of": "/path/0", "is": [0, 2, 0]})", ""},
-      {R"({"step": -1, "of": "contacts/#", "is": 1})", ""},
-      {R"({"step": -1, "of": "contacts/-1/side", "is": "top"})",
-       "in step 1 contacts/-1/side is \"bottom\" instead of \"top\" within 0"},
-      {R"({"step": 0, "of": "contacts/0/side", "is": null})", ""},
-      {R"({"steps": [0, 1], "of": "y", "is": 1})", ""},
-      {R"({"steps": [0, -1], "of": "grounded", "is": true})", "in step 0 grounded is false instead of true within 0"},
-      {R"({"some": [0, 1], "of": "grounded", "is": true})", ""},
-      {R"({"some": [0, 1], "of": "y", "above": 1})",
-       "0 of steps 0 to 1 are as expected; in step 0 y is 1, and not above 1"},
-      {R"({"some": [0, 1], "times": 1, "of": "grounded", "is": true})", ""},
-      {R"({"some": [0, 1], "times": 1, "of": "y", "is": 1})", "2 of steps 0 to 1 are as expected; "},
-      {R"({"step": 1, "of": "y", "is": "=last_y"})", ""},
-      {R"({"step": 1, "of": "=high*y - last_y", "is": 1})", ""},
-      {R"({"step": 1, "of": "=high*y - last_y", "is": 2})", "in step 1 =high*y - last_y is 1.0 instead of 2 within 0"},
-      {R"({"steps": [0, 1], "of": "grounded", "is": "=step == 1"})", ""},
-      {R"({"steps": [0, 1], "of": "grounded", "is": "=step == 0"})",
-       "in step 0 grounded is false instead of 1.0 within 0"},
-      {R"({"steps": [0, 1], "of": "stuck", "is": "=step > 1"})", ""},
-      {R"({"steps": [0, 1], "of": "y", "is": "=step + 1"})", "in step 1 y is 1 instead of 2.0 within 0"},
-      {R"({"step": 0, "of": "ride", "at_most": 1})", "in step 0 ride is null, and not at_most 1"},
-      {R"({"step": 2, "of": "y", "is": 1})", "y is asked of steps 2 to 2, and there are 2"},
-  };
-  for (const auto& [expected, sentence] : rows) {
-    SituationCase situation;
-    situation.values = {{"high", 2}};
-    situation.expected = json::array({json::parse(expected)});
-    const std::vector<std::string> sentences = missed(situation, records);
-    EXPECT_EQ(sentences.empty() ? "" : sentences.front(), sentence) << expected;
-  }
+  for (const json& row : notation().at("asked")) EXPECT_EQ(missed_there(row["expect"]), row["missed"]) << row;
 }
 
 TEST(Situation, that_no_run_could_miss_is_refused) {
-  const std::vector<json> records{json::parse(R"({"path": [[0, 2, 0]]})")};
-  for (const char* expected :
-       {R"({"step": 0, "of": "y", "iz": 2})", R"({"step": 0, "of": "y"})", R"({"of": "y", "is": 2})",
-        R"({"step": 0, "steps": [0, 0], "of": "y", "is": 2})", R"({"step": 0, "times": 1, "of": "y", "is": 2})",
-        R"({"step": 0, "of": "crsh/#", "is": 0})", R"({"step": 0, "of": "rides", "is": null})",
-        R"({"step": 0.5, "of": "y", "is": 2})"}) {
-    SituationCase situation;
-    situation.expected = json::array({json::parse(expected)});
-    EXPECT_THROW((void)missed(situation, records), std::invalid_argument) << expected;
-  }
-  for (const char* text : {R"({"contendr": "x", "expect": []})", R"({"for": {"pull": []}, "expect": []})",
-                           R"({"for": {"y": [7]}, "expect": []})", R"({"rules": {"snap": 1}, "expect": []})",
-                           R"({"let": {"dt": 1}, "expect": []})"}) {
-    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json::parse(text)};
+  for (const json& expected : notation().at("refused"))
+    EXPECT_THROW((void)missed_there(expected), std::invalid_argument) << expected;
+  for (const json& text : notation().at("refused_situations")) {
+    const Situation situation{.file = "f", .name = "s", .text = nlohmann::ordered_json(text)};
     EXPECT_THROW((void)cases_of(situation), std::invalid_argument) << text;
   }
 }
