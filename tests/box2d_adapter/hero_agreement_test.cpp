@@ -1,11 +1,10 @@
 /// A hero among random bodies, against exact overlap.
 #include "hero_world.hpp"
 
+#include "campaign/play_levels.hpp"
 #include "campaign/random.hpp"
 #include "float_geometry.hpp"
 #include "shapes.hpp"
-#include "support/box2d_level.hpp"
-#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/box2d/world_scenery.hpp>
@@ -24,6 +23,24 @@ using compare::Random;
 using test::steps_wanted;
 
 float between(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
+
+/// The pieces of a level as static fixtures: convex polygons, and chains of one segment each.
+void build_level(b2World& world, const Scenery& scenery) {
+  const b2BodyDef still;
+  b2Body& body = *world.CreateBody(&still);
+  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
+    std::vector<b2Vec2> points;
+    for (const Vec2d& point : scenery.vertices_of(piece)) points.push_back(rounded(point));
+    if (points.size() > b2_maxPolygonVertices) points.resize(b2_maxPolygonVertices);
+    b2PolygonShape polygon;
+    b2ChainShape chain;
+    if (points.size() >= 3)
+      polygon.Set(points.data(), static_cast<int>(points.size()));
+    else
+      chain.CreateChain(points.data(), 2, points[0], points[1]);
+    body.CreateFixture(points.size() >= 3 ? static_cast<b2Shape*>(&polygon) : &chain, 0);
+  }
+}
 
 /// Crates, balls, planks: whatever turns.
 b2Body& add_body(b2World& world, Random& random) {
@@ -153,7 +170,7 @@ TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
     Random random(seed);
     b2World world({0, -10});
     const SceneryDef floor{{compare::box(-40, -12, 40, -10)}};
-    test::build_level(world, Scenery(GetParam() ? compare::play_level(*GetParam(), random) : floor));
+    build_level(world, Scenery(GetParam() ? compare::play_level(*GetParam(), random) : floor));
     const Scenery scenery(scenery_of(world).scenery);
     const Controller standing(scenery, {});
     Scratch scratch = standing.make_scratch();
