@@ -2,6 +2,7 @@
 #include "judge/row.hpp"
 #include "oracle/company.hpp"
 #include "oracle/judge.hpp"
+#include "records/collider_json.hpp"
 #include "records/trace_reader.hpp"
 #include "support/expected.hpp"
 
@@ -18,21 +19,16 @@
 namespace paperproof::compare::test {
 namespace {
 
-/// Several after a word: "inside floor wall". Several of these: "inside floor, entered floor".
-class Words {
- public:
-  template <class All, class Name>
-  Words& add(const char* what, const All& all, const Name& name) {
-    if (all.empty()) return *this;
-    text_ += (text_.empty() ? "" : ", ") + std::string(what);
-    for (const auto& one : all) text_ += " " + name(one);
-    return *this;
+/// Several after a word, of each that has some: "inside floor wall, entered floor".
+template <class Number>
+std::string in_words(const std::vector<std::pair<const char*, std::vector<Number>>>& said, const auto& name) {
+  std::string text;
+  for (const auto& [word, all] : said) {
+    if (!all.empty()) text += (text.empty() ? "" : ", ") + std::string(word);
+    for (const Number one : all) text += " " + name(one);
   }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
+  return text;
+}
 
 /// A judgement in JSON, under the names of its members. `solids` has what became of them, `demands` the contacts that
 /// should have been reported, `company` what became of other characters.
@@ -52,24 +48,22 @@ Json told(const StepJudgement& one, const TraceHeader& header) {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", id(collider), name_of(side));
     return text;
   };
-  Json all{{"solids", Words()
-                          .add("inside", one.end_overlap, id)
-                          .add("pressed", one.pressed, id)
-                          .add("entered", one.entered, id)
-                          .add("rounded", one.rounded, id)
-                          .add("drawn", one.drawn, id)
-                          .add("tunnelled", one.tunnelled, id)
-                          .add("clipped", one.clipped, id)
-                          .add("one-way broken", one.one_way_broken, id)
-                          .add("crushed", one.crushed, id)
-                          .add("crushed with room", one.crushed_with_room, id)
-                          .text()},
-           {"company", Words()
-                           .add("inside", one.company.overlap, number)
-                           .add("entered", one.company.entered, number)
-                           .add("passed", one.company.passed, number)
-                           .add("clipped", one.company.clipped, number)
-                           .text()},
+  Json all{{"solids", in_words<ColliderIndex>({{"inside", one.end_overlap},
+                                               {"pressed", one.pressed},
+                                               {"entered", one.entered},
+                                               {"rounded", one.rounded},
+                                               {"drawn", one.drawn},
+                                               {"tunnelled", one.tunnelled},
+                                               {"clipped", one.clipped},
+                                               {"one-way broken", one.one_way_broken},
+                                               {"crushed", one.crushed},
+                                               {"crushed with room", one.crushed_with_room}},
+                                              id)},
+           {"company", in_words<CharacterIndex>({{"inside", one.company.overlap},
+                                                 {"entered", one.company.entered},
+                                                 {"passed", one.company.passed},
+                                                 {"clipped", one.company.clipped}},
+                                                number)},
            {"broke", one.broke()}};
   all.update({{"hangs", one.hangs},
               {"hovers", one.hovers},
@@ -112,8 +106,7 @@ Json told(const StepJudgement& one, const TraceHeader& header) {
   all["contacts"] = all["passings"] = all["sensor_events"] = Json::array();
   for (const ExactContact& contact : one.contacts) {
     demanded.emplace_back(contact.collider, contact.side);
-    all["contacts"].push_back(
-        Json{{"normal", {contact.normal.x(), contact.normal.y()}}, {"fraction", contact.fraction}});
+    all["contacts"].push_back(Json{{"normal", point_json(contact.normal)}, {"fraction", contact.fraction}});
   }
   all["demands"] = touches(demanded);
   for (const Passing& passing : one.passings)

@@ -1,6 +1,7 @@
 #include "judge/row.hpp"
 
 #include "compare/exact_shapes.hpp"
+#include "records/collider_json.hpp"
 #include "records/trace_writer.hpp"
 #include "scenes/formula.hpp"
 #include "support/expected.hpp"
@@ -39,8 +40,7 @@ Json way_of(const Json& collider, const Json& poses) {
     const Eigen::Rotation2D<double> by(pose[3].get<double>());
     Json points = Json::array();
     for (const Json& point : outline) {
-      const Vec2d at = Vec2d(pose[1], pose[2]) + by * point.get<Vec2d>();
-      points.push_back({at.x(), at.y()});
+      points.push_back(point_json(Vec2d(pose[1], pose[2]) + by * point.get<Vec2d>()));
     }
     way["k"].push_back(pose[0]);
     way["vertices"].push_back(std::move(points));
@@ -99,18 +99,13 @@ Json path_of(Json path) {
 
 namespace {
 
-Json difference(const Json& a, const Json& b) {
-  return {a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>()};
-}
-
 /// A record of a trace: what is not said is as plain as it can be.
 Json record_of(Json said, int number, const Json& header) {
   const Json path = path_of(said["path"]);
-  const Json way = difference(path.back(), path.front());
-  Json record{
-      {"step", number},   {"input", Json::object()},       {"requested", way}, {"steered", 0}, {"grounded", false},
-      {"jumping", false}, {"start_overlap", Json::array()}};
-  record["velocity"] = {way[0].get<double>() / dt, way[1].get<double>() / dt};
+  const Vec2d way = point_of(path.back()) - point_of(path.front());
+  Json record{{"step", number},    {"input", Json::object()}, {"requested", point_json(way)},  {"steered", 0},
+              {"grounded", false}, {"jumping", false},        {"start_overlap", Json::array()}};
+  record["velocity"] = point_json(way / dt);
   record["contacts"] = Json::array();
   said["path"] = path;
   said["movers"] = movers_of(said.value("movers", Json::object()), header);
