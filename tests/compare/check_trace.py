@@ -268,7 +268,7 @@ class Checker(ContactChecks, SensorChecks, SpeedChecks):
     def note_sides(self, step):
         """Where the character was last free of what it ends inside of, as the collider sees it."""
         known = self.sides[step.who]
-        inside = self.world.overlapped(step.motion, step.path[-1]) if self.near_anything(step) else []
+        inside = self.world.overlapped(step.motion, step.path[-1])
         for name in set(known) - set(inside):
             del known[name]
         for name in inside:
@@ -277,10 +277,6 @@ class Checker(ContactChecks, SensorChecks, SpeedChecks):
             free = [corner for corner in step.path if not self.world.met(name, step.motion, corner, corner)]
             if free:
                 known[name] = step.motion.seen(name, free[-1])
-
-    def near_anything(self, step):
-        return any(step.motion.turns(name) or self.world.met(name, step.motion, step.path[-1], step.path[-1])
-                   for name in self.world.solids)
 
     def room(self, step, others):
         return Room(self.world, step.motion, self.sides[step.who],
