@@ -13,6 +13,9 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
+
+from judging import call, read
 
 command, project, folder = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3]
 programs = os.path.dirname(command)
@@ -20,8 +23,7 @@ os.makedirs(folder, exist_ok=True)
 os.chdir(folder)
 for name in ("q.jsonl", "q.csv"):
     subprocess.run([command, "export", "queries", "--count", "600", name], check=True)
-with open("q.jsonl", encoding="utf-8") as file:
-    queries = [json.loads(line) for line in file]
+queries = read("q.jsonl")
 with open("q.csv", newline="", encoding="utf-8") as file:
     for query, row in zip(queries, csv.DictReader(file, strict=True), strict=True):
         for key, value in query.items():
@@ -35,19 +37,20 @@ assert {query["source"].split("/")[0] for query in queries} >= {"static", "play"
 assert all(0 < math.hypot(*query["displacement"]) <= 1000 for query in queries)
 assert len({str([query["position"], query["displacement"], query["solids"]]) for query in queries}) == 600, "asked twice"
 subprocess.run([command, "export", "queries", "--count", "200", "more.jsonl", "flush_tiles"], check=True)
-with open("more.jsonl", encoding="utf-8") as file:
-    assert {json.loads(line)["source"].split()[0] for line in file} >= {"play/kerbs_at_60", "scene/flush_tiles"}
+assert {query["source"].split()[0] for query in read("more.jsonl")} >= {"play/kerbs_at_60", "scene/flush_tiles"}
 columns = ["answered", "missed", "missed_beyond", "begun_clear", "early", "early_beyond"]
+
+
+def answers_of(*program):
+    return subprocess.check_output([*program, "q.jsonl"], text=True)
 
 
 def score(answers):
     """The scorer's status, and for each class of questions what it counts."""
-    with open("a.jsonl", "w", encoding="utf-8") as out:
-        out.write(answers)
-    scored = subprocess.run([sys.executable, project + "/compare/queries/score.py", "q.jsonl", "a.jsonl"],
-                            capture_output=True, text=True, check=False)
-    rows = [line.split(" | ") for line in scored.stdout.splitlines()[2:]]
-    return scored.returncode, {row[2]: dict(zip(columns, map(int, row[3:9]))) for row in rows}
+    Path("a.jsonl").write_text(answers, encoding="utf-8")
+    status, said, _ = call(sys.executable, project + "/compare/queries/score.py", "q.jsonl", "a.jsonl")
+    rows = [line.split(" | ") for line in said.splitlines()[2:]]
+    return status, {row[2]: dict(zip(columns, map(int, row[3:9]))) for row in rows}
 
 
 def with_change(change, method=()):
@@ -56,8 +59,7 @@ def with_change(change, method=()):
     return score("".join(json.dumps(line) + "\n" for line in [dict(method), *answers]))
 
 
-exact = subprocess.run([sys.executable, project + "/compare/queries/exact.py", "q.jsonl"], check=True,
-                       capture_output=True, text=True).stdout
+exact = answers_of(sys.executable, project + "/compare/queries/exact.py")
 right = {"missed": 0, "missed_beyond": 0, "begun_clear": 0, "early": 0, "early_beyond": 0}
 code, counted = score(exact)
 assert code == 0 and counted["positive"] == {"answered": len(met), **right}, counted
@@ -79,17 +81,16 @@ for off, column in ((1e-3, "missed"), (-1e-3, "early")):
         assert (counted[column], counted[column + "_beyond"]) == (1, beyond), (off, tolerance, counted)
 
 for scalar in ("double", "float"):
-    code, counted = score(subprocess.run([programs + "/queries_sweep", scalar, "q.jsonl"], check=True, capture_output=True,
-                                         text=True).stdout)
+    code, counted = score(answers_of(programs + "/queries_sweep", scalar))
     assert code == 0 and all(kind["missed_beyond"] == 0 for kind in counted.values()), (scalar, counted)
     assert scalar == "float" or all(kind["missed"] == kind["early_beyond"] == 0 for kind in counted.values()), counted
 peers = {"b2TimeOfImpact": [programs + "/queries_box2d24", "impact"], "b2ShapeCast": [programs + "/queries_box2d24", "cast"]}
 for name in ("box2d3", "rapier"):
     peers[name] = ["node", f"{project}/compare/queries/{name}.mjs"]
-    if not shutil.which("node") or subprocess.run([*peers[name], "/dev/null"], capture_output=True, check=False).returncode:
+    if not shutil.which("node") or call(*peers[name], "/dev/null")[0]:
         print(name, "is not installed: not asked")
         del peers[name]
 for name, program in peers.items():
-    code, counted = score(subprocess.run([*program, "q.jsonl"], check=True, capture_output=True, text=True).stdout)
+    code, counted = score(answers_of(*program))
     assert sum(kind["answered"] for kind in counted.values()) == 600, (name, counted)
     assert counted["positive"]["begun_clear"] <= (3 if name == "rapier" else 0), (name, counted)
