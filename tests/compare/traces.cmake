@@ -54,10 +54,6 @@ paperproof_trace_test(of_penetration_resolution_shows_the_tunnel
 paperproof_trace_test(what_is_known_and_open_is_all_that_built_in_scenes_break
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/known_and_open_test.py" "$<TARGET_FILE:paperproof>"
           "${PROJECT_SOURCE_DIR}/tests/known_and_open.json" "${PROJECT_SOURCE_DIR}/README.md" PROPERTIES COST 20)
-paperproof_trace_test(is_judged_as_its_run_was
-  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/judge_reads_back_test.py" "$<TARGET_FILE:paperproof>")
-paperproof_trace_test(in_a_readme_is_judged_as_it_says
-  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/judge_in_readmes_test.py" "$<TARGET_FILE:paperproof>" "${PROJECT_SOURCE_DIR}/compare")
-paperproof_trace_test(that_lies_is_found COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/lies_test.py" "$<TARGET_FILE:paperproof>")
+paperproof_trace_test(that_lies_or_is_honest_is_judged_so COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/judge_test.py" "$<TARGET_FILE:paperproof>")
 paperproof_trace_test(checker_finds_and_names_whatever_is_spoilt
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/check_trace_test.py" "$<TARGET_FILE:paperproof>" PROPERTIES COST 60)
