@@ -47,38 +47,36 @@ const std::map<StepStatus, const char*> statuses{{StepStatus::moved, "moved"},
                                                  {StepStatus::crushed, "crushed"},
                                                  {StepStatus::invalid_input, "invalid_input"}};
 
-/// Calls `use` with the shape that a body of a file has.
-template <class Use>
-decltype(auto) with_shape(const json& body, const Use& use) {
+std::unique_ptr<b2Shape> shape_of(const json& body) {
   std::vector<b2Vec2> points;
   for (const char* kind : {"polygon", "edge", "chain", "loop"})
     for (const json& each : body.value(kind, json::array())) points.push_back(vector_of<b2Vec2>(each));
   const int count = static_cast<int>(points.size());
   if (body.contains("circle")) {
-    b2CircleShape circle;
-    circle.m_radius = body["circle"];
-    return use(circle);
+    auto circle = std::make_unique<b2CircleShape>();
+    circle->m_radius = body["circle"];
+    return circle;
   }
   if (body.contains("polygon")) {
-    b2PolygonShape polygon;
+    auto polygon = std::make_unique<b2PolygonShape>();
     if (count == 4 && points[0] == -points[2] && points[0].x == points[3].x)
-      polygon.SetAsBox(points[2].x, points[2].y);  // its corners in Box2D's own order
+      polygon->SetAsBox(points[2].x, points[2].y);  // its corners in Box2D's own order
     else
-      polygon.Set(points.data(), count);
-    return use(polygon);
+      polygon->Set(points.data(), count);
+    return polygon;
   }
   const b2Vec2 before = points.at(0) + points[0] - points.at(1);
   const b2Vec2 after = points.back() + points.back() - points[points.size() - 2];
   if (body.contains("edge")) {
-    b2EdgeShape edge;
-    edge.SetTwoSided(points[0], points[1]);
-    if (body.value("one_sided", false)) edge.SetOneSided(before, points[0], points[1], after);
-    return use(edge);
+    auto edge = std::make_unique<b2EdgeShape>();
+    edge->SetTwoSided(points[0], points[1]);
+    if (body.value("one_sided", false)) edge->SetOneSided(before, points[0], points[1], after);
+    return edge;
   }
-  b2ChainShape chain;
-  if (body.contains("loop")) chain.CreateLoop(points.data(), count);
-  if (body.contains("chain")) chain.CreateChain(points.data(), count, before, after);
-  return use(chain);
+  auto chain = std::make_unique<b2ChainShape>();
+  if (body.contains("loop")) chain->CreateLoop(points.data(), count);
+  if (body.contains("chain")) chain->CreateChain(points.data(), count, before, after);
+  return chain;
 }
 
 CharacterDef character_of(const json& text) {
@@ -168,10 +166,9 @@ class Play {
   }
 
   void add(const json& text) {
-    b2Fixture& made = with_shape(text, [&](const b2Shape& shape) -> b2Fixture& {
-      return game_.add(named(text.value("type", "static"), types), vector_of<b2Vec2>(text.value("at", json{0, 0})),
-                       shape, text.value("density", 1.0F));
-    });
+    b2Fixture& made =
+        game_.add(named(text.value("type", "static"), types), vector_of<b2Vec2>(text.value("at", json{0, 0})),
+                  *shape_of(text), text.value("density", 1.0F));
     made.SetSensor(text.value("sensor", false));
     made.GetBody()->SetBullet(text.value("bullet", false));
     if (text.value("weightless", false)) made.GetBody()->SetGravityScale(0);
@@ -217,14 +214,13 @@ class Play {
            for (const json& text : bodies) {
              b2Fixture*& made = fixtures_.at(text.at("id"));
              b2Body& one = *made->GetBody();
-             with_shape(text, [&](const b2Shape& shape) {
-               if (shape.GetType() == b2Shape::e_edge) {  // in place
-                 static_cast<b2EdgeShape&>(*made->GetShape()) = static_cast<const b2EdgeShape&>(shape);
-                 return;
-               }
-               one.DestroyFixture(made);
-               made = one.CreateFixture(&shape, 0);
-             });
+             const std::unique_ptr<const b2Shape> shape = shape_of(text);
+             if (shape->GetType() == b2Shape::e_edge) {  // in place
+               static_cast<b2EdgeShape&>(*made->GetShape()) = static_cast<const b2EdgeShape&>(*shape);
+               continue;
+             }
+             one.DestroyFixture(made);
+             made = one.CreateFixture(shape.get(), 0);
            }
          }},
         {"put", [&](const json& bodies) { put(bodies); }},
