@@ -1,4 +1,5 @@
 /// A hero in a game: what no story of tests/situations/heroes can tell.
+#include "controller/states.hpp"
 #include "hero_world.hpp"
 
 #include <paperproof/box2d/invalid_definition.hpp>
@@ -136,6 +137,34 @@ TEST(ContactFilterOfTheGame, decides_for_the_hero_too) {
   own.GetUserData().pointer = 2;
   game.run(90, {.move = -1.0});
   EXPECT_NEAR(game.x(), 2.1 + half_width, 1e-5) << "it is asked in every step";
+}
+
+TEST(HeroAlone, steps_together_as_by_itself) {
+  OnFloor one;
+  OnFloor other;
+  Hero* const party = &other.hero;
+  for (OnFloor* game : {&one, &other}) {
+    game->box(b2_dynamicBody, {2, 0.5F}, 0.5F, 0.5F);
+    game->box(b2_kinematicBody, {-3, 0.5F}, 0.5F, 0.5F).GetBody()->SetLinearVelocity({0.5F, 0.1F});
+  }
+  for (int i = 0; i < 400; ++i) {
+    const Input input{.move = i / 50 % 3 - 1, .jump = i % 40 < 3};
+    one.go(input);
+    other.world.Step(static_cast<float>(frame), 8, 3);
+    step_together({&party, 1}, {&input, 1}, frame);
+    ASSERT_TRUE(stepping::same_step(one.hero.state(), one.hero.report(), other.hero.state(), other.hero.report())) << i;
+  }
+}
+
+TEST(HeroAlone, and_others_are_refused_without_time) {
+  OnFloor game;
+  Hero second(game.world, {.position = {3, 1}});
+  const std::array<Hero*, 2> party{&game.hero, &second};
+  const std::array<Input, 2> inputs{};
+  const CharacterState before = second.state();
+  step_together(party, inputs, 0);
+  for (const Hero* hero : party) EXPECT_EQ(hero->report().status, StepStatus::invalid_input);
+  EXPECT_EQ(second.state(), before);
 }
 
 TEST(Hero, refuses_what_it_cannot_do) {

@@ -1,7 +1,7 @@
 /// Runs every situation of the folder `heroes`: a hero in a world of Box2D, by the story that the file tells.
+#include "situations/bodies.hpp"
 #include "situations/situation.hpp"
 
-#include "box2d_adapter/hero_world.hpp"
 #include "records/trace.hpp"
 #include "support/expected.hpp"
 
@@ -14,27 +14,9 @@ using nlohmann::json;
 using test::Situation;
 using test::SituationCase;
 
-template <class Vector>
-Vector vector_of(const json& two) {
-  return Vector(two.at(0), two.at(1));
-}
 json written(const Vec2d& v) { return {v.x(), v.y()}; }
 json written(const b2Vec2& v) { return {v.x, v.y}; }
 
-/// What one of a few words of a file stands for.
-template <class Value>
-Value named(const std::string& word, const std::map<std::string, Value>& words) {
-  const auto found = words.find(word);
-  if (found == words.end()) throw std::invalid_argument("no such word: " + word);
-  return found->second;
-}
-
-const std::map<std::string, b2BodyType> types{
-    {"static", b2_staticBody}, {"kinematic", b2_kinematicBody}, {"dynamic", b2_dynamicBody}};
-const std::map<std::string, Blocking> blockings{{"as_in_box2d", Blocking::as_in_box2d},
-                                                {"from_above", Blocking::from_above},
-                                                {"from_everywhere", Blocking::from_everywhere},
-                                                {"not_at_all", Blocking::not_at_all}};
 const std::map<std::string, double CharacterDef::*> limits{{"jump_speed", &CharacterDef::jump_speed},
                                                            {"jump_cut", &CharacterDef::jump_cut},
                                                            {"snap", &CharacterDef::snap},
@@ -46,38 +28,6 @@ const std::map<StepStatus, const char*> statuses{{StepStatus::moved, "moved"},
                                                  {StepStatus::stuck, "stuck"},
                                                  {StepStatus::crushed, "crushed"},
                                                  {StepStatus::invalid_input, "invalid_input"}};
-
-std::unique_ptr<b2Shape> shape_of(const json& body) {
-  std::vector<b2Vec2> points;
-  for (const char* kind : {"polygon", "edge", "chain", "loop"})
-    for (const json& each : body.value(kind, json::array())) points.push_back(vector_of<b2Vec2>(each));
-  const int count = static_cast<int>(points.size());
-  if (body.contains("circle")) {
-    auto circle = std::make_unique<b2CircleShape>();
-    circle->m_radius = body["circle"];
-    return circle;
-  }
-  if (body.contains("polygon")) {
-    auto polygon = std::make_unique<b2PolygonShape>();
-    if (count == 4 && points[0] == -points[2] && points[0].x == points[3].x)
-      polygon->SetAsBox(points[2].x, points[2].y);  // its corners in Box2D's own order
-    else
-      polygon->Set(points.data(), count);
-    return polygon;
-  }
-  const b2Vec2 before = points.at(0) + points[0] - points.at(1);
-  const b2Vec2 after = points.back() + points.back() - points[points.size() - 2];
-  if (body.contains("edge")) {
-    auto edge = std::make_unique<b2EdgeShape>();
-    edge->SetTwoSided(points[0], points[1]);
-    if (body.value("one_sided", false)) edge->SetOneSided(before, points[0], points[1], after);
-    return edge;
-  }
-  auto chain = std::make_unique<b2ChainShape>();
-  if (body.contains("loop")) chain->CreateLoop(points.data(), count);
-  if (body.contains("chain")) chain->CreateChain(points.data(), count, before, after);
-  return chain;
-}
 
 CharacterDef character_of(const json& text) {
   CharacterDef def;
@@ -97,15 +47,7 @@ class Play {
  public:
   explicit Play(const SituationCase& situation)
       : situation_(situation), game_(hero_def(situation.scene.value("hero", json::object()))) {
-    for (const json& body : situation.scene.at("bodies")) add(body);
-    for (const json& joint : situation.scene.value("joints", json::array())) {
-      b2RevoluteJointDef def;
-      def.Initialize(&body(joint.at("bodies").at(0)), &body(joint.at("bodies").at(1)),
-                     vector_of<b2Vec2>(joint.at("at")));
-      def.enableMotor = joint.contains("motor");
-      def.maxMotorTorque = joint.value("motor", 0.0F);
-      game_.world.CreateJoint(&def);
-    }
+    bodies_.build(situation.scene);
     records_.push_back(record());
   }
 
@@ -124,7 +66,7 @@ class Play {
       if (part.contains("while") && compare::value_of(part["while"], values()) == 0) break;
       json now = told;
       now.update(compare::computed(each_frame, values()));
-      put(now.value("set", json::object()));
+      bodies_.put(now.value("set", json::object()));
       go(now);
     }
     for (const auto& [name, of] : names.items()) situation_.values[name] = of_last(of);
@@ -141,19 +83,13 @@ class Play {
     def.position.y() -= def.character.shape.box().lower.y();
     if (hero.contains("mass")) def.mass = hero["mass"];
     if (hero.contains("push_force")) def.push_force = hero["push_force"];
-    def.surface_of = [this](b2Fixture& fixture) { return surfaces_[&fixture]; };
+    def.surface_of = [this](b2Fixture& fixture) { return bodies_.surface_of(fixture); };
     return def;
   }
 
-  b2Fixture& fixture(const std::string& id) {
-    const auto found = fixtures_.find(id);
-    if (found == fixtures_.end()) throw std::invalid_argument("no such body: " + id);
-    return *found->second;
-  }
-  b2Body& body(const std::string& id) { return *fixture(id).GetBody(); }
   /// `null` where there is none.
   json id_of(const b2Fixture* fixture) const {
-    for (const auto& [id, known] : fixtures_)
+    for (const auto& [id, known] : bodies_.fixtures)
       if (known == fixture) return id;
     return fixture == nullptr ? json() : json("gone");
   }
@@ -165,54 +101,23 @@ class Play {
     return ids;
   }
 
-  void add(const json& text) {
-    b2Fixture& made =
-        game_.add(named(text.value("type", "static"), types), vector_of<b2Vec2>(text.value("at", json{0, 0})),
-                  *shape_of(text), text.value("density", 1.0F));
-    made.SetSensor(text.value("sensor", false));
-    made.GetBody()->SetBullet(text.value("bullet", false));
-    if (text.value("weightless", false)) made.GetBody()->SetGravityScale(0);
-    made.GetBody()->SetAngularDamping(text.value("angular_damping", 0.0F));
-    surfaces_[&made].blocks = named(text.value("blocks", "as_in_box2d"), blockings);
-    const std::string id = text.at("id");
-    fixtures_[id] = &made;
-    json rest = text;
-    rest.erase("at");
-    put({{id, rest}});
-  }
-
-  /// Bodies come to be somewhere at once, or get another speed.
-  void put(const json& bodies) {
-    for (const auto& [id, text] : bodies.items()) {
-      b2Body& one = body(id);
-      if (text.contains("at") || text.contains("angle"))
-        one.SetTransform(text.contains("at") ? vector_of<b2Vec2>(text["at"]) : one.GetPosition(),
-                         text.value("angle", one.GetAngle()));
-      if (text.contains("velocity")) one.SetLinearVelocity(vector_of<b2Vec2>(text["velocity"]));
-      if (text.contains("spin")) one.SetAngularVelocity(text["spin"]);
-      if (text.contains("surface_speed")) surfaces_[&fixture(id)].speed = text["surface_speed"];
-      if (text.contains("motor"))
-        static_cast<b2RevoluteJoint*>(one.GetJointList()->joint)->SetMotorSpeed(text["motor"]);
-    }
-  }
-
   /// What the game does before the frames of a part.
   void act(const json& part) {
     const std::map<std::string, std::function<void(const json&)>> acts{
         {"add",
          [&](const json& bodies) {
-           for (const json& one : bodies) add(one);
+           for (const json& one : bodies) bodies_.add(one);
          }},
         {"destroy",
          [&](const json& id) {
-           b2Body& one = body(id);
-           fixtures_.erase(id.get<std::string>());
+           b2Body& one = bodies_.body(id);
+           bodies_.fixtures.erase(id.get<std::string>());
            game_.world.DestroyBody(&one);
          }},
         {"reshape",
          [&](const json& bodies) {
            for (const json& text : bodies) {
-             b2Fixture*& made = fixtures_.at(text.at("id"));
+             b2Fixture*& made = bodies_.fixtures.at(text.at("id"));
              b2Body& one = *made->GetBody();
              const std::unique_ptr<const b2Shape> shape = shape_of(text);
              if (shape->GetType() == b2Shape::e_edge) {  // in place
@@ -223,7 +128,7 @@ class Play {
              made = one.CreateFixture(shape.get(), 0);
            }
          }},
-        {"put", [&](const json& bodies) { put(bodies); }},
+        {"put", [&](const json& bodies) { bodies_.put(bodies); }},
         {"save", [&](const json&) { saved_ = game_.hero.save(); }},
         {"restore", [&](const json&) { game_.hero.restore(saved_.value()); }},
         {"shift_origin",
@@ -262,7 +167,7 @@ class Play {
       sensors.push_back({{"sensor", id_of(event.sensor)}, {"change", std::string(compare::name_of(event.change))}});
     json bodies = json::object();
     json begun = json::object();
-    for (const auto& [id, fixture] : fixtures_) {
+    for (const auto& [id, fixture] : bodies_.fixtures) {
       const b2Body& body = *fixture->GetBody();
       bodies[id] = {{"at", written(body.GetPosition())},
                     {"angle", body.GetAngle()},
@@ -299,12 +204,11 @@ class Play {
   }
 
   SituationCase situation_;
-  std::map<std::string, b2Fixture*> fixtures_;
-  std::map<const b2Fixture*, Surface> surfaces_;
   std::vector<json> records_;
   std::optional<HeroSave> saved_;
   bool has_changed_ = false;
   Game game_;
+  Bodies bodies_{game_};
 };
 
 class HeroSituations : public ::testing::TestWithParam<Situation> {};
