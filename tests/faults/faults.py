@@ -173,21 +173,18 @@ def try_fault(copy, fault, full):
 
 def run(drawn, path, full):
     results = json.loads(path.read_text()) if path.exists() else []
+    tried = {(r['part'], r['number']): r for r in results}
     copy = Copy(full)
-    for part in parts:
-        mine = [fault for fault in drawn['faults'] if fault['part'] == part]
-        for fault in mine:
-            done = [r for r in results if r['part'] == part]
-            old = [r for r in done if r['number'] == fault['number']]
-            if old and not (full and not old[0].get('found') and old[0].get('tried') != 'full' and 'no_fault' not in old[0]):
-                continue
-            if not old and sum('no_fault' not in r for r in done) == drawn['each']:
-                break
-            result = try_fault(copy, fault, full)
-            result['tried'] = 'full' if full else 'quick'
-            results = [r for r in results if r not in old] + [result]
-            path.write_text(json.dumps(results, indent=1))
-            print(part, fault['number'], fault['operator'], result.get('found'), *result.get('tests', [])[:1], flush=True)
+    for fault in drawn['faults']:
+        key = fault['part'], fault['number']
+        old = tried.get(key)
+        is_enough = sum(part == fault['part'] and 'no_fault' not in r for (part, _), r in tried.items()) == drawn['each']
+        meets_more = old and full and old['tried'] != 'full' and not old.get('found') and 'no_fault' not in old
+        if (old and not meets_more) or (not old and is_enough):
+            continue
+        result = tried[key] = {**try_fault(copy, fault, full), 'tried': 'full' if full else 'quick'}
+        path.write_text(json.dumps([*tried.values()], indent=1))
+        print(*key, fault['operator'], result.get('found'), *result.get('tests', [])[:1], flush=True)
 
 
 def table(results):
