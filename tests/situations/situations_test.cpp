@@ -57,6 +57,8 @@ class Situations : public ::testing::TestWithParam<Situation> {
     std::ofstream(stem() + ".json") << situation.scene.dump(1);
     compare::Scene scene = compare::load_scenes(stem() + ".json").front();
     set_rules(situation.rules, scene.character);
+    // Sanitizers look at how a step is made. A run without them asks for the numbers, which are often those of the end.
+    if (sanitized) scene.steps = std::min(scene.steps, 100);
     const Scenery scenery(scene.scenery);
     std::vector<compare::KnobSetting> knobs;
     for (const std::string& knob : situation.knobs) {
@@ -73,7 +75,9 @@ class Situations : public ::testing::TestWithParam<Situation> {
     ASSERT_TRUE(lane.running()) << lane.row().reason;
     lane.finish();
     const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, name_of(scalar));
-    for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
+    if (!sanitized) {
+      for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
+    }
     std::filesystem::remove(trace);
     if (situation.contender != "octagon_sweep" || situation.in_float || !situation.rules.empty()) return;
     for (const auto& [clause, breach] : lane.breaches()) {
@@ -94,7 +98,7 @@ TEST_P(Situations, come_to_what_they_must) {
                                << options_of(situation) << " --trace STEM";
   }
   std::filesystem::remove(stem() + ".json");
-  if (cases.size() < cases_of(GetParam()).size()) return;  // it may be another case that breaks it
+  if (sanitized || cases.size() < cases_of(GetParam()).size()) return;  // it may be another case that breaks it
   for (const std::string& clause : cases.front().breaks)
     EXPECT_TRUE(broken_.contains(clause)) << clause << " is broken no more";
 }
