@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The peers that ship, on five scenes: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
+"""The peers that ship, on two scenes, and one of each engine on three more: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
 in WebAssembly goes where the contender `box2d` goes. Skipped (77) where npm's packages are not installed; Godot and Chipmunk
 are left out where Debian's are not.
 
@@ -38,8 +38,10 @@ if shutil.which("godot3-server"):
 if subprocess.run(["g++", "-std=c++20", peers / "chipmunk.cpp", "-lchipmunk", "-o", place / "chipmunk"]).returncode == 0:
     commands["chipmunk"] = str(place / "chipmunk")
     let_it_pass["chipmunk"] = ""
-scenes = ["article_bullet", "paper_1e-3", "flush_tiles", "lift_sideways", "one_way_drop"]
-rows = compare(scenes, {**commands, "straight": f"python3 {peers}/straight.py"})
+thin, feel = ["article_bullet", "paper_1e-3"], ["flush_tiles", "lift_sideways", "one_way_drop"]
+without_seams = {"box2d3", "planck", "box2d24", "godot", "godot_snap"} & commands.keys()
+rows = compare(thin, {**commands, "straight": f"python3 {peers}/straight.py"})
+rows |= compare(feel, {name: commands[name] for name in [*without_seams, "rapier", "box2d3_mover", "matter", "chipmunk"] if name in commands})
 for (scene, contender), row in rows.items():
     assert row["verdict"] != "failed", row
     assert row["verdict"] != "not_applicable" or scene == "one_way_drop" and contender in ("matter", "chipmunk"), row
@@ -47,12 +49,12 @@ for name in [*let_it_pass, "straight"]:
     assert rows["article_bullet", name]["verdict"] == "tunnels", name
 for name in stop_the_bullet:
     assert rows["article_bullet", name]["tunnels"] == 0 == rows["paper_1e-3", name]["tunnels"], name
-for name in {"box2d3", "planck", "box2d24", "godot", "godot_snap"} & commands.keys():  # no seams, and what stands is carried
-    assert {rows[scene, name]["verdict"] for scene in scenes[2:]} == {"holds"}, name
-mover = {scene: rows[scene, "box2d3_mover"] for scene in scenes}
+for name in without_seams:  # and what stands is carried
+    assert {rows[scene, name]["verdict"] for scene in feel} == {"holds"}, name
+mover = {scene: rows[scene, "box2d3_mover"] for scene in (*thin, *feel)}
 assert "answer_ok" not in mover["paper_1e-3"]  # it is a capsule, and said so: the exact way is that of its own shape
 assert mover["paper_1e-3"]["error_law_max_m"] < 0.02 and mover["lift_sideways"]["rest_peak_to_peak_m"] < 1e-5
-for scene in scenes if "chipmunk" in commands else []:
+for scene in (*thin, *feel) if "chipmunk" in commands else []:
     assert not rows[scene, "chipmunk"].get("hanging_steps"), "what is wanted comes within its step"
 
 same = ["thin_platform", "flush_tiles", "skier", "low_step", "wedge_60", "lift_up", "lift_sideways", "turning_arm",

@@ -17,17 +17,20 @@ inline const bool sanitized = &__asan_init != nullptr;
   return wanted != nullptr ? std::atoi(wanted) : otherwise;
 }
 
-/// Who asks for fewer wants an answer soon.
-inline constexpr int few_steps = 1000;
-
 /// Of each family, for octagon_sweep.
 [[nodiscard]] inline int steps_per_family() { return steps_wanted("PAPERPROOF_GUARANTEE_STEPS", 2000); }
 
-/// So many random cases; a sixteenth where sanitizers look on, as each takes ten times as long there; a quarter where
-/// an answer is wanted soon. The other runs make all of them.
+/// Who asks for fewer wants an answer soon.
+inline constexpr int few_steps = 1000;
+/// Who asks for as many wants all cases.
+inline constexpr int many_steps = 4000;
+
+/// So many random cases where many steps are wanted, half of them by default, and a quarter where an answer is wanted
+/// soon. A sixteenth where sanitizers look on, as each takes ten times as long there.
 template <class Count>
 [[nodiscard]] Count sampled(Count cases) {
-  const int of = sanitized ? 16 : steps_per_family() < few_steps ? 4 : 1;
+  const int steps = steps_per_family();
+  const int of = sanitized ? 16 : steps < few_steps ? 4 : steps < many_steps ? 2 : 1;
   return (cases + static_cast<Count>(of - 1)) / static_cast<Count>(of);
 }
 
