@@ -130,7 +130,7 @@ class TurningStep {
   [[nodiscard]] bool stays_clear(ColliderIndex collider, const geometry::Pose& from, const geometry::Pose& to,
                                  std::span<const PathPoint> way, double least = proved) const;
   [[nodiscard]] const MovingCollider* find_moving(ColliderIndex collider) const;
-  [[nodiscard]] std::set<ColliderIndex> standing(const Box2& box, bool sensors) const;
+  [[nodiscard]] std::set<ColliderIndex> standing(const Box2& box) const;
 
   // turned_report.cpp
   void note_pushes(const Part& part);
@@ -144,7 +144,7 @@ class TurningStep {
   void carry(Crusher& crusher, const geometry::Pose& from, const geometry::Pose& to) const;
   StepStatus go_straight_or_stay(CharacterState& state);
   StepStatus stay(CharacterState& state);
-  void note_stays(ColliderIndex sensor, const MoverMotion& motion, std::span<const PathPoint> way);
+  void note_sensors(std::span<const PathPoint> way);
   void go_straight(double begin, double departure, const Vec2d& to, const CharacterState& state);
   [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState state);
 

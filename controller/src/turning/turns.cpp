@@ -179,15 +179,14 @@ bool TurningStep::is_proved(const Part& part, const MoveResult& move, bool of_al
     if (!is_clear(collider.id, pose_at(collider.motion, part.begin), turned_pose(collider, part))) return false;
   }
   if (!of_all) return true;
-  const std::set<ColliderIndex> around = standing(box_at(box_around(part.way, {})), false);
+  const std::set<ColliderIndex> around = standing(box_at(box_around(part.way, {})));
   return std::ranges::all_of(around, [&](ColliderIndex collider) { return is_clear(collider, {}, {}); });
 }
 
-/// The colliders that stand in a box, by id.
-std::set<ColliderIndex> TurningStep::standing(const Box2& box, bool sensors) const {
-  const Scenery::Group& group = scenery_.group_of(no_mover);
+/// The solids that stand in a box, by id.
+std::set<ColliderIndex> TurningStep::standing(const Box2& box) const {
   memory_.pieces.clear();
-  (sensors ? group.sensors : group.solids).find(box, scenery_.boxes(), memory_.pieces);
+  scenery_.group_of(no_mover).solids.find(box, scenery_.boxes(), memory_.pieces);
   std::set<ColliderIndex> found;
   for (const PieceIndex piece : memory_.pieces) found.insert(scenery_.pieces()[piece].collider);
   return found;

@@ -1,3 +1,4 @@
+#include "sensors.hpp"
 #include "turning/turning_step.hpp"
 
 #include <algorithm>
@@ -16,17 +17,26 @@ void TurningStep::carry(Crusher& crusher, const Pose& from, const Pose& to) cons
   crusher.displacement = there - middle - crusher.last_free;
 }
 
-/// Reports that the character enters and leaves a sensor, as far as the corners of its way show it.
-void TurningStep::note_stays(ColliderIndex sensor, const MoverMotion& motion, std::span<const PathPoint> way) {
-  const auto is_inside = [&](const PathPoint& at) {
-    return overlaps(sensor, pose_at(motion, at.fraction), at.position);
-  };
-  bool inside = is_inside(way[0]);
-  for (const PathPoint& corner : way.subspan(1)) {
-    if (is_inside(corner) == inside) continue;
-    inside = !inside;
-    report_.sensors.push_back(sensor_event(sensor, inside, corner.fraction));
+/// Reports the sensors that the character enters and leaves on a way: those that turn as far as its corners show it.
+void TurningStep::note_sensors(std::span<const PathPoint> way) {
+  std::vector<MoverMotion> motions(context_.movers.begin(), context_.movers.end());
+  for (const MoverMotion& motion : memory_.motions_apart) motions.push_back({motion.from, motion.to});
+  std::vector<SensorEvent> events;
+  static_cast<Sensors&>(*scratch_.sensors).observe(way, {motions, memory_.apart}, events, &filter_);
+  for (const MovingCollider& collider : memory_.moving) {
+    if (!is_turning_sensor(collider)) continue;
+    std::erase_if(events, [&](const SensorEvent& event) { return event.sensor == collider.id; });
+    const auto is_inside = [&](const PathPoint& at) {
+      return overlaps(collider.id, pose_at(collider.motion, at.fraction), at.position);
+    };
+    bool inside = is_inside(way[0]);
+    for (const PathPoint& corner : way.subspan(1))
+      if (is_inside(corner) != inside) {
+        inside = !inside;
+        events.push_back(sensor_event(collider.id, inside, corner.fraction));
+      }
   }
+  report_.sensors.insert(report_.sensors.end(), events.begin(), events.end());
 }
 
 /// The rest of a step, in which the character stays, then goes straight to a place, and everything that moves turns
@@ -52,10 +62,7 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
   for (int part = 1; part < most_parts; ++part) go_on(begin + (1 - begin) * part / most_parts);
   if (departure > begin) go_on(departure);
   go_on(1);
-  for (const ColliderIndex sensor : standing(needed_, true))
-    if (is_there(sensor)) note_stays(sensor, {}, way);
-  for (const MovingCollider& collider : memory_.moving)
-    if (scenery_.collider(collider.id).sensor && is_there(collider.id)) note_stays(collider.id, collider.motion, way);
+  note_sensors(way);
   std::ranges::stable_sort(report_.sensors, [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
   for (std::size_t i = 1; i < way.size(); ++i) note_vertices(way[i].fraction);
   for (const MovingCollider& collider : memory_.moving) {
@@ -121,7 +128,7 @@ StepStatus TurningStep::stay(CharacterState& state) {
   MoveResult& move = report_.move;
   report_.clear();
   go_straight(0, 0, state.position, state);
-  const std::set<ColliderIndex> around = standing(box_at({state.position, state.position}), false);
+  const std::set<ColliderIndex> around = standing(box_at({state.position, state.position}));
   const bool is_held = !move.crushers.empty() || std::ranges::any_of(around, [&](ColliderIndex collider) {
     return blocks(collider) && overlaps(collider, {}, state.position);
   });
