@@ -179,6 +179,15 @@ TEST(Course, rides_a_lift_however_suddenly_it_turns) {
   expect_at(run(scene), Real(3) / 2, Real(1) / 4 + Real(1) / 8 + Real(1) / 4, Real(0.625) + Real(3) / 4, "down");
 }
 
+/// It rises at 10 m/s to 5 m, and a ceiling ends the rise 0.1 m sooner: far above both ends of the way without it.
+TEST(Course, meets_a_ceiling_just_below_the_top_of_its_rise) {
+  Scene scene = empty_scene(10);
+  scene.start.velocity = {0, 10};
+  add(scene, box(-1, 4.9 + 0.625, 1, 8));
+  const Real falls = sqrt(2 * (5 - Real(4.9)) / 10);  // so long before the top
+  expect_at(run(scene), 2, 0, Real(4.9) - 5 * (1 + falls) * (1 + falls), "after the fall from the ceiling");
+}
+
 /// Without friction and steering nothing adds to the energy: it is constant on every arc and falls at impacts alone.
 TEST(Course, keeps_its_energy_on_every_arc_and_loses_some_at_impacts) {
   int sliding = 0;

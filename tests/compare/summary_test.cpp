@@ -37,7 +37,8 @@ void check_settled(Row& row, const Json& said) {
 }
 
 void check_rows(const Json& said) {
-  refuse_other_keys(said, " name because of solid outcome exact_answer gallery summary front words_of_front settles ",
+  refuse_other_keys(said,
+                    " name because of solid outcome exact_answer gallery summary table front words_of_front settles ",
                     "a row of summary.json");
   std::vector<Row> rows;
   for (const Json& one : said.at("of")) rows.push_back(row_of(one));
@@ -49,8 +50,9 @@ void check_rows(const Json& said) {
              {"words_of_front", words_of_front("fall", rows)}};
   for (const Row& row : rows) found["front"].push_back(row_json(row).value("on_front", Json()));
   for (const auto& [key, value] : found.items()) EXPECT_EQ(value, said.value(key, value)) << key;
-  for (const Json& part : said.value("summary", Json::array()))
-    EXPECT_TRUE(holds(single_spaced(summary_table(rows)), part.get<std::string>()));
+  for (const auto& [key, text] : {std::pair("summary", summary_table(rows)), std::pair("table", compare::table(rows))})
+    for (const Json& part : said.value(key, Json::array()))
+      EXPECT_TRUE(holds(single_spaced(text), part.get<std::string>())) << text;
   for (const Json& settled : said.value("settles", Json::array())) check_settled(rows[0], settled);
 }
 
