@@ -76,19 +76,20 @@ class TogetherScratch {
 /// One step of several characters that block, carry and push each other. Each makes the step that `Controller` makes.
 /// They take turns:
 ///
-/// 1. While one goes the others stand: those that went before it where they ended, those that go after it where they
-///    began. So two that do not overlap at the beginning of a step do not overlap at its end, and do not pass through
-///    each other.
+/// 1. While one goes the others stand, but for rule 3: those that went before it where they ended, those that go after
+///    it where they began. So two that do not overlap at the beginning of a step do not overlap at its end, and do not
+///    pass through each other.
 /// 2. They go in the order of their bodies' ids, with these exceptions. A character goes before another if it is in its
 ///    way. A carrier goes before its rider, unless the rider is in its way, as on a lift that rises. Of several that
 ///    wait for each other the last one goes first, and stops at the others.
-/// 3. To its rider a character is a mover, which goes straight from where it began to where it ended, and carries at
-///    its speed. To anyone else it is one, and pushes at its speed, if it went before and came no nearer along a
-///    direction in which it began farthest; else it stands where it ended. Where a way among such movers would lead
-///    through one of them as it stands, or one of them would crush, all of them stand.
+/// 3. To its rider a character is a mover, which goes straight and evenly from where it began to where it ended, and
+///    carries. To another one it is such a mover, and pushes, if it went before and came no nearer: along one of the
+///    directions in which the two began farthest apart. Else it stands where it ended. Where a way among such
+///    characters would lead through one of them as it stands, or one of them would crush, they all stand.
 /// 4. A rider that goes first is carried by the way that its carrier would go without it. One that a mover presses
-///    pushes those in its way: they go first, as far as movers alone would take it. If they have no room, the mover
-///    crushes the one that it presses. No character crushes another. None that walks or falls pushes one.
+///    pushes those in its way: they go first, as far as movers alone would take the one that is pressed. If they have
+///    no room, the mover crushes that one, at the moment when they leave it none: room that they would leave later is
+///    not used. No character crushes another. None that walks or falls pushes one.
 /// 5. Where one that was to carry or push then goes another way than those saw, as others push or hold it, all go
 ///    again, and see it go by that way; from the fourth time on it stands for them.
 /// 6. When all have gone a rider takes over the velocity with which its carrier ends, unless that went from under it.

@@ -3,18 +3,18 @@
 /// Let u be the motion that a character has without this step's steering (momentum and gravity), s the change that
 /// steering makes in this step, braking included, and w = u + s. The surfaces that it touches, each with unit normal n,
 /// allow the motions K: all v with n·v >= least, where least is the motion of the surface along n. `rest` is the motion
-/// of who rests at a surface. All of this is as the character sees it, x across it and y up, and relative to the first
-/// surface. Where w enters no surface, it goes on as it is. Else:
+/// of who rests at a surface: all of the surface's motion if it carries, else the part along n. All of this is as the
+/// character sees it, x across it and y up, and relative to the first surface. Where w enters no surface, it goes on as
+/// it is. Else:
 ///
 ///  1. **The climb of a walk ends** at a surface that is not walkable and stops w: u rises no faster than that surface.
-///  A character
-///     that walks up a slope into a wall would leave the ground with the speed of its climb otherwise, land, and hop
-///     again, for ever.
+///     A character that walks up a slope into a wall would leave the ground with the speed of its climb otherwise,
+///     land, and hop again, for ever.
 ///  2. **Momentum that presses is an impact.** Of u, the part across that presses into what is not walkable, and enters
-///     it, ends: it does not become a climb. It becomes the motion of `rest` across. It stays larger if an upward
-///     surface on the other side stops it before that, or if it presses into a ceiling no longer. (A rise under a
-///     ceiling slides.) Steering against it is spent on it first: a character that turns around at a wall would
-///     be thrown back by its own momentum otherwise. Speed that was gained by sliding points outward and is not
+///     it, ends: it does not become a climb. The part across shrinks to that of `rest`. It shrinks less in two cases:
+///     to where u would enter an upward surface on the other side, and to where u presses into a ceiling no longer. (A
+///     rise under a ceiling slides.) Steering against it is spent on it first: a character that turns around at a wall
+///     would be thrown back by its own momentum otherwise. Speed that was gained by sliding points outward and is not
 ///     touched.
 ///  3. **What is left of u** becomes a walk if it enters walkable ground: along the ground, with its x or the nearest x
 ///     that the other surfaces allow. In all other cases, and if they allow no x, it becomes the motion of K that is
@@ -22,9 +22,10 @@
 ///     while it rises under a ceiling, steering to either side. A fall stays a fall. If K is empty, the surfaces leave
 ///     no motion.
 ///  4. **Steering**, as far as it has not joined, moves the motion that rule 3 gives across: at the height of that
-///     motion, or along ground that is higher, as far as all surfaces allow. So steering never holds or slows a fall
-///     along a surface: from the same place and speed, y(t) on a steep slope is the same with the key uphill and
-///     without a key. Steering that a surface took is there again at the next one; steering that was spent is not.
+///     motion, or along walkable ground where that is higher, as far as all surfaces allow. So steering never holds or
+///     slows a fall along a surface: from the same place and speed, y(t) on a steep slope is the same with the key
+///     uphill and without a key. Steering that a surface took is there again at the next one; steering that was spent
+///     is not.
 ///
 /// **A wedge** holds a fall: surfaces on both sides, none of them walkable, that leave no more than a small share of
 /// it; or such with ground that the character is beside. It does not hold who can fall on between its rims, straight

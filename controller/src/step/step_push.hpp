@@ -1,9 +1,9 @@
 /// The law of pushing.
 ///
 /// In one step, what moves pushes a character no farther than it goes itself and `Tolerances::push` beyond that, on top
-/// of what the character wants to go; and it leaves the character no faster than twice its own speed, or than the
-/// character was. What would push farther crushes (step_crush.hpp). A crushed character leaves what overlaps it by as
-/// much in each step.
+/// of what the character wants to go; and it leaves the character no faster than twice the mover's speed, or than
+/// the character was. What would push farther crushes (step_crush.hpp). A crushed character leaves what overlaps it by
+/// as much in each step.
 ///
 /// All that pushes asks here: surfaces that squeeze a character out, the search for a free position, and the ways out
 /// of what crushed it. A step in shorter parts spends one push in all of them (`Around::limits`).

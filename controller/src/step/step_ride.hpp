@@ -6,7 +6,8 @@
 ///
 /// A character that comes down on moving ground keeps its speed in the world, unless it has none sideways: then it is
 /// carried at once, sideways and down. With its fall alone instead of the ground's, it would be left behind in the air
-/// by what goes down a slope, and land again, and so on.
+/// by what goes down a slope, and land again, and so on. Ground that comes under a character which stands on something
+/// else lifts it, and does not take it along: across it goes on as it did, until it is steered.
 #pragma once
 
 #include "inlining.hpp"
