@@ -94,7 +94,9 @@ double number_in(const std::string& text) {
 std::string fault_of(const Row& row, const std::string& condition) {
   const std::vector<std::string> sides = split(condition, " = ");
   if (sides.size() != 2) return "no condition: " + condition;
-  const nlohmann::ordered_json found = row_json(row).value(sides[0], nlohmann::ordered_json("absent"));
+  const nlohmann::ordered_json written = row_json(row);
+  if (!written.contains(sides[0])) return sides[0] + " is absent (" + row.reason + ") ";
+  const nlohmann::ordered_json& found = written[sides[0]];
   const std::string word = found.is_string() ? found.get<std::string>() : found.dump();
   const double value = number_in(word);
   const std::vector<std::string> bounds = split(sides[1], "..");
@@ -175,12 +177,12 @@ TEST(ArticleTable, would_notice_a_number_that_is_wrong) {
   for (const char* right : {"article_bullet mask => tunnels = 1, verdict = tunnels",
                             "article_bullet speculative => first_contact_fraction = 0.599..0.601"})
     EXPECT_EQ(fault_of(right, runs), "") << right;
-  for (const char* wrong :
-       {"article_bullet mask => tunnels = 0", "article_bullet mask => verdict = holds",
-        "article_bullet mask => tunnels = one", "article_bullet mask => nothing = 1", "article_bullet mask => tunnels",
-        "article_bullet mask", "article_bullet speculative => first_contact_fraction = 0.601..0.7",
-        "article_bullet mask | article_bullet speculative => rows equal",
-        "article_bullet mask | article_bullet mask => rows differ"})
+  for (const char* wrong : {"article_bullet mask => tunnels = 0", "article_bullet mask => verdict = holds",
+                            "article_bullet mask => tunnels = one", "article_bullet mask => nothing = 1",
+                            "article_bullet mask => nothing = absent", "article_bullet mask => tunnels",
+                            "article_bullet mask", "article_bullet speculative => first_contact_fraction = 0.601..0.7",
+                            "article_bullet mask | article_bullet speculative => rows equal",
+                            "article_bullet mask | article_bullet mask => rows differ"})
     EXPECT_NE(fault_of(wrong, runs), "") << wrong;
 }
 

@@ -126,7 +126,7 @@ void check_refused(const Json& row) {
       refused(place, filled(call, {{"each", word}}), filled(row.value("says", ""), {{"each", word}}));
 }
 
-const bool table = table_tests("refused_calls.json", check_refused);
+const bool table = table_tests("refused_calls.json", " first files each calls says ", check_refused);
 
 }  // namespace
 }  // namespace paperproof::compare

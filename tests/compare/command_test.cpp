@@ -33,7 +33,7 @@ namespace {
 
 using Command = CommandTest;
 
-const bool calls = table_tests<CommandTest>("calls.json", check_call);
+const bool calls = table_tests<CommandTest>("calls.json", keys_of_calls, check_call);
 
 TEST_F(Command, check_says_who_will_run_and_why_the_others_do_not) {
   // The same as `compare` finds, for each contender.

@@ -126,6 +126,8 @@ class CommandTest : public testing::Test {
 
 /// What rows of tables/calls.json say of calls.
 void check_call(const Json& row);
+inline constexpr const char* keys_of_calls =
+    " files before first calls status out not_out says err row reason not_reason ";
 
 /// A scene that runs; the bad ones differ from it in one place.
 inline constexpr const char* good_scene = R"({

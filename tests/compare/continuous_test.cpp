@@ -179,7 +179,8 @@ TEST(Course, rides_a_lift_however_suddenly_it_turns) {
   expect_at(run(scene), Real(3) / 2, Real(1) / 4 + Real(1) / 8 + Real(1) / 4, Real(0.625) + Real(3) / 4, "down");
 }
 
-/// It rises at 10 m/s to 5 m, and a ceiling ends the rise 0.1 m sooner: far above both ends of the way without it.
+/// It would rise to 5 m, and a ceiling ends the rise 0.1 m sooner. Without the ceiling the arc begins and ends 5 m
+/// below its top and lower: a box around its two ends has no ceiling in it.
 TEST(Course, meets_a_ceiling_just_below_the_top_of_its_rise) {
   Scene scene = empty_scene(10);
   scene.start.velocity = {0, 10};

@@ -120,7 +120,7 @@ class TypedTrace(unittest.TestCase):
 
 
 class Arcs(unittest.TestCase):
-    """The oracle's README says how far what turns leaves them."""
+    """How far vertices of what turns leave their arcs, as the oracle's README says."""
 
     def test_of_scenes_are_left_as_far_as_it_says(self):
         text = section("oracle/README.md", "What turns")
@@ -137,7 +137,7 @@ class Arcs(unittest.TestCase):
 
 
 class Tables(unittest.TestCase):
-    """The oracle's README has these."""
+    """Those in the oracle's README."""
 
     def test_of_clauses_names_each_in_order(self):
         schema = json.loads((COMPARE / "records/paperproof_trace.schema.json").read_text(encoding="utf-8"))

@@ -6,7 +6,7 @@
 namespace paperproof::compare {
 namespace {
 
-const bool table = table_tests("near_names.json", [](const Json& row) {
+const bool table = table_tests("near_names.json", " known typed near ", [](const Json& row) {
   EXPECT_EQ(Json(near_names(row["typed"].get<std::string>(), row["known"].get<std::vector<std::string>>())),
             row["near"]);
 });

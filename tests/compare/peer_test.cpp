@@ -5,7 +5,7 @@ namespace paperproof::compare {
 namespace {
 
 using Peer = CommandTest;
-const bool table = table_tests<CommandTest>("peers.json", check_call);
+const bool table = table_tests<CommandTest>("peers.json", keys_of_calls, check_call);
 
 using nlohmann::json;
 

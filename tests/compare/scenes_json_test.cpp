@@ -13,7 +13,7 @@ using nlohmann::json;
 /// One of everything.
 const std::string full = read_file(PAPERPROOF_SOURCE_DIR "/tests/compare/one_of_everything.json", "");
 
-const bool table = table_tests("json_scenes.json", check_scene_file_alone);
+const bool table = table_tests("json_scenes.json", keys_of_scene_files, check_scene_file_alone);
 
 TEST(JsonScene, every_key_arrives_and_is_written_as_it_was_read) {
   const SceneFiles files;

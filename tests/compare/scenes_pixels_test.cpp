@@ -68,7 +68,7 @@ void check_picture(const Json& row) {
   check_scene_file(files, row);
 }
 
-const bool table = table_tests("pictures.json", check_picture);
+const bool table = table_tests("pictures.json", keys_of_scene_files, check_picture);
 
 std::set<std::pair<int, int>> pixels_of(const Scene& scene, double pixels_per_metre) {
   std::set<std::pair<int, int>> pixels;

@@ -11,7 +11,7 @@
 namespace paperproof::compare {
 namespace {
 
-const bool table = table_tests("supertux.json", check_scene_file_alone);
+const bool table = table_tests("supertux.json", keys_of_scene_files, check_scene_file_alone);
 
 /// Twice the area of a polygon with y down; positive is clockwise on the screen.
 double twice_area(const std::vector<Vec2d>& points) {

@@ -8,7 +8,7 @@
 namespace paperproof::compare {
 namespace {
 
-const bool table = table_tests("tiled.json", check_scene_file_alone);
+const bool table = table_tests("tiled.json", keys_of_scene_files, check_scene_file_alone);
 
 /// A map of tiles of so many pixels, of which one is a circle of 8 px in the middle.
 std::string map_of(const std::string& layers, const std::string& spawn, int pixels = 16) {

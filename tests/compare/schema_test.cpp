@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const bool table = table_tests("schema.json", [](const Json& row) {
+const bool table = table_tests("schema.json", " schema value says ", [](const Json& row) {
   EXPECT_EQ(quoted(Schema(row["schema"].dump()).fault(row["value"]).value_or("")), quoted(row["says"]));
 });
 

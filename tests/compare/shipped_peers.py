@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The peers that ship, on two scenes, and one of each engine on three more: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
+"""The peers that ship, on two scenes, and on three more those that must hold there, and some of each engine: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
 in WebAssembly goes where the contender `box2d` goes. Skipped (77) where npm's packages are not installed; Godot and Chipmunk
 are left out where Debian's are not.
 
@@ -41,7 +41,8 @@ if subprocess.run(["g++", "-std=c++20", peers / "chipmunk.cpp", "-lchipmunk", "-
 thin, feel = ["article_bullet", "paper_1e-3"], ["flush_tiles", "lift_sideways", "one_way_drop"]
 without_seams = {"box2d3", "planck", "box2d24", "godot", "godot_snap"} & commands.keys()
 rows = compare(thin, {**commands, "straight": f"python3 {peers}/straight.py"})
-rows |= compare(feel, {name: commands[name] for name in [*without_seams, "rapier", "box2d3_mover", "matter", "chipmunk"] if name in commands})
+others = {"rapier", "rapier_body", "box2d3_mover", "matter", "chipmunk"} & commands.keys()
+rows |= compare(feel, {name: commands[name] for name in without_seams | others})
 for (scene, contender), row in rows.items():
     assert row["verdict"] != "failed", row
     assert row["verdict"] != "not_applicable" or scene == "one_way_drop" and contender in ("matter", "chipmunk"), row

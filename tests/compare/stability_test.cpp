@@ -16,16 +16,16 @@ namespace {
 
 /// A run of octagon_sweep that holds in every respect, but for what a row of the table says.
 void check_stability(const Json& row) {
-  Json changed = row["row"];
-  for (const auto& [key, value] : row["row"].items())
+  Json changed = row.at("row");
+  for (const auto& [key, value] : row.at("row").items())
     if (value.is_null()) changed.erase(key);
   Row judged = row_of(changed);
   judge_stability(judged, row.value("slides", false));
   const Json found = row_json(judged);
-  for (const auto& [key, value] : row["is"].items()) EXPECT_EQ(found.value(key, Json()), value) << key << found;
+  for (const auto& [key, value] : row.at("is").items()) EXPECT_EQ(found.value(key, Json()), value) << key << found;
 }
 
-const bool table = table_tests("stability.json", check_stability);
+const bool table = table_tests("stability.json", " row is slides ", check_stability);
 
 TEST(StabilityPredicates, take_no_number_for_no_energy_that_is_within_its_bound) {
   Row row;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 namespace paperproof::compare {
 namespace {
@@ -26,20 +27,26 @@ std::string single_spaced(const std::string& text) {
   return single;
 }
 
+Axis axis_named(const std::string& name) {
+  for (const Axis axis : {Axis::safety, Axis::progress, Axis::answer, Axis::validity})
+    if (name_of(axis) == name) return axis;
+  throw std::invalid_argument("no such axis: " + name);
+}
+
 /// Adds faults, and settles the row again.
 void check_settled(Row& row, const Json& said) {
-  for (const Json& fault : said["faults"])
-    for (const Axis axis : {Axis::safety, Axis::progress, Axis::answer, Axis::validity})
-      if (name_of(axis) == fault[0]) add_fault(row, axis, row_of({{"verdict", fault[1]}}).verdict, fault[2]);
+  refuse_other_keys(said, " faults verdict reason because ", "what settles");
+  for (const Json& fault : said.at("faults")) {
+    const Verdict verdict = row_of({{"verdict", fault.at(1)}}).verdict;
+    ASSERT_EQ(name_of(verdict), fault.at(1)) << "no such verdict";
+    add_fault(row, axis_named(fault.at(0)), verdict, fault.at(2));
+  }
   settle(row);
-  EXPECT_EQ(name_of(row.verdict), said["verdict"]);
-  EXPECT_EQ(row.reason, said["reason"]);
+  EXPECT_EQ(name_of(row.verdict), said.at("verdict"));
+  EXPECT_EQ(row.reason, said.at("reason"));
 }
 
 void check_rows(const Json& said) {
-  refuse_other_keys(said,
-                    " name because of solid outcome exact_answer gallery summary table front words_of_front settles ",
-                    "a row of summary.json");
   std::vector<Row> rows;
   for (const Json& one : said.at("of")) rows.push_back(row_of(one));
   rows.back().exact_first_impact = said.value("solid", "");  // no file has it
@@ -56,7 +63,8 @@ void check_rows(const Json& said) {
   for (const Json& settled : said.value("settles", Json::array())) check_settled(rows[0], settled);
 }
 
-const bool table = table_tests("summary.json", check_rows);
+const bool table = table_tests(
+    "summary.json", " of solid outcome exact_answer gallery summary table front words_of_front settles ", check_rows);
 
 TEST(Words, of_a_sentence_are_left_out_where_a_terminal_has_no_room) {
   EXPECT_EQ(shortened("one two three", 13), "one two three");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/scene_files.hpp"
+#include "support/expected.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -27,25 +28,29 @@ struct TableDef {
 [[nodiscard]] std::vector<TableDef> tests_in(const std::string& file);
 
 /// Registers each test of tables/FILE, whose rows are checked one by one.
+/// @param keys that a row may have beside `name`, `because` and `let`, between blanks.
 template <class Fixture = testing::Test>
-bool table_tests(const std::string& file, void (*check)(const Json& row)) {
+bool table_tests(const std::string& file, const std::string& keys, void (*check)(const Json& row)) {
   class Test : public Fixture {
    public:
-    Test(const std::vector<TableRow>& rows, void (*check)(const Json& row)) : rows_(rows), check_(check) {}
+    Test(const std::vector<TableRow>& rows, const std::string& keys, void (*check)(const Json& row))
+        : rows_(rows), keys_(" name because let" + keys), check_(check) {}
     void TestBody() override {
       for (const TableRow& row : rows_) {
         SCOPED_TRACE(row.row.dump());
+        test::refuse_other_keys(row.filled, keys_, "a row");
         check_(row.filled);
       }
     }
 
    private:
     std::vector<TableRow> rows_;
+    std::string keys_;
     void (*check_)(const Json& row);
   };
   for (const TableDef& def : tests_in(file))
     testing::RegisterTest(def.suite.c_str(), def.name.c_str(), nullptr, nullptr, file.c_str(), 1,
-                          [=]() -> Fixture* { return new Test(def.rows, check); });
+                          [=]() -> Fixture* { return new Test(def.rows, keys, check); });
   return true;
 }
 
@@ -60,6 +65,7 @@ bool table_tests(const std::string& file, void (*check)(const Json& row)) {
 
 /// What a row says of a file that a scene is read from: that it is refused, or what becomes of it.
 void check_scene_file(const SceneFiles& files, const Json& row);
+inline constexpr const char* keys_of_scene_files = " file text text_of beside change says notes solids is within ";
 /// The same in a folder of its own.
 void check_scene_file_alone(const Json& row);
 

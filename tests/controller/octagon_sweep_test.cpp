@@ -187,7 +187,7 @@ TEST(GoingCorner, holds_a_walker_as_one_that_stands_does) {
   EXPECT_LE(unlike, 4);
 }
 
-const int an_hour = test::sampled(216'000);
+const int an_hour = test::sanitized ? 13'500 : test::steps_per_family() < test::few_steps ? 54'000 : 216'000;
 
 /// Distance to the next double.
 double ulp(double value) { return std::nextafter(std::abs(value), INFINITY) - std::abs(value); }

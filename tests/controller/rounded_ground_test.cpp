@@ -64,7 +64,7 @@ TEST(RoundedGround, is_not_left_by_a_walk_and_every_press_jumps) {
     Random random(seed);
     const std::vector<Vec2d> line = random_ramp(random);
     CharacterDef character;
-    const double gravity = -random.between(-40, -10);
+    const double gravity = random.between(10, 40);
     character.acceleration = 0.9 * gravity;  // downhill it would run off steep ground with more
     character.walk_speed = random.log_between(0.5, std::min(12.0, std::sqrt(8 * character.acceleration)));
     const double dt = 1 / random.between(30, 240);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "box2d_adapter/hero_world.hpp"
+#include "support/expected.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -85,6 +86,10 @@ class Bodies {
   }
 
   void add(const json& text) {
+    test::refuse_other_keys(text,
+                            " id type at angle velocity spin surface_speed polygon edge chain loop circle one_sided "
+                            "density sensor bullet weightless angular_damping blocks ",
+                            "a body");
     b2Fixture& made =
         world_.add(named(text.value("type", "static"), types), vector_of<b2Vec2>(text.value("at", json{0, 0})),
                    *shape_of(text), text.value("density", 1.0F));
@@ -92,17 +97,20 @@ class Bodies {
     made.GetBody()->SetBullet(text.value("bullet", false));
     if (text.value("weightless", false)) made.GetBody()->SetGravityScale(0);
     made.GetBody()->SetAngularDamping(text.value("angular_damping", 0.0F));
-    surfaces_[&made].blocks = named(text.value("blocks", "as_in_box2d"), blockings);
+    surfaces_[&made] = {.blocks =
+                            named(text.value("blocks", "as_in_box2d"), blockings)};  // Box2D uses its memory again
     const std::string id = text.at("id");
     fixtures[id] = &made;
-    json rest = text;
-    rest.erase("at");
-    put({{id, rest}});
+    json put_so = json::object();
+    for (const char* key : {"angle", "velocity", "spin", "surface_speed"})
+      if (text.contains(key)) put_so[key] = text[key];
+    put({{id, put_so}});
   }
 
   /// Bodies come to be somewhere at once, or get another speed.
   void put(const json& bodies) {
     for (const auto& [id, text] : bodies.items()) {
+      test::refuse_other_keys(text, " at angle velocity spin surface_speed motor ", "what is set");
       b2Body& one = body(id);
       if (text.contains("at") || text.contains("angle"))
         one.SetTransform(text.contains("at") ? vector_of<b2Vec2>(text["at"]) : one.GetPosition(),

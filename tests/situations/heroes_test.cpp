@@ -60,6 +60,7 @@ class Play {
     told = compare::computed(told, values());
     act(told);
     const json each_frame = part.value("each_frame", json::object());
+    test::refuse_other_keys(each_frame, " let set move jump drop ", "each frame");
     for (int frame = 0; frame < told.value("frames", 0); ++frame) {
       situation_.values["frame"] = frame;
       compare::name_numbers(each_frame.value("let", json::object()), situation_.values);

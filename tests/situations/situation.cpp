@@ -208,8 +208,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
 
 std::vector<SituationCase> some_cases_of(const Situation& situation) {
   const std::vector<SituationCase> cases = cases_of(situation);
-  const int steps = steps_per_family();
-  const std::size_t most = sanitized ? 1 : steps < few_steps ? 2 : steps < many_steps ? 12 : cases.size();
+  const std::size_t most = sanitized ? 1 : steps_per_family() < few_steps ? 2 : cases.size();
   const std::size_t count = std::min(cases.size(), most);
   std::vector<SituationCase> some;  // in even strides, from the first: it is often the cheapest
   for (std::size_t k = 0; k < count; ++k) some.push_back(cases[k * cases.size() / count]);

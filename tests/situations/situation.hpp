@@ -43,7 +43,7 @@ inline void PrintTo(const Situation& situation, std::ostream* out) { *out << sit
 /// Its cases, with all numbers computed.
 [[nodiscard]] std::vector<SituationCase> cases_of(const Situation& situation);
 
-/// Twelve of them in even strides; all where many steps are asked for, two where few are, one under sanitizers.
+/// All of them; two where few steps are asked for, one under sanitizers.
 [[nodiscard]] std::vector<SituationCase> some_cases_of(const Situation& situation);
 
 /// The part of a record that a name or a pointer names: -1 is the last of a list, # how many it has; null where there

@@ -14,6 +14,7 @@ struct Outcome {
   int stuck = 0;
   int in_the_air = 0;  ///< Of all, after a second in which they come down.
   std::vector<Vec2d> ends{};
+  bool is_row = false;  ///< Else a tower.
 };
 
 Outcome run(const Situation& place, int count, bool last_first) {
@@ -23,6 +24,8 @@ Outcome run(const Situation& place, int count, bool last_first) {
   Bodies bodies(all);
   bodies.build(compare::computed(place.text.at("scene"), values));
   const json said = compare::computed(place.text.at("party"), values);
+  test::refuse_other_keys(place.text, " name because scene party set ", "a place");
+  test::refuse_other_keys(said, " feet next move ", "a party");
   std::vector<std::unique_ptr<Hero>> heroes;
   std::vector<Hero*> party;
   std::vector<Input> inputs;
@@ -38,7 +41,7 @@ Outcome run(const Situation& place, int count, bool last_first) {
     std::reverse(party.begin(), party.end());
     std::reverse(inputs.begin(), inputs.end());
   }
-  Outcome outcome;
+  Outcome outcome{.is_row = said.at("next").at(0) > 0};
   for (int step = -60; step < 600; ++step) {
     values["frame"] = step;
     if (step == 0) inputs[last_first ? inputs.size() - 1 : 0].move = said.value("move", 0.0);
@@ -67,8 +70,7 @@ TEST_P(Heroes, are_carried_and_pushed_as_one_alone_would_be) {
       EXPECT_EQ(party.stuck, 0);
       EXPECT_LE(party.in_the_air, alone.in_the_air);
       for (int i = 0; i < count; ++i) {
-        const bool is_row = GetParam().text["party"]["next"][0] > 0;
-        const Vec2d apart = is_row ? Vec2d(2 * half_width * i, 0) : Vec2d(0, 2 * half_height * i);
+        const Vec2d apart = party.is_row ? Vec2d(2 * half_width * i, 0) : Vec2d(0, 2 * half_height * i);
         EXPECT_LE((party.ends[static_cast<std::size_t>(i)] - alone.ends[0] - apart).norm(), 1e-3) << i;
       }
     }
