@@ -196,7 +196,7 @@ class Frame {
     const double extent = parts_.points.box.upper[component] - parts_.points.box.lower[component];
     const Vec2d drift = group.drift();
     const double wanted =
-        record_.shortens() ? length(movement_ + drift) : std::abs(movement_[component]) + std::abs(drift[component]);
+        record_.shortens() ? (movement_ + drift).norm() : std::abs(movement_[component]) + std::abs(drift[component]);
     const double steps = std::ceil((wanted + extent) / parts_.unit);
     const int limit = steps < max_search_steps ? static_cast<int>(steps) : max_search_steps;
     if (record_.shortens() && !(wanted > 0)) return;
@@ -225,7 +225,7 @@ class Frame {
     if (group.mover != no_mover) {
       for (const PieceGroup& other : groups_) {
         if (other.mover != no_mover) continue;
-        for (const std::size_t i : distinct(record_.pair(opposite(side)))) {
+        for (const std::size_t i : distinct(record_.pair(side_ahead(component_of(side), outwards(side) < 0)))) {
           const Vec2d from = other.seen(position_ + movement_, 1) + parts_.points.offsets[i];
           if (other.pieces.first_entry(from, push)) return false;
         }

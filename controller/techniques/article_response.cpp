@@ -1,46 +1,41 @@
 #include "techniques/article_response.hpp"
 
+#include "step_parts.hpp"
+
 #include <paperproof/tolerances.hpp>
 
 #include <cmath>
 
 namespace paperproof::article {
+
+using step_parts::in_range;
+
 namespace {
 
 struct Groups final : OwnMemory {
   std::vector<PieceGroup> all;
 };
 
-CollisionPoints points_of(const CharacterShape& shape) {
-  CollisionPoints points;
-  for (const Vec2d& point : shape.points()) points.offsets.push_back(point);
-  for (const Side side : all_sides) points.pairs[static_cast<std::size_t>(side)] = points_of_side(shape.points(), side);
-  points.box = {shape.box().lower, shape.box().upper};
-  return points;
-}
-
-CollisionPoints corners_of_box(const CharacterShape& shape) {
-  CollisionPoints points;
-  points.box = {shape.box().lower, shape.box().upper};
-  const Box2& box = points.box;
-  for (const double y : {box.lower.y(), box.upper.y()}) {
-    for (const double x : {box.lower.x(), box.upper.x()}) points.offsets.push_back({x, y});
-  }
-  points.pairs[static_cast<std::size_t>(Side::bottom)] = {0, 1};
-  points.pairs[static_cast<std::size_t>(Side::top)] = {2, 3};
-  points.pairs[static_cast<std::size_t>(Side::left)] = {0, 2};
-  points.pairs[static_cast<std::size_t>(Side::right)] = {1, 3};
+/// @param count 8: the character's points; 4: the corners of their box.
+CollisionPoints points_of(const CharacterShape& shape, int count) {
+  const Box2& box = shape.box();
+  CollisionPoints points{.offsets = {}, .box = box};
+  if (count == 4)
+    for (const double y : {box.lower.y(), box.upper.y()})
+      for (const double x : {box.lower.x(), box.upper.x()}) points.offsets.push_back({x, y});
+  else
+    for (const Vec2d& point : shape.points()) points.offsets.push_back(point);
+  for (const Side side : all_sides)
+    points.pairs[static_cast<std::size_t>(side)] = points_of_side({points.offsets.begin(), points.offsets.end()}, side);
   return points;
 }
 
 }  // namespace
 
-double length(const Vec2d& vector) noexcept { return std::sqrt(vector.x() * vector.x() + vector.y() * vector.y()); }
-
 Parts::Parts(const TechniqueDef& def, const Scenery& where, const CharacterDef& character)
     : scenery(&where),
       broad_phase(make_broad_phase(def.broad_phase, standing_boxes(where))),
-      points(def.article.points == 4 ? corners_of_box(character.shape) : points_of(character.shape)),
+      points(points_of(character.shape, def.article.points)),
       unit(def.article.unit),
       something_carries(paperproof::something_carries(where)),
       fastest_surface(paperproof::fastest_surface(where)),
@@ -48,7 +43,7 @@ Parts::Parts(const TechniqueDef& def, const Scenery& where, const CharacterDef& 
 
 Scratch Parts::make_scratch() const {
   Scratch scratch;
-  scratch.solids.pieces.resize(scenery->pieces().size());
+  scratch.solids.pieces.reserve(scenery->pieces().size());
   auto groups = std::make_unique<Groups>();
   groups->all.reserve(scenery->mover_count() + 1);
   scratch.own = std::move(groups);
@@ -57,37 +52,33 @@ Scratch Parts::make_scratch() const {
 
 NearbyScenery Parts::near(const Vec2d& here, const Vec2d& there, Scratch& scratch) const noexcept {
   const Box2 total = Box2::between(here, there) + points.box;
-  scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
-  scratch.solids.count = broad_phase->query(total, scratch.solids.pieces);
-  return {*scenery, std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count)};
+  scratch.solids.pieces.clear();
+  broad_phase->query(total, scratch.solids.pieces);
+  return {*scenery, scratch.solids.pieces};
 }
 
 std::span<const PieceGroup> Parts::groups_near(const Box2& box, const FrameOfReference& frame,
                                                Scratch& scratch) const noexcept {
   std::vector<PieceGroup>& groups = static_cast<Groups&>(*scratch.own).all;
   groups.clear();  // keeps its memory
-  const std::span<PieceIndex> found(scratch.solids.pieces);
-  scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
-  scratch.solids.count = 0;
+  std::vector<PieceIndex>& found = scratch.solids.pieces;
+  found.clear();  // keeps its memory: there is room for all
   const auto add = [&](MoverIndex mover, const auto& find) {
     const Vec2d first = frame.shift_at_start(mover);
     const Vec2d last = frame.shift_at_end(mover);
-    const std::span<PieceIndex> room = found.subspan(scratch.solids.count);
-    std::size_t count = find(box + Box2::between(first, last), room);
-    if (frame.drops()) count = without_one_way(*scenery, room.first(count));
-    scratch.solids.count += count;
-    if (count > 0) groups.push_back({{*scenery, room.first(count)}, mover, first, last});
+    const std::size_t before = found.size();
+    find(box + Box2::between(first, last));
+    if (frame.drops()) remove_one_way(*scenery, before, found);
+    const std::span pieces = std::span(found).subspan(before);
+    if (!pieces.empty()) groups.push_back({{*scenery, pieces}, mover, first, last});
   };
-  add(no_mover, [&](const Box2& seen, std::span<PieceIndex> room) { return broad_phase->query(seen, room); });
-  for (MoverIndex mover = 0; mover < scenery->mover_count(); ++mover) {
-    add(mover, [&](const Box2& seen, std::span<PieceIndex> room) {
-      std::size_t count = 0;
+  add(no_mover, [&](const Box2& seen) { broad_phase->query(seen, found); });
+  for (MoverIndex mover = 0; mover < scenery->mover_count(); ++mover)
+    add(mover, [&](const Box2& seen) {
       const PieceRange pieces = pieces_of_mover(*scenery, mover);
       for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-        if (scenery->box(piece).overlaps(seen)) room[count++] = piece;
-      return count;
+        if (scenery->box(piece).overlaps(seen)) found.push_back(piece);
     });
-  }
   return groups;
 }
 
@@ -104,11 +95,6 @@ bool collides(const Parts& parts, const NearbyScenery& nearby, const PointPair& 
     if (nearby.containing(there) || nearby.crossed(here, there)) return true;
   }
   return false;
-}
-
-bool in_range(const Vec2d& position) noexcept {
-  const double range = Tolerances{}.range;
-  return std::abs(position.x()) <= range && std::abs(position.y()) <= range;
 }
 
 void refuse(const MoveRequest& request, MoveResult& result, StepStatus why) noexcept {
@@ -135,8 +121,7 @@ void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept {
 }
 
 bool refuse_out_of_range(const MoveRequest& request, MoveResult& result) noexcept {
-  const Vec2d end = request.position + request.displacement;
-  if (in_range(request.position) && in_range(end)) return false;
+  if (in_range(request.position) && in_range(request.position + request.displacement)) return false;
   refuse(request, result);
   return true;
 }
@@ -155,24 +140,19 @@ Vec2d farthest_motion(const Scenery& scenery, double fastest_surface, const Move
   return farthest;
 }
 
-bool leaves_range(const Vec2d& position, const Vec2d& wanted, const Vec2d& farthest) noexcept {
-  return !in_range(position) || !in_range(position + wanted) || !in_range(farthest);
-}
-
 }  // namespace
 
 bool leaves_range(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept {
-  const Vec2d wanted = FrameOfReference(scenery, request).wanted();
-  return leaves_range(request.position, wanted, farthest_motion(scenery, fastest_surface, request));
+  return !in_range(request.position) || !in_range(request.position + FrameOfReference(scenery, request).wanted()) ||
+         !in_range(farthest_motion(scenery, fastest_surface, request));
 }
 
 bool refuse(const Parts& parts, bool searches_by_units, const MoveRequest& request, MoveResult& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
-  const Vec2d wanted = FrameOfReference(*parts.scenery, request).wanted();
-  const Vec2d farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
-  const Vec2d searched = wanted.cwiseAbs() + 2 * farthest;
-  const bool quick = !searches_by_units || length(searched) <= parts.unit * double(max_search_steps);
-  const bool leaves = leaves_range(request.position, wanted, farthest);
+  const Vec2d searched = FrameOfReference(*parts.scenery, request).wanted().cwiseAbs() +
+                         2 * farthest_motion(*parts.scenery, parts.fastest_surface, request);
+  const bool quick = !searches_by_units || searched.norm() <= parts.unit * double(max_search_steps);
+  const bool leaves = leaves_range(*parts.scenery, parts.fastest_surface, request);
   if (quick && !leaves) return false;
   refuse(request, result, leaves ? StepStatus::out_of_range : StepStatus::refused);
   return true;

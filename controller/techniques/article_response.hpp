@@ -36,8 +36,6 @@
 
 namespace paperproof::article {
 
-inline constexpr std::array all_sides{Side::top, Side::bottom, Side::left, Side::right};
-
 /// How many units a search may take. Below 1e5 the bullets of the comparison would be refused; without any limit one
 /// step over a million metres would take seconds. Longer movements are refused.
 inline constexpr int max_search_steps = 1'000'000;
@@ -142,9 +140,6 @@ void add_once(ColliderIndex collider, Colliders& all) noexcept {
   if (std::find(all.begin(), all.end(), collider) == all.end()) all.push_back(collider);
 }
 
-/// NaN is not.
-[[nodiscard]] bool in_range(const Vec2d& position) noexcept;
-
 /// Adds a contact with the collider that was hit, once for each collider and side; its separation is left at zero.
 /// @return false where it was there already, or nothing more fits.
 bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double fraction, MoveResult& result) noexcept;
@@ -153,36 +148,5 @@ bool add_contact(const Scenery& scenery, const PointHit& hit, Side side, double 
 [[nodiscard]] inline std::span<const std::size_t> distinct(const PointPair& pair) noexcept {
   return std::span(pair).first(pair[0] == pair[1] ? 1U : 2U);
 }
-
-/// The component of a vector that belongs to a side: 0 for left and right, 1 for top and bottom.
-[[nodiscard]] constexpr Eigen::Index component_of(Side side) noexcept {
-  return side == Side::left || side == Side::right ? 0 : 1;
-}
-
-/// Out of the character through that side: -1 for left and bottom, 1 for right and top.
-[[nodiscard]] constexpr int outwards(Side side) noexcept { return side == Side::left || side == Side::bottom ? -1 : 1; }
-
-[[nodiscard]] constexpr Side opposite(Side side) noexcept {
-  switch (side) {
-    case Side::top:
-      return Side::bottom;
-    case Side::bottom:
-      return Side::top;
-    case Side::left:
-      return Side::right;
-    case Side::right:
-      break;
-  }
-  return Side::left;
-}
-
-/// The side of the character that meets something when it moves along a component.
-[[nodiscard]] constexpr Side side_ahead(Eigen::Index component, bool forwards) noexcept {
-  if (component == 0) return forwards ? Side::right : Side::left;
-  return forwards ? Side::top : Side::bottom;
-}
-
-/// Length by the theorem of Pythagoras [m].
-[[nodiscard]] double length(const Vec2d& vector) noexcept;
 
 }  // namespace paperproof::article

@@ -57,7 +57,7 @@ class BoundingBox final : public Technique {
   BoundingBox(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
         moving_(moving_pieces(scenery)),
-        character_{character.shape.box().lower, character.shape.box().upper},
+        character_(character.shape.box()),
         iterations_(def.article.iterations) {
     grown_.reserve(scenery.pieces().size());  // the broad phase looks at them where they are
     for (const Box2& box : standing_boxes(scenery)) grown_.push_back(grown(box, character_));
@@ -69,7 +69,7 @@ class BoundingBox final : public Technique {
   [[nodiscard]] std::string_view name() const noexcept override { return "bounding_box"; }
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
-    scratch.solids.pieces.resize(grown_.size());
+    scratch.solids.pieces.reserve(grown_.size());
     return scratch;
   }
   void move(const MoveRequest& request, Scratch& scratch, MoveResult& result) const noexcept override;
@@ -86,9 +86,9 @@ class BoundingBox final : public Technique {
   [[nodiscard]] Box2 box_of(PieceIndex piece, Movers movers) const noexcept {
     return scenery_->pieces()[piece].mover == no_mover ? grown_[piece] : shifted(grown_[piece], offset(piece, movers));
   }
-  [[nodiscard]] Pieces near(const Vec2d& here, const Vec2d& there, Movers movers, Scratch& scratch) const noexcept;
+  [[nodiscard]] std::vector<PieceIndex>& near(const Vec2d& here, const Vec2d& there, Movers movers,
+                                              Scratch& scratch) const noexcept;
   [[nodiscard]] bool blocks(PieceIndex piece, Side side) const noexcept;
-  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2d& position, Movers movers) const noexcept;
   void advance(Pieces nearby, Eigen::Index component, const MoveRequest& request, MoveResult& result) const noexcept;
   void push_out(Movers movers, Scratch& scratch, MoveResult& result) const noexcept;
   void meet(PieceIndex piece, Side side, Movers movers, MoveResult& result) const noexcept;
@@ -106,23 +106,24 @@ void BoundingBox::move(const MoveRequest& request, Scratch& scratch, MoveResult&
   result.clear();
   result.position = request.position;
   result.velocity = request.velocity;
-  Pieces nearby = near(request.position, request.position + request.displacement, request.movers, scratch);
-  if (request.drop)
-    nearby = nearby.first(without_one_way(*scenery_, std::span(scratch.solids.pieces).first(nearby.size())));
+  std::vector<PieceIndex>& nearby =
+      near(request.position, request.position + request.displacement, request.movers, scratch);
+  if (request.drop) remove_one_way(*scenery_, 0, nearby);
   for (const Eigen::Index component : {1, 0}) advance(nearby, component, request, result);
   push_out(request.movers, scratch, result);
   result.path.push_back({request.position, 0});
   result.path.push_back({result.position, 1});
 }
 
-typename BoundingBox::Pieces BoundingBox::near(const Vec2d& here, const Vec2d& there, Movers movers,
-                                               Scratch& scratch) const noexcept {
+std::vector<PieceIndex>& BoundingBox::near(const Vec2d& here, const Vec2d& there, Movers movers,
+                                           Scratch& scratch) const noexcept {
   const Box2 total = Box2::between(here, there);
-  scratch.solids.valid = false;
-  scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
+  std::vector<PieceIndex>& found = scratch.solids.pieces;
+  found.clear();
+  broad_phase_->query(total, found);
   for (PieceIndex piece = moving_.first; piece < moving_.end; ++piece)
-    if (box_of(piece, movers).overlaps(total)) scratch.solids.pieces[scratch.solids.count++] = piece;
-  return Pieces(scratch.solids.pieces).first(scratch.solids.count);
+    if (box_of(piece, movers).overlaps(total)) found.push_back(piece);
+  return found;
 }
 
 /// A one-way segment runs so that its blocking normal is on its left.
@@ -130,14 +131,6 @@ bool BoundingBox::blocks(PieceIndex piece, Side side) const noexcept {
   if (!scenery_->pieces()[piece].one_way) return true;
   const PieceVertices ends = scenery_->vertices_of(piece);
   return side_of_normal(ends[0].y() - ends[1].y(), ends[1].x() - ends[0].x()) == side;
-}
-
-/// The first box that holds a position, other than one-way ones; null where there is none.
-const PieceIndex* BoundingBox::holding(Pieces nearby, const Vec2d& position, Movers movers) const noexcept {
-  const auto found = std::find_if(nearby.begin(), nearby.end(), [&](PieceIndex piece) {
-    return !scenery_->pieces()[piece].one_way && holds_inside(box_of(piece, movers), position);
-  });
-  return found == nearby.end() ? nullptr : &*found;
 }
 
 /// One component of the movement, stopped by the boxes that it has entered where it, and they, end. Going back to the
@@ -182,8 +175,13 @@ void BoundingBox::advance(Pieces nearby, Eigen::Index component, const MoveReque
 
 /// Only where the step began inside something, what moves came over it, or iterations were too few.
 void BoundingBox::push_out(Movers movers, Scratch& scratch, MoveResult& result) const noexcept {
-  const auto inside = [&] {
-    return holding(near(result.position, result.position, movers, scratch), result.position, movers);
+  /// The first box that holds the position, other than one-way ones; null where there is none.
+  const auto inside = [&]() -> const PieceIndex* {
+    const std::vector<PieceIndex>& nearby = near(result.position, result.position, movers, scratch);
+    const auto found = std::ranges::find_if(nearby, [&](PieceIndex piece) {
+      return !scenery_->pieces()[piece].one_way && holds_inside(box_of(piece, movers), result.position);
+    });
+    return found == nearby.end() ? nullptr : &*found;
   };
   for (int iteration = 0; iteration < iterations_; ++iteration) {
     const PieceIndex* const piece = inside();

@@ -43,8 +43,10 @@ inline constexpr Knob raster_pixels_per_metre{
 inline constexpr Knob broad_phase{
     "broad_phase", "tree, buckets, or all_pairs: every piece is looked at; how the pieces near it are found",
     [](const std::string& value, TechniqueDef& def) {
-      for (const BroadPhaseKind kind : {BroadPhaseKind::tree, BroadPhaseKind::buckets, BroadPhaseKind::all_pairs})
-        if (value == name_of(kind)) return void(def.broad_phase = kind);
+      using enum BroadPhaseKind;
+      for (const auto& [name, kind] :
+           {std::pair("tree", tree), std::pair("buckets", buckets), std::pair("all_pairs", all_pairs)})
+        if (value == name) return void(def.broad_phase = kind);
       throw std::invalid_argument("expected tree, buckets or all_pairs");
     }};
 

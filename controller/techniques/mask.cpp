@@ -104,7 +104,7 @@ void Mask::wind_back(Side side, const Pixel& start, const MoveRequest& request, 
 void Mask::wind_back_whole(const Pixel& start, const MoveRequest& request, Scratch& scratch,
                            MoveResult& result) const noexcept {
   const Vec2d corner = parts_.corner_at(request.position);
-  const double length = article::length(request.displacement) / parts_.metres(1);
+  const double length = request.displacement.norm() / parts_.metres(1);
   double fraction = 1;
   Pixel collided = start;
   Pixel placement = start;

@@ -8,11 +8,6 @@ namespace {
 
 double cross(const Vec2d& a, const Vec2d& b) noexcept { return a.x() * b.y() - a.y() * b.x(); }
 
-bool holds(const Box2& box, const Vec2d& point) noexcept {
-  return box.lower.x() <= point.x() && point.x() <= box.upper.x() && box.lower.y() <= point.y() &&
-         point.y() <= box.upper.y();
-}
-
 /// The right-hand normal of an edge: outwards, as pieces run counter-clockwise.
 Vec2d outward(const Vec2d& edge) noexcept {
   const double length = std::sqrt(edge.x() * edge.x() + edge.y() * edge.y());
@@ -56,21 +51,6 @@ bool run_against(const Vec2d& along, const Vec2d& other) noexcept {
   return cross(along, other) == 0 && along.dot(other) < 0;
 }
 
-/// The edges that hold a point, one per piece.
-class Seams {
- public:
-  [[nodiscard]] bool close_with(const Vec2d& along) noexcept {
-    for (const Vec2d& other : edges_) {
-      if (run_against(along, other)) return true;
-    }
-    edges_.push_back(along);
-    return false;
-  }
-
- private:
-  FixedVector<Vec2d, 4> edges_;
-};
-
 /// When a moving point is inside a convex outline.
 struct Stay {
   enum class Kind : std::uint8_t {
@@ -110,34 +90,19 @@ Stay stay_in(std::span<const Vec2d> outline, const Vec2d& from, const Vec2d& dis
   return stay;
 }
 
-/// Stays along edges, waiting for their counterpart on the other side.
-class SeamStays {
- public:
-  /// @return when the point is first in a seam that `stay` closes; at least 1 where there is none.
-  [[nodiscard]] double close_with(const Stay& stay) noexcept {
-    double first = 1;
-    for (const Stay& other : stays_) {
-      const double begin = std::max({0.0, stay.enter, other.enter});
-      if (other.kind != stay.kind && begin < std::min(stay.leave, other.leave)) first = std::min(first, begin);
-    }
-    stays_.push_back(stay);
-    return first;
-  }
-
- private:
-  FixedVector<Stay, 16> stays_;
-};
-
 }  // namespace
 
 std::optional<PieceIndex> NearbyScenery::containing(const Vec2d& point) const noexcept {
-  Seams seams;
+  FixedVector<Vec2d, 4> edges;  // that hold the point, one per piece
   for (const PieceIndex piece : pieces_) {
-    if (is_chain(piece) || !holds(scenery_->box(piece), point)) continue;
+    if (is_chain(piece) || !scenery_->box(piece).contains({point, point})) continue;
     Vec2d along{Vec2d::Zero()};
     const Place place = place_in(scenery_->vertices_of(piece), point, along);
     if (place == Place::inside) return piece;
-    if (place == Place::edge && (seams.close_with(along) || is_seam(point, along))) return piece;
+    if (place == Place::outside) continue;
+    const auto closes = [&](const Vec2d& other) { return run_against(along, other); };
+    if (std::ranges::any_of(edges, closes) || is_seam(point, along)) return piece;
+    edges.push_back(along);
   }
   return std::nullopt;
 }
@@ -145,7 +110,7 @@ std::optional<PieceIndex> NearbyScenery::containing(const Vec2d& point) const no
 /// Another object's edge runs along this one where the point is.
 bool NearbyScenery::is_seam(const Vec2d& point, const Vec2d& along) const noexcept {
   return std::any_of(around_.begin(), around_.end(), [&](PieceIndex piece) {
-    if (is_chain(piece) || !holds(scenery_->box(piece), point)) return false;
+    if (is_chain(piece) || !scenery_->box(piece).contains({point, point})) return false;
     Vec2d other{Vec2d::Zero()};
     return place_in(scenery_->vertices_of(piece), point, other) == Place::edge && run_against(along, other);
   });
@@ -216,7 +181,7 @@ PointHit NearbyScenery::way_out(PieceIndex piece, const Vec2d& point, const Vec2
 std::optional<PointHit> NearbyScenery::first_entry(const Vec2d& from, const Vec2d& displacement) const noexcept {
   using Kind = typename Stay::Kind;
   const Vec2d to = from + displacement;
-  SeamStays seams;
+  FixedVector<Stay, 16> seams;  // stays along edges, waiting for their counterpart on the other side
   std::optional<PointHit> first;
   const auto take = [&first](const PointHit& hit) {
     if (!first || hit.fraction < first->fraction) first = hit;
@@ -229,7 +194,14 @@ std::optional<PointHit> NearbyScenery::first_entry(const Vec2d& from, const Vec2
     const PieceVertices outline = scenery_->vertices_of(piece);
     const Stay stay = stay_in(outline, from, displacement);
     if (stay.kind == Kind::never) continue;
-    const double fraction = stay.kind == Kind::inside ? std::max(0.0, stay.enter) : seams.close_with(stay);
+    double fraction = stay.kind == Kind::inside ? std::max(0.0, stay.enter) : 1;
+    if (stay.kind != Kind::inside) {
+      for (const Stay& other : seams) {
+        const double begin = std::max({0.0, stay.enter, other.enter});
+        if (other.kind != stay.kind && begin < std::min(stay.leave, other.leave)) fraction = std::min(fraction, begin);
+      }
+      seams.push_back(stay);
+    }
     if (!(fraction < 1)) continue;
     if (stay.enter < 0) {
       PointHit hit = way_out(piece, from, -displacement);

@@ -39,12 +39,11 @@ namespace paperproof {
   return {first_of_rank(scenery, 1), first_of_rank(scenery, std::size_t{no_mover} + 1)};
 }
 
-/// Takes the one-way segments out of a list of pieces, for a step that drops through them.
-/// @returns how many are left, at its front, in their order.
-[[nodiscard]] inline std::size_t without_one_way(const Scenery& scenery, std::span<PieceIndex> pieces) noexcept {
-  const auto end =
-      std::remove_if(pieces.begin(), pieces.end(), [&](PieceIndex piece) { return scenery.pieces()[piece].one_way; });
-  return static_cast<std::size_t>(end - pieces.begin());
+/// Takes the one-way segments out of a list of pieces, from `first` on, for a step that drops through them.
+inline void remove_one_way(const Scenery& scenery, std::size_t first, std::vector<PieceIndex>& pieces) {
+  const auto begin = pieces.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto is_one_way = [&](PieceIndex piece) { return scenery.pieces()[piece].one_way; };
+  pieces.erase(std::remove_if(begin, pieces.end(), is_one_way), pieces.end());
 }
 
 /// The part of a piece's outline that a point met.

@@ -1,5 +1,7 @@
 #include "techniques/registry.hpp"
 
+#include "techniques/frame_of_reference.hpp"
+
 #include <paperproof/number_in.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/tolerances.hpp>
@@ -28,12 +30,6 @@ void validate(const ArticleKnobs& knobs) {
           "unit: must be a positive length, not " + std::to_string(knobs.unit));
   require(knobs.iterations >= 1, "iterations: must be at least 1, not " + std::to_string(knobs.iterations));
   require(knobs.points == 8 || knobs.points == 4, "points: must be 8 or 4, not " + std::to_string(knobs.points));
-  require(knobs.pairs == ArticleKnobs::Pairs::direction || knobs.pairs == ArticleKnobs::Pairs::all,
-          "pairs: must be direction or all");
-  require(knobs.response == ArticleKnobs::Response::component || knobs.response == ArticleKnobs::Response::shorten,
-          "response: must be component or shorten");
-  require(knobs.objects == ArticleKnobs::Objects::each || knobs.objects == ArticleKnobs::Objects::all,
-          "objects: must be each or all");
   require(std::isfinite(knobs.square) && knobs.square > Tolerances{}.touch,
           "square: must be longer than what counts as touching, not " + std::to_string(knobs.square));
   const double fineness = knobs.raster_pixels_per_metre;
@@ -94,7 +90,7 @@ std::unique_ptr<Technique> make_technique(const TechniqueDef& def, const Scenery
   const TechniqueEntry* entry = find_technique(def.name);
   require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
   require(entry->make != nullptr, "technique: " + std::string(def.name) + " is the controller itself");
-  if (!entry->knows_movers && (scenery.counts().moving_pieces > 0 || scenery.counts().conveyors > 0))
+  if (!entry->knows_movers && something_carries(scenery))
     throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
   if (!entry->knows_circles && scenery.counts().circles > 0)
     throw NotExpressible(std::string(def.name) + " knows no circles: make a polygon of them");

@@ -41,7 +41,7 @@ PairImpact time_of_impact(const Parts& parts, const NearbyScenery& nearby, const
   }
   if (impact.hits.empty()) return impact;
   // Both points touch where one landing brings both to an edge.
-  const double touching = impact.fraction + Tolerances{}.touch / article::length(movement);
+  const double touching = impact.fraction + Tolerances{}.touch / movement.norm();
   if (impact.hits.size() == 2 && impact.hits[1].on.fraction > touching) impact.hits.pop_back();
   if (impact.hits.size() == 2 && impact.hits[0].on.fraction > touching) {
     impact.hits[0] = impact.hits[1];

@@ -40,7 +40,7 @@ PairImpact collisions(const Parts& parts, const NearbyScenery& nearby, const Poi
 
 PairImpact march(const Parts& parts, const NearbyScenery& nearby, const PointPair& pair, const Vec2d& position,
                  const Vec2d& movement) noexcept {
-  const double vector_length = article::length(movement);
+  const double vector_length = movement.norm();
   const Vec2d one_unit = movement / vector_length * parts.unit;
   const double whole_units = std::floor(vector_length / parts.unit);
   PairImpact impact = collisions(parts, nearby, pair, position, position, movement);

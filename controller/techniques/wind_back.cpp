@@ -36,7 +36,7 @@ void WindBack::move(const MoveRequest& request, Scratch& scratch, MoveResult& re
   result.clear();
   const Vec2d end = request.position + request.displacement;
   const NearbyScenery nearby = parts_.near(request.position, end, scratch);
-  const double vector_length = article::length(request.displacement);
+  const double vector_length = request.displacement.norm();
   Vec2d position = end;
   Vec2d collided = end;
   double fraction = 1;

@@ -80,7 +80,6 @@ struct Candidates {
   };
 
   std::vector<PieceIndex> pieces;  ///< Those that stand still.
-  std::size_t count = 0;           ///< How many of them, where a technique keeps the rest of them as room.
   Box2 box;                        ///< Positions of the character for which they are complete, if `valid`.
   bool valid = false;
   std::vector<PieceIndex> of_movers;

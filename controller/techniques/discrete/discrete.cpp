@@ -47,7 +47,7 @@ class Discrete final : public JointTechnique {
   Discrete(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character)
       : scenery_(&scenery),
         broad_phase_(make_broad_phase(def.broad_phase, standing_boxes(scenery))),
-        box_{character.shape.box().lower, character.shape.box().upper},
+        box_(character.shape.box()),
         iterations_(def.article.iterations),
         fastest_surface_(fastest_surface(scenery)) {
     for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner);
@@ -101,13 +101,13 @@ Workplace& workplace_of(Scratch& scratch) noexcept { return static_cast<Workplac
 Scratch Discrete::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
   Scratch scratch;
-  scratch.solids.pieces.resize(pieces);
+  scratch.solids.pieces.reserve(pieces);
   auto own = std::make_unique<Workplace>();
   own->frames.reserve(most_characters);
   own->bodies.reserve(pieces + most_characters);
   own->near.reserve(pieces);
   own->gathered.resize(pieces);
-  own->in_way.resize(pieces);
+  own->in_way.reserve(pieces);
   // Each character with each piece and each other one; pieces do not meet each other.
   const std::size_t all_pairs = most_characters * pieces + most_characters * (most_characters - 1) / 2;
   own->solver.reserve(pieces + most_characters,
@@ -203,8 +203,9 @@ std::span<Body> Discrete::gather(std::span<const Frame> frames, Scratch& scratch
   const PieceRange moving = moving_pieces(*scenery_);
   for (const Frame& frame : frames) {
     const Box2 total = frame.character.total_box();
-    const std::size_t found = broad_phase_->query(total, scratch.solids.pieces);
-    for (const PieceIndex piece : std::span(scratch.solids.pieces).first(found)) add(piece);
+    scratch.solids.pieces.clear();
+    broad_phase_->query(total, scratch.solids.pieces);
+    for (const PieceIndex piece : scratch.solids.pieces) add(piece);
     for (PieceIndex piece = moving.first; piece < moving.end; ++piece)
       if (body_of(piece, frame.place).total_box().overlaps(total)) add(piece);
   }
@@ -307,8 +308,9 @@ bool Discrete::pushed_through(Frames frames, BodyIndex character, Scratch& scrat
 bool Discrete::passes_static(const Vec2d& from, const Vec2d& to, Scratch& scratch) const noexcept {
   using Time = geometry::OverlapTime;
   std::vector<PieceIndex>& in_way = workplace_of(scratch).in_way;
-  const std::size_t count = broad_phase_->query(Box2::between(from, to) + box_, in_way);
-  return std::any_of(in_way.begin(), in_way.begin() + static_cast<std::ptrdiff_t>(count), [&](PieceIndex piece) {
+  in_way.clear();
+  broad_phase_->query(Box2::between(from, to) + box_, in_way);
+  return std::ranges::any_of(in_way, [&](PieceIndex piece) {
     if (scenery_->pieces()[piece].one_way) return false;
     const Time time =
         geometry::overlap_time({outline_.begin(), outline_.end()}, scenery_->vertices_of(piece), from, to);

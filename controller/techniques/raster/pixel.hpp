@@ -4,6 +4,8 @@
 /// left corner at the origin of the world.
 #pragma once
 
+#include "techniques/side_points.hpp"
+
 #include <paperproof/types.hpp>
 
 #include <cmath>
@@ -35,17 +37,8 @@ struct PixelBox {
 
 /// One pixel out of the character through that side.
 [[nodiscard]] constexpr Pixel towards(Side side) noexcept {
-  switch (side) {
-    case Side::top:
-      return {0, 1};
-    case Side::bottom:
-      return {0, -1};
-    case Side::left:
-      return {-1, 0};
-    case Side::right:
-      return {1, 0};
-  }
-  return {};
+  const int out = article::outwards(side);
+  return article::component_of(side) == 0 ? Pixel{out, 0} : Pixel{0, out};
 }
 
 [[nodiscard]] inline std::int64_t floor_to_pixel(double coordinate) noexcept {

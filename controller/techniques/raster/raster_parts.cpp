@@ -1,5 +1,7 @@
 #include "techniques/raster/raster_parts.hpp"
 
+#include "step_parts.hpp"
+
 #include <paperproof/tolerances.hpp>
 
 namespace paperproof::raster {
@@ -12,7 +14,7 @@ RasterParts::RasterParts(const TechniqueDef& def, const Scenery& scenery, const 
 
 Scratch RasterParts::make_scratch() const {
   Scratch scratch;
-  scratch.solids.pieces.resize(scenery_->pieces().size());
+  scratch.solids.pieces.reserve(scenery_->pieces().size());
   return scratch;
 }
 
@@ -23,7 +25,7 @@ bool RasterParts::refuse(const MoveRequest& request, MoveResult& result) const n
   result.position = request.position;
   result.velocity = request.velocity;
   result.path.push_back({request.position, 0});
-  const bool stays = article::in_range(request.position) && article::in_range(end);
+  const bool stays = step_parts::in_range(request.position) && step_parts::in_range(end);
   if (stays && pixels <= double(article::max_search_steps)) return false;
   result.status = stays ? StepStatus::refused : StepStatus::out_of_range;
   if (stays) result.refusal = article::too_many_units;
@@ -37,16 +39,16 @@ void RasterParts::look_around(const Pixel& placement, Scratch& scratch) const no
   const Pixel upper = placement + Pixel{box.width, box.height};
   const Box2 around{Vec2d(metres(placement.x - 2), metres(placement.y - 2)),
                     Vec2d(metres(upper.x + 2), metres(upper.y + 2))};
-  scratch.solids.valid = false;
-  scratch.solids.count = broad_phase_->query(around, scratch.solids.pieces);
+  scratch.solids.pieces.clear();
+  broad_phase_->query(around, scratch.solids.pieces);
 }
 
 void RasterParts::report(const Pixel& pixel, Side side, double fraction, const Scratch& scratch,
                          MoveResult& result) const noexcept {
-  const auto candidates = std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count);
-  const auto found =
-      std::find_if(candidates.begin(), candidates.end(), [&](PieceIndex piece) { return is_of(piece, pixel); });
-  if (found == candidates.end()) return;
+  const std::vector<PieceIndex>& near = scratch.solids.pieces;
+  const auto found = std::ranges::find_if(
+      near, [&](PieceIndex piece) { return covers(scenery_->vertices_of(piece), pixels_per_metre_, pixel); });
+  if (found == near.end()) return;
   const Pixel out = towards(side);
   const Vec2d normal(static_cast<double>(-out.x), static_cast<double>(-out.y));
   const Vec2d middle(static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5);

@@ -22,9 +22,7 @@ class RasterParts {
   /// @throws NotExpressible as `Sprite`.
   RasterParts(const TechniqueDef& def, const Scenery& scenery, const CharacterDef& character);
 
-  [[nodiscard]] const Scenery& scenery() const noexcept { return *scenery_; }
   [[nodiscard]] const Sprite& sprite() const noexcept { return sprite_; }
-  [[nodiscard]] double pixels_per_metre() const noexcept { return pixels_per_metre_; }
   [[nodiscard]] Scratch make_scratch() const;
 
   /// Lower left corner of the bounding box [px].
@@ -58,10 +56,6 @@ class RasterParts {
               MoveResult& result) const noexcept;
 
  private:
-  [[nodiscard]] bool is_of(PieceIndex piece, const Pixel& pixel) const noexcept {
-    return covers(scenery_->vertices_of(piece), pixels_per_metre_, pixel);
-  }
-
   const Scenery* scenery_;
   std::unique_ptr<BroadPhase> broad_phase_;
   double pixels_per_metre_;

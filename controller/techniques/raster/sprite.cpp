@@ -20,8 +20,8 @@ std::int64_t pixel_of(double coordinate, double middle) noexcept {
 }
 
 std::vector<Pixel> edge_of(const Bitmap& mask, Side side) {
-  const bool by_rows = side == Side::left || side == Side::right;
-  const bool from_end = side == Side::right || side == Side::top;
+  const bool by_rows = article::component_of(side) == 0;
+  const bool from_end = article::outwards(side) > 0;
   const std::int64_t lines = by_rows ? mask.box().height : mask.box().width;
   const std::int64_t length = by_rows ? mask.box().width : mask.box().height;
   std::vector<Pixel> edge;
@@ -40,9 +40,7 @@ std::vector<Pixel> edge_of(const Bitmap& mask, Side side) {
 }  // namespace
 
 Sprite::Sprite(const CharacterShape& shape, double pixels_per_metre) : mask_(mask_of(shape, pixels_per_metre)) {
-  for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
-    edges_[static_cast<std::size_t>(side)] = edge_of(mask_, side);
-  }
+  for (const Side side : article::all_sides) edges_[static_cast<std::size_t>(side)] = edge_of(mask_, side);
   if (edge(Side::bottom).empty()) {
     throw NotExpressible("the character has no pixel at " + std::to_string(pixels_per_metre) + " pixels per metre");
   }

@@ -5,7 +5,7 @@
 
 #include <memory>
 #include <span>
-#include <string_view>
+#include <vector>
 
 namespace paperproof {
 
@@ -17,21 +17,23 @@ class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
 
-  /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
-  /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
-  ///   again with more room.
-  [[nodiscard]] virtual std::size_t query(const Box2& query, std::span<PieceIndex> found) const noexcept = 0;
+  /// Appends the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending. Allocates only
+  /// where `found` has no room.
+  void query(const Box2& query, std::vector<PieceIndex>& found) const;
+
+ private:
+  /// The same in any order.
+  virtual void find(const Box2& query, std::vector<PieceIndex>& found) const = 0;
 };
 
 enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
-[[nodiscard]] std::string_view name_of(BroadPhaseKind kind) noexcept;
 
-/// Builds a broad phase over `boxes` (finite), which must outlive it and stay as they are.
+/// Builds a broad phase over `boxes`, which must outlive it and stay as they are.
 ///
 /// - `all_pairs` looks at every box: the slow, honest twin.
-/// - `buckets` is a grid of uniform squares, kept in a hash table: constant cost where boxes are alike and queries are
-///   small.
-/// - `tree` is a packed tree of boxes, sixteen to a node: the cost is logarithmic in the number of boxes.
+/// - `buckets` are grids of uniform squares, kept in hash tables: constant cost where queries are small. It is the grid
+///   of the core, and its boxes are in the range of a scenery.
+/// - `tree` is a binary tree of boxes: the cost is logarithmic in the number of boxes. Its boxes are finite.
 [[nodiscard]] std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, std::span<const Box2> boxes);
 
 }  // namespace paperproof
