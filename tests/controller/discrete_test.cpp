@@ -13,8 +13,6 @@ using discrete::Body;
 using discrete::BodyIndex;
 using discrete::find_impact;
 using discrete::Pair;
-using discrete::PairList;
-using discrete::Reaches;
 
 constexpr double gap = Tolerances{}.stop;
 constexpr double touch = Tolerances{}.touch;
@@ -70,51 +68,60 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   EXPECT_FALSE(solver.solve_once(bodies)) << "nothing is left";
 }
 
-/// Sorted. @param find fills a list.
-std::vector<Pair> sorted(const auto& find) {
-  PairList pairs;
-  find(pairs);
-  std::vector<Pair> all = pairs.all();
-  std::sort(all.begin(), all.end());
-  return all;
+/// By looking at all. Ascending.
+std::vector<Pair> overlapping(const std::vector<Body>& bodies) {
+  std::vector<Pair> pairs;
+  for (BodyIndex i = 0; i < bodies.size(); ++i)
+    for (BodyIndex j = 0; j < bodies.size(); ++j) {
+      const bool in_order = bodies[i].can_be_moved() && (!bodies[j].can_be_moved() || i < j);
+      if (i != j && in_order && bodies[i].total_box().overlaps(bodies[j].total_box())) pairs.push_back({i, j});
+    }
+  return pairs;
 }
 
-std::vector<Pair> expect_both_alike(Reaches reaches) {
-  const std::vector<Pair> slow = sorted([&](PairList& pairs) { find_pairs_one_by_one(reaches, pairs); });
-  EXPECT_EQ(sorted([&](PairList& pairs) { find_pairs_by_sweep(reaches, pairs); }), slow);
-  return slow;
+/// Of the first round.
+std::vector<Pair> found_in(std::vector<Body> bodies) {
+  discrete::Solver solver{gap, touch};
+  (void)solver.solve_once(bodies);
+  return {solver.pairs().begin(), solver.pairs().end()};
 }
 
-TEST(DiscretePairs, of_a_sweep_are_those_of_looking_at_all) {
+Body body_in(const Box2& box, bool can_be_moved) {
+  Body body{.outline = {box, 0}, .box = box, .base = {}};
+  body.inverse_mass = can_be_moved ? 1 : 0;
+  return body;
+}
+
+TEST(DiscretePairs, are_those_of_looking_at_all) {
   Random random(61);
   std::size_t possible = 0;
   std::size_t found = 0;
   for (int scene = 0; scene < 9000; ++scene) {
-    SCOPED_TRACE(testing::Message() << "seed 61, scene " << scene);
     // Boxes in a field, a row or a tower; on whole quarters of a metre, so that many touch and begin at the same place.
     const Vec2d field{random.between(0.5, 12), random.between(0.5, 12)};
     const double share_that_moves = random.unit();
     const auto place = [&random](double most) { return std::floor(random.between(0, 4 * most)) / 4; };
-    Reaches reaches;
-    const auto count = static_cast<BodyIndex>(random.below(60));
-    for (BodyIndex i = 0; i < count; ++i) {
+    std::vector<Body> bodies(static_cast<std::size_t>(random.below(60)));
+    std::size_t movable = 0;
+    for (Body& body : bodies) {
       const Vec2d lower{place(field.x()), place(field.y())};
-      const Vec2d size{place(random.below(10) == 0 ? 12 : 1), place(1)};
-      (random.chance(share_that_moves) ? reaches.movable : reaches.fixed).push_back({{lower, lower + size}, i});
+      const Vec2d size{0.25 + place(random.below(10) == 0 ? 12 : 1), 0.25 + place(1)};
+      body = body_in({lower, lower + size}, random.chance(share_that_moves));
+      movable += body.can_be_moved();
     }
-    const std::size_t movable = reaches.movable.size();
-    possible += movable * (movable + reaches.fixed.size());
-    found += expect_both_alike(reaches).size();
+    possible += movable * bodies.size();
+    const std::vector<Pair> expected = overlapping(bodies);
+    ASSERT_EQ(found_in(bodies), expected) << "seed 61, scene " << scene;
+    found += expected.size();
   }
   EXPECT_GT(found, possible / 50);
   EXPECT_LT(found, possible / 3);
 }
 
 TEST(DiscretePairs, have_first_what_can_be_moved_and_the_lower_of_two_that_can) {
-  const Box2 here{{0, 0}, {1, 1}};
-  const Reaches reaches{.movable = {{here, 3}, {here, 1}}, .fixed = {{here, 0}, {here, 2}}};
-  const std::vector<Pair> expected{{1, 0}, {1, 2}, {1, 3}, {3, 0}, {3, 2}};
-  EXPECT_EQ(expect_both_alike(reaches), expected);
+  std::vector<Body> bodies;
+  for (const bool can_be_moved : {false, true, false, true}) bodies.push_back(body_in({{0, 0}, {1, 1}}, can_be_moved));
+  EXPECT_EQ(found_in(bodies), (std::vector<Pair>{{1, 0}, {1, 2}, {1, 3}, {3, 0}, {3, 2}}));
 }
 
 }  // namespace

@@ -1,28 +1,18 @@
 #include "techniques/discrete/solver.hpp"
 
+#include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace paperproof::discrete {
-namespace {
-
-/// Of what can be moved: from here on a sweep is faster than looking at everything, as measured.
-constexpr std::size_t worth_sweeping = 64;
-
-}  // namespace
 
 void Solver::reserve(std::size_t bodies, std::size_t pairs) {
-  reaches_.movable.reserve(bodies);
-  reaches_.fixed.reserve(bodies);
+  reaches_.reserve(bodies);
   parents_.reserve(bodies);
-  pairs_.limit(pairs);
+  most_pairs_ = pairs;
+  pairs_.reserve(pairs);
   planned_.reserve(pairs);
   solved_.reserve(pairs);
-}
-
-int Solver::solve(std::span<Body> bodies, int rounds) {
-  int used = 0;
-  while (used < rounds && solve_once(bodies)) ++used;
-  return used;
 }
 
 bool Solver::solve_once(std::span<Body> bodies) {
@@ -42,20 +32,38 @@ bool Solver::solve_once(std::span<Body> bodies) {
   return !solved_.empty();
 }
 
+/// Along the axis on which they reach over more, fewer overlap. What cannot be moved is compared with what can alone.
 void Solver::find_pairs(std::span<const Body> bodies) {
-  reaches_.movable.clear();
-  reaches_.fixed.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    (bodies[i].can_be_moved() ? reaches_.movable : reaches_.fixed)
-        .push_back({bodies[i].total_box(), static_cast<BodyIndex>(i)});
+  reaches_.clear();
+  Box2 all = Box2::nowhere();
+  for (const Body& body : bodies) {
+    reaches_.push_back({body.total_box(), static_cast<BodyIndex>(reaches_.size()), body.can_be_moved()});
+    all = all.merged(reaches_.back().box);
+  }
+  const Eigen::Index axis = all.size().x() < all.size().y() ? 1 : 0;
+  std::ranges::sort(reaches_, {}, [axis](const Reach& each) { return std::pair(each.box.lower[axis], each.body); });
+  std::size_t movable = reaches_.size();
+  for (std::size_t i = reaches_.size(); i-- > 0;) {
+    reaches_[i].next_movable = movable;
+    if (reaches_[i].can_be_moved) movable = i;
+  }
   pairs_.clear();
-  if (reaches_.movable.size() < worth_sweeping)
-    find_pairs_one_by_one(reaches_, pairs_);
-  else
-    find_pairs_by_sweep(reaches_, pairs_);
+  overflowed_ = false;
+  for (std::size_t i = 0; i < reaches_.size(); ++i) {
+    const Reach& one = reaches_[i];
+    const auto after = [&](std::size_t k) { return one.can_be_moved ? k + 1 : reaches_[k].next_movable; };
+    for (std::size_t j = after(i); j < reaches_.size(); j = after(j)) {
+      const Reach& other = reaches_[j];
+      if (!(other.box.lower[axis] <= one.box.upper[axis])) break;
+      if (!one.box.overlaps(other.box)) continue;
+      overflowed_ = overflowed_ || pairs_.size() == most_pairs_;
+      if (overflowed_) break;
+      const bool in_order = one.can_be_moved && (!other.can_be_moved || one.body < other.body);
+      pairs_.push_back(in_order ? Pair{one.body, other.body} : Pair{other.body, one.body});
+    }
+  }
+  std::ranges::sort(pairs_);
 }
-
-BodyIndex Solver::island_of(BodyIndex body) const noexcept { return parents_[body]; }
 
 void Solver::find_islands(std::span<const Body> bodies) {
   parents_.clear();
@@ -65,7 +73,7 @@ void Solver::find_islands(std::span<const Body> bodies) {
     while (parents_[body] != body) body = parents_[body] = parents_[parents_[body]];
     return body;
   };
-  for (const Pair& pair : pairs_.all()) {
+  for (const Pair& pair : pairs_) {
     if (!bodies[pair.second].can_be_moved()) continue;
     const BodyIndex a = root_of(pair.first);
     const BodyIndex b = root_of(pair.second);
@@ -77,7 +85,7 @@ void Solver::find_islands(std::span<const Body> bodies) {
 
 void Solver::plan(std::span<const Body> bodies) {
   planned_.clear();
-  for (const Pair& pair : pairs_.all()) {
+  for (const Pair& pair : pairs_) {
     const auto impact = find_impact(bodies[pair.first], bodies[pair.second], touch_);
     if (impact) planned_.push_back({parents_[pair.first], impact->time, pair});
   }
