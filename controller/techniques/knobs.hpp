@@ -4,6 +4,7 @@
 #include <paperproof/techniques.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 namespace paperproof::knob {
 

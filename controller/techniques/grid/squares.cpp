@@ -1,6 +1,6 @@
 #include "techniques/grid/squares.hpp"
 
-#include "techniques/nearby_scenery.hpp"
+#include "techniques/raster/rasterise.hpp"
 
 #include <paperproof/techniques.hpp>
 
@@ -50,46 +50,21 @@ class Reader {
   double tolerance_;
 };
 
-/// Where a row is crossed by an upright edge: the column on the edge's right.
-struct Crossing {
-  std::int64_t row = 0;
-  std::int64_t column = 0;
-  friend auto operator<=>(const Crossing&, const Crossing&) = default;
-};
-
-void add_crossings(std::span<const Square> corners, std::vector<Crossing>& crossings) {
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Square& from = corners[i];
-    const Square& to = corners[(i + 1) % corners.size()];
-    const auto [low, high] = std::minmax(from.row, to.row);
-    for (std::int64_t row = low; row < high; ++row) crossings.push_back({row, from.column});
-  }
-}
-
-using Rings = std::vector<std::vector<Square>>;
-
-Rings rings_of(const ColliderDef& def, ColliderIndex collider, const Reader& reader) {
-  if (def.shape == ColliderDef::Shape::chain) reader.refuse("a chain", collider);
-  if (def.one_way) reader.refuse("a one-way polygon", collider);
-  Rings rings{reader.corners_of(def.points, collider)};
-  for (const std::vector<Vec2d>& hole : def.holes) rings.push_back(reader.corners_of(hole, collider));
-  return rings;
-}
-
 }  // namespace
 
 Squares::Squares(const SceneryDef& scenery, double side, double tolerance) : side_(side) {
   const Reader reader(side, tolerance);
-  const std::vector<ColliderIndex> solids = standing_solids(scenery);
-  std::vector<Rings> all;
   std::optional<std::pair<Square, Square>> box;
-  for (const ColliderIndex collider : solids) {
-    all.push_back(rings_of(scenery.colliders[collider], collider, reader));
-    for (const Square& corner : all.back().front()) {
+  for (const ColliderIndex collider : standing_solids(scenery)) {
+    const ColliderDef& def = scenery.colliders[collider];
+    if (def.shape == ColliderDef::Shape::chain) reader.refuse("a chain", collider);
+    if (def.one_way) reader.refuse("a one-way polygon", collider);
+    for (const Square& corner : reader.corners_of(def.points, collider)) {
       if (!box) box = {corner, corner};
       box->first = {std::min(box->first.column, corner.column), std::min(box->first.row, corner.row)};
       box->second = {std::max(box->second.column, corner.column), std::max(box->second.row, corner.row)};
     }
+    for (const std::vector<Vec2d>& hole : def.holes) (void)reader.corners_of(hole, collider);
   }
   if (!box) return;
   origin_ = box->first;
@@ -101,18 +76,10 @@ Squares::Squares(const SceneryDef& scenery, double side, double tolerance) : sid
                          std::to_string(most_squares));
   }
   colliders_.assign(static_cast<std::size_t>(columns_ * rows_), nothing);
-  for (std::size_t solid = 0; solid < solids.size(); ++solid) {
-    std::vector<Crossing> crossings;
-    for (const std::vector<Square>& ring : all[solid]) add_crossings(ring, crossings);
-    std::sort(crossings.begin(), crossings.end());
-    // Every ring is closed: in each row crossings come in pairs, into the solid and out of it.
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      for (Square at{crossings[i].column, crossings[i].row}; at.column < crossings[i + 1].column; ++at.column) {
-        ColliderIndex& here = colliders_[index_of(at)];
-        if (here == nothing) here = solids[solid];
-      }
-    }
-  }
+  raster::for_each_span(scenery, 1 / side, [&](ColliderIndex collider, const raster::Span& span) {
+    for (Square at{span.first, span.row}; at.column < span.end; ++at.column)
+      if (ColliderIndex& here = colliders_[index_of(at)]; here == nothing) here = collider;
+  });
 }
 
 std::optional<ColliderIndex> Squares::collider_at(const Square& square) const noexcept {
