@@ -377,8 +377,8 @@ void NearFixtures::note_poses() {
   poses_.clear();
   for (const Near& near : near_) {
     const b2Body& body = *near.fixture->GetBody();
-    const auto is_its = [&](const BodyPose& pose) { return pose.body == &body; };
-    if (body.GetType() == b2_staticBody || std::any_of(poses_.begin(), poses_.end(), is_its)) continue;
+    const bool is_known = std::ranges::find(poses_, &body, &BodyPose::body) != poses_.end();
+    if (body.GetType() == b2_staticBody || is_known) continue;
     const double speed = widened(body.GetLinearVelocity()).norm();
     const double spin = static_cast<double>(body.GetAngularVelocity());
     poses_.push_back({&body, place_of(body), static_cast<double>(body.GetAngle()), speed, spin});
@@ -394,8 +394,7 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
   const double angle = static_cast<double>(body.GetAngle());
   Vec2d way = widened(body.GetLinearVelocity()) * dt_;
   const double turn = static_cast<double>(body.GetAngularVelocity()) * dt_;
-  const auto known =
-      std::find_if(poses_.begin(), poses_.end(), [&](const BodyPose& pose) { return pose.body == &body; });
+  const auto known = std::ranges::find(poses_, &body, &BodyPose::body);
   if (known != poses_.end()) {
     const double explained = std::max(way.norm(), known->speed * dt_) + longest_jump;
     const double turn_explained = std::max(std::abs(turn), std::abs(known->spin) * dt_) + longest_jump;

@@ -140,10 +140,8 @@ class OfController final : public TurnTaker {
   const StepContext& context_;
 };
 
-}  // namespace
-
 /// The turns of one step.
-struct TogetherScratch::Turns {
+struct Turns final : OwnMemory {
   void make_step(std::span<TurnTaker* const> takers_now, const Vec2d& with_up) {
     all = takers_now;
     up = with_up;
@@ -392,11 +390,9 @@ struct TogetherScratch::Turns {
     end_turn(i);
   }
 
-  /// @param by_others whether one of the others crushes it, else whether anything does.
-  [[nodiscard]] bool is_crushed(std::size_t i, bool by_others) const {
-    const std::vector<ColliderIndex>& crushed = report_of(i).move.crushed;
-    return std::ranges::any_of(crushed,
-                               [&](ColliderIndex collider) { return !by_others || owner_of(collider, i) != nobody; });
+  [[nodiscard]] bool is_crushed_by_others(std::size_t i) const {
+    return std::ranges::any_of(report_of(i).move.crushed,
+                               [&](ColliderIndex collider) { return owner_of(collider, i) != nobody; });
   }
 
   /// Whether one is crushed beside another whose turn began sooner: that one might have given way.
@@ -411,8 +407,8 @@ struct TogetherScratch::Turns {
 
   /// Whether one went in the turn of another.
   [[nodiscard]] bool went(std::size_t one, std::size_t other) const {
-    return std::ranges::any_of(members[other].moving,
-                               [&](const TurnTaker::Other& moving) { return moving.who == one; });
+    const std::vector<TurnTaker::Other>& moving = members[other].moving;
+    return std::ranges::find(moving, one, &TurnTaker::Other::who) != moving.end();
   }
 
   /// Whether those of the group that were to carry or push others went as these saw it. From now on the others know
@@ -453,8 +449,8 @@ struct TogetherScratch::Turns {
   void end_turn(std::size_t i) {
     Member& me = members[i];
     if (!is_refused(report_of(i).status)) {
-      me.is_late = is_crushed(i, false) && comes_late(i);
-      if (is_crushed(i, true) || !is_clear(i)) attempt(i, Try::past_what_stands);
+      me.is_late = !report_of(i).move.crushed.empty() && comes_late(i);
+      if (is_crushed_by_others(i) || !is_clear(i)) attempt(i, Try::past_what_stands);
     }
     me.to = all[i]->state().position;
     me.moving.clear();
@@ -519,14 +515,10 @@ struct TogetherScratch::Turns {
         if (is_still(i)) take_turn(i);
       for (std::size_t k = 0; k < group.size(); ++k)  // it may grow
         if (is_still(group[k])) take_turn(group[k]);
-      bool again = false;
-      for (const std::size_t i : group) {
-        const bool is_new = members[i].is_late && !contains(first, i);
-        if (is_new) first.push_back(i);
-        again = again || is_new;
-      }
-      again = !all_went_as_foreseen(round < rounds_foreseen) || again;
-      if (!again) break;
+      const std::size_t known = first.size();
+      for (const std::size_t i : group)
+        if (members[i].is_late && !contains(first, i)) first.push_back(i);
+      if (all_went_as_foreseen(round < rounds_foreseen) && first.size() == known) break;
     }
     for (const std::size_t i : group) take_velocity_of_carrier(i);
   }
@@ -542,18 +534,21 @@ struct TogetherScratch::Turns {
   std::size_t begun = 0;
 };
 
-TogetherScratch::TogetherScratch() : own(std::make_unique<Turns>()) {}
-TogetherScratch::~TogetherScratch() = default;
-TogetherScratch::TogetherScratch(TogetherScratch&&) noexcept = default;
-TogetherScratch& TogetherScratch::operator=(TogetherScratch&&) noexcept = default;
+Turns& turns_of(TogetherScratch& scratch) {
+  if (scratch.own == nullptr) scratch.own = std::make_unique<Turns>();
+  return static_cast<Turns&>(*scratch.own);
+}
+
+}  // namespace
 
 std::span<const std::size_t> take_turns(std::span<TurnTaker* const> all, const Vec2d& up, TogetherScratch& scratch) {
-  scratch.own->make_step(all, up);
-  return scratch.own->turn_of;
+  Turns& turns = turns_of(scratch);
+  turns.make_step(all, up);
+  return turns.turn_of;
 }
 
 void step_together(std::span<Companion> companions, const StepContext& context, TogetherScratch& scratch) {
-  TogetherScratch::Turns& turns = *scratch.own;
+  Turns& turns = turns_of(scratch);
   turns.companions.clear();
   turns.takers.clear();
   turns.pointers.clear();

@@ -62,15 +62,8 @@ class TurnTaker {
 };
 
 /// Memory of `step_together`, one per thread. It carries nothing from step to step.
-class TogetherScratch {
- public:
-  TogetherScratch();
-  ~TogetherScratch();
-  TogetherScratch(TogetherScratch&&) noexcept;
-  TogetherScratch& operator=(TogetherScratch&&) noexcept;
-
-  struct Turns;
-  std::unique_ptr<Turns> own;
+struct TogetherScratch {
+  std::unique_ptr<OwnMemory> own;
 };
 
 /// One step of several characters that block, carry and push each other. Each makes the step that `Controller` makes.

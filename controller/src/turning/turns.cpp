@@ -45,8 +45,7 @@ int TurningStep::parts_wanted() const {
 
 const MovingCollider* TurningStep::find_moving(ColliderIndex collider) const {
   const auto& all = memory_.moving;
-  const auto place = std::lower_bound(all.begin(), all.end(), collider,
-                                      [](const MovingCollider& each, ColliderIndex id) { return each.id < id; });
+  const auto place = std::ranges::lower_bound(all, collider, {}, &MovingCollider::id);
   return place != all.end() && place->id == collider ? &*place : nullptr;
 }
 

@@ -63,7 +63,7 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
   if (departure > begin) go_on(departure);
   go_on(1);
   note_sensors(way);
-  std::ranges::stable_sort(report_.sensors, [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  std::ranges::stable_sort(report_.sensors, {}, &SensorEvent::fraction);
   for (std::size_t i = 1; i < way.size(); ++i) note_vertices(way[i].fraction);
   for (const MovingCollider& collider : memory_.moving) {
     if (!blocks(collider.id)) continue;
@@ -76,8 +76,7 @@ void TurningStep::go_straight(double begin, double departure, const Vec2d& to, c
                                 pose_at(collider.motion, way[i].fraction), leg);
     }
     if (!is_reached) continue;
-    const auto known =
-        std::ranges::find_if(state.crushers, [&](const Crusher& crusher) { return crusher.collider == collider.id; });
+    const auto known = std::ranges::find(state.crushers, collider.id, &Crusher::collider);
     Crusher crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
     carry(crusher, from, at_end);
