@@ -1,10 +1,10 @@
 #include <paperproof/character.hpp>
-#include <paperproof/tolerances.hpp>
 
 #include <cmath>
 #include <numbers>
 
 #include "geometry/exact.hpp"
+#include "geometry/vectors.hpp"
 
 namespace paperproof {
 namespace {
@@ -25,11 +25,8 @@ Points checked_points(std::span<const Vec2d> points) {
   check_count(points.size());
   Points checked;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double range = Tolerances{}.range;
-    // Written so that NaN fails.
-    if (!(std::abs(points[i].x()) <= range && std::abs(points[i].y()) <= range)) {
+    if (!geometry::in_range(points[i]))
       throw InvalidCharacter(point_name(i) + " is not a finite length of at most 2e6 m");
-    }
     checked.push_back({geometry::without_traces(points[i].x()), geometry::without_traces(points[i].y())});
     for (std::size_t other = 0; other < i; ++other) {
       if (checked[other] == checked[i])

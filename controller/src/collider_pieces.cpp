@@ -7,6 +7,7 @@
 
 #include "geometry/convex_pieces.hpp"
 #include "geometry/exact.hpp"
+#include "geometry/vectors.hpp"
 
 namespace paperproof {
 namespace {
@@ -17,11 +18,8 @@ using Refused = std::invalid_argument;
 /// @param name called only if the point is refused: a level has hundreds of thousands of points.
 template <class Name>
 Vec2d accepted_point(const Vec2d& point, const Name& name) {
-  const double range = Tolerances{}.range;
-  // Written so that NaN fails.
-  if (!(std::abs(point.x()) <= range && std::abs(point.y()) <= range)) {
+  if (!geometry::in_range(point))
     throw Refused(name() + " has a coordinate that is not a finite number of at most 2e6 m");
-  }
   return {geometry::without_traces(point.x()), geometry::without_traces(point.y())};
 }
 

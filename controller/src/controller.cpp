@@ -67,11 +67,11 @@ Controller::Controller(const Scenery& scenery, const CharacterDef& character, co
 
 Controller::Controller(const Scenery& scenery, const CharacterDef& character,
                        std::shared_ptr<const octagon_sweep::SweepInParts> sweep, PieceSearch search)
-    : scenery_(&scenery), asks_all_(search == PieceSearch::none), character_(character), sweep_(std::move(sweep)) {}
+    : scenery_(&scenery), search_(search), character_(character), sweep_(std::move(sweep)) {}
 
 Scratch Controller::make_scratch() const {
   Scratch scratch = sweep_->make_scratch();
-  scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, sweep_->finder().search());
+  scratch.sensors = std::make_unique<Sensors>(*scenery_, character_.shape, search_);
   scratch.turning = std::make_unique<turning::Memory>();
   scratch.maker = sweep_;
   return scratch;
@@ -131,62 +131,61 @@ PAPERPROOF_NOT_INLINE void Controller::note_passed(bool drop, const StepContext&
 
 PAPERPROOF_INLINE void Controller::end_step(bool drop, const StepContext& context, Scratch& scratch,
                                             CharacterState& state, StepReport& report) const {
-  if (asks_all_ || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0))
+  if (search_ == PieceSearch::none || scenery_->counts().sensors > 0 || (drop && scenery_->counts().one_way > 0))
     note_passed(drop, context, scratch, report);
   adopt(character_, context.up, report.move, state);
 }
 
-PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Input& input, const StepContext& context,
-                                               Scratch& scratch, StepReport& report) const noexcept {
+/// A step, or a move by a displacement: the compiler knows which.
+PAPERPROOF_INLINE StepStatus Controller::go(CharacterState& state, const turning::Wish& wish,
+                                            const StepContext& context, Scratch& scratch, StepReport& report) const {
+  static constexpr Input none{};
+  const Input& input = wish.input != nullptr ? *wish.input : none;
   const Intended before = intended(state);
   try {
     report.sensors.clear();
     report.dropped_through.clear();
-    if (!is_made_by(sweep_, scratch.maker) || !accepts(*scenery_, state, input, context))
+    const auto is_finite = [&](const Vec2d& way) { return FiniteCheck().add(way).add(way / context.dt).passed(); };
+    if (!is_made_by(sweep_, scratch.maker) || !accepts(*scenery_, state, input, context) ||
+        !(wish.input != nullptr || is_finite(wish.displacement)))
       return report.status = StepStatus::invalid_input;
     if (!turning::memory_of(scratch).is_in_part && needs_turning_step(*scenery_, state, context)) [[unlikely]]
-      return step_in_parts(state, {&input, Vec2d::Zero()}, context, scratch, report);
-    const bool wall_ahead =
-        asks_for_wall(character_, input, state) && has_wall_ahead(state, *input.move, context, scratch, report.move);
-    // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
+      return step_in_parts(state, wish, context, scratch, report);
+    const bool wall_ahead = wish.input != nullptr && asks_for_wall(character_, input, state) &&
+                            has_wall_ahead(state, *input.move, context, scratch, report.move);
     const Around here = around(context, scratch);
-    sweep_->move(begin_step(input, context, here, wall_ahead, state, report), scratch, report.move);
+    if (wish.input != nullptr) {
+      // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
+      sweep_->move(begin_step(input, context, here, wall_ahead, state, report), scratch, report.move);
+    } else {
+      report.requested = wish.displacement;
+      report.steered = 0;
+      sweep_->move({state, wish.displacement, wish.displacement / context.dt, context.dt, here}, scratch, report.move);
+    }
     report.status = report.move.status;
-    if (is_refused(report.status))
+    if (is_refused(report.status)) {
       intended(state) = before;
-    else
-      end_step(input.drop, context, scratch, state, report);
+      return report.status;
+    }
+    if (wish.input == nullptr) {
+      note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
+      count_down_coyote(character_, context.dt, state);
+    }
+    end_step(input.drop, context, scratch, state, report);
     return report.status;
   } catch (const std::bad_alloc&) {
     return refuse_without_memory(before, state, scratch, report);
   }
 }
 
+PAPERPROOF_FLATTEN StepStatus Controller::step(CharacterState& state, const Input& input, const StepContext& context,
+                                               Scratch& scratch, StepReport& report) const noexcept {
+  return go(state, {&input, Vec2d::Zero()}, context, scratch, report);
+}
+
 StepStatus Controller::move(CharacterState& state, const Vec2d& displacement, const StepContext& context,
                             Scratch& scratch, StepReport& report) const noexcept {
-  const Intended before = intended(state);
-  try {
-    report.sensors.clear();
-    report.dropped_through.clear();
-    const Vec2d velocity = displacement / context.dt;
-    if (!is_made_by(sweep_, scratch.maker) || !accepts(*scenery_, state, {}, context) ||
-        !FiniteCheck().add(displacement).add(velocity).passed())
-      return report.status = StepStatus::invalid_input;
-    if (!turning::memory_of(scratch).is_in_part && needs_turning_step(*scenery_, state, context))
-      return step_in_parts(state, {nullptr, displacement}, context, scratch, report);
-    report.requested = displacement;
-    report.steered = 0;
-    const Around here = around(context, scratch);
-    sweep_->move({state, displacement, velocity, context.dt, here}, scratch, report.move);
-    report.status = report.move.status;
-    if (is_refused(report.status)) return report.status;
-    note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
-    count_down_coyote(character_, context.dt, state);
-    end_step(false, context, scratch, state, report);
-    return report.status;
-  } catch (const std::bad_alloc&) {
-    return refuse_without_memory(before, state, scratch, report);
-  }
+  return go(state, {nullptr, displacement}, context, scratch, report);
 }
 
 PAPERPROOF_COLD StepStatus Controller::step_in_parts(CharacterState& state, const turning::Wish& wish,

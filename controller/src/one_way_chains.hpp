@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace paperproof {
 
@@ -20,36 +21,25 @@ struct OneWaySegment {
   OneWaySurfaces::Index surface;
 };
 
-/// Which one-way chains does one character pass? Immutable; shareable between threads.
-class OneWayChains {
- public:
-  using Passed = std::vector<ColliderIndex>;
+/// Adds the chain of a segment that a leg of the path passes, if this leg begins above the chain's surface; ascending,
+/// each once. A chain that is missed by less than a micrometre is added as well, so no chain that exact arithmetic
+/// finds is left out.
+/// @param path straight between its corners. @param motion of the segment's mover.
+void add_if_passed(const OneWaySegment& segment, const CharacterShape& shape, std::span<const PathPoint> path,
+                   const MoverMotion& motion, std::vector<ColliderIndex>& passed);
 
-  explicit OneWayChains(const CharacterShape& shape);
-
-  /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
-  /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
-  /// finds is left out.
-  /// @param path straight between its corners. @param near the solid pieces.
-  /// @param segment_of gives the one-way segment that a piece is, or nothing.
-  template <class SegmentOf>
-  void find_passed(std::span<const PathPoint> path, const Moving& moving, Nearby near, const SegmentOf& segment_of,
-                   Passed& passed) const {
-    passed.clear();
-    near.for_each_group(box_around(path, {}), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-      const MoverMotion motion = moving.motion_of(mover);
-      for (const PieceIndex piece : pieces)
-        if (const std::optional<OneWaySegment> segment = segment_of(piece)) look_at(*segment, path, motion, passed);
-    });
-  }
-
- private:
-  void look_at(const OneWaySegment& segment, std::span<const PathPoint> path, const MoverMotion& motion,
-               Passed& passed) const;
-  [[nodiscard]] bool passes(const OneWaySegment& segment, const Vec2d& from, const Vec2d& to) const;
-
-  FixedVector<Vec2d, CharacterShape::max_points> outline_;  ///< The character's outline,
-  FixedVector<Vec2d, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
-};
+/// The same for all pieces.
+/// @param near the solid ones. @param segment_of gives the one-way segment that a piece is, or nothing.
+template <class SegmentOf>
+void find_passed(const CharacterShape& shape, std::span<const PathPoint> path, const Moving& moving, Nearby near,
+                 const SegmentOf& segment_of, std::vector<ColliderIndex>& passed) {
+  passed.clear();
+  near.for_each_group(box_around(path, {}), Vec2d::Zero(), [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
+    const MoverMotion motion = moving.motion_of(mover);
+    for (const PieceIndex piece : pieces)
+      if (const std::optional<OneWaySegment> segment = segment_of(piece))
+        add_if_passed(*segment, shape, path, motion, passed);
+  });
+}
 
 }  // namespace paperproof

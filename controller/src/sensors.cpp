@@ -70,7 +70,8 @@ Sensors::Overlap Sensors::overlap_with(PieceIndex piece, double angle) const {
   if (info.is_circle())
     return {info.collider, angle, {vertices[0], scenery.circle(piece).radius}, any, Box2::nowhere(), {}};
   const Box2 well_inside = geometry::deep_overlap(outline_, vertices, beyond_rounding(far));
-  return {info.collider, angle, {}, any, well_inside, geometry::separating_axes(outline_, vertices)};
+  const geometry::SeparatingAxes axes = geometry::separating_axes(outline_, vertices);
+  return {info.collider, angle, {}, any, well_inside, {axes.begin(), axes.end()}};
 }
 
 Sensors::Segment Sensors::seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end) {
@@ -84,24 +85,19 @@ void Sensors::observe(std::span<const PathPoint> path, const Moving& moving, Eve
   Nearby near(finder_, near_, &moving, filter, this);
   const Vec2d way = path.back().position - path.front().position;
   near.for_each_group(box_around(path, {}), way, [&](std::span<const PieceIndex> pieces, MoverIndex mover) {
-    observe(pieces, path, moving.motion_of(mover), events);
-  });
-}
-
-/// The pieces of one sensor are consecutive.
-void Sensors::observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-                      Events& events) {
-  while (!near.empty()) {
-    const ColliderIndex sensor = overlaps_[near[0]].sensor;
-    const auto other = std::ranges::find_if(near, [&](PieceIndex piece) { return overlaps_[piece].sensor != sensor; });
-    const std::span pieces(near.begin(), other);
-    for (std::size_t corner = 1; corner < path.size(); ++corner) {
-      const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
-      // A character that does not move relative to the sensor neither enters nor leaves it.
-      if (segment.from != segment.to) observe(sensor, pieces, segment, events);
+    const MoverMotion motion = moving.motion_of(mover);
+    while (!pieces.empty()) {  // those of one sensor follow each other
+      const ColliderIndex sensor = overlaps_[pieces[0]].sensor;
+      const auto is_other = [&](PieceIndex piece) { return overlaps_[piece].sensor != sensor; };
+      const std::span its(pieces.begin(), std::ranges::find_if(pieces, is_other));
+      for (std::size_t corner = 1; corner < path.size(); ++corner) {
+        const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
+        // A character that does not move relative to the sensor neither enters nor leaves it.
+        if (segment.from != segment.to) observe(sensor, its, segment, events);
+      }
+      pieces = pieces.subspan(its.size());
     }
-    near = near.subspan(pieces.size());
-  }
+  });
 }
 
 OverlapTime Sensors::stay_in(PieceIndex piece, const Segment& segment) const {
@@ -139,7 +135,7 @@ void Sensors::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, 
   stays_.clear();
   for (const PieceIndex piece : pieces)
     if (const OverlapTime stay = stay_in(piece, segment); stay.any()) stays_.push_back(stay);
-  std::ranges::sort(stays_, [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::ranges::sort(stays_, {}, &OverlapTime::begin);
   for (auto stay = stays_.begin(); stay != stays_.end();) {
     const double begin = stay->begin;
     double end = stay->end;

@@ -57,9 +57,6 @@ class Sensors final : public OwnMemory, private PieceUser {
   };
 
   [[nodiscard]] static Segment seen_by(const MoverMotion& motion, const PathPoint& begin, const PathPoint& end);
-  /// @param near pieces that stand still, or go along with `motion`. Those of one sensor follow each other.
-  void observe(std::span<const PieceIndex> near, std::span<const PathPoint> path, const MoverMotion& motion,
-               Events& events);
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment, Events& events);
 
   void prepare(std::span<PieceIndex> pieces, MoverIndex mover, double angle) override;

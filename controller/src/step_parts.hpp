@@ -1,6 +1,8 @@
 /// The beginning and the end of every step, for one character or several.
 #pragma once
 
+#include "geometry/vectors.hpp"
+
 #include <paperproof/controller.hpp>
 #include <paperproof/tolerances.hpp>
 
@@ -25,10 +27,7 @@ class FiniteCheck {
   Vec2d zero_{Vec2d::Zero()};
 };
 
-/// Positions and offsets [m]. Written so that NaN is out of range.
-[[nodiscard]] inline bool in_range(const Vec2d& at) {
-  return std::abs(at.x()) <= Tolerances{}.range && std::abs(at.y()) <= Tolerances{}.range;
-}
+using geometry::in_range;
 
 /// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that
 /// they carry. One that has an angle stays within 1e6: what is proved of its vertices allows for rounding there.
@@ -69,13 +68,13 @@ template <class Maker>
 }
 
 /// Reports a move that is refused: the character stays where it is.
-inline void refuse(StepStatus why, const CharacterState& state, const Vec2d& velocity, MoveResult& move) {
+inline void refuse(StepStatus why, const Vec2d& position, const Vec2d& velocity, const Ride& ride, MoveResult& move) {
   move.status = why;
-  move.position = state.position;
+  move.position = position;
   move.velocity = velocity;
-  move.ride = state.ride;
-  move.path.push_back({state.position, 0});
-  move.path.push_back({state.position, 1});
+  move.ride = ride;
+  move.path.push_back({position, 0});
+  move.path.push_back({position, 1});
 }
 
 /// Whether a step has to know of a wall ahead: see `CharacterDef::no_jump_toward_wall`.

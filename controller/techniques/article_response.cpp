@@ -99,14 +99,9 @@ bool collides(const Parts& parts, const NearbyScenery& nearby, const PointPair& 
 
 void refuse(const MoveRequest& request, MoveResult& result, StepStatus why) noexcept {
   result.clear();
-  result.status = why;
   if (why == StepStatus::refused) result.refusal = too_many_units;
-  result.position = request.position;
-  result.velocity = request.velocity + request.ride.velocity;
   result.technique_memory = request.technique_memory;
-  result.ride = request.ride;
-  result.path.push_back({request.position, 0});
-  result.path.push_back({request.position, 1});
+  step_parts::refuse(why, request.position, request.velocity + request.ride.velocity, request.ride, result);
 }
 
 void stay_crushed(const MoveRequest& request, MoveResult& result) noexcept {

@@ -30,15 +30,13 @@ struct TechniqueController::Driver {
   std::unique_ptr<const Technique> technique;
   PieceFinder solids;
   OneWaySurfaces surfaces;
-  OneWayChains one_way;
 
   Driver(const Scenery& where, const CharacterDef& who, std::unique_ptr<const Technique> how, PieceSearch search)
       : scenery(where),
         character(who),
         technique(std::move(how)),
         solids(where, PieceFinder::Kind::solids, who.shape.box().inflated(Tolerances{}.look), search),
-        surfaces(where, who.shape),
-        one_way(who.shape) {
+        surfaces(where, who.shape) {
     character.validate();
     if (scenery.counts().filtered > 0)
       throw std::invalid_argument("the technique " + std::string(technique->name()) +
@@ -89,7 +87,8 @@ struct TechniqueController::Driver {
     return touches(tried, move < 0 ? Side::left : Side::right);
   }
 
-  void find_passed(std::span<const PathPoint> path, const StepContext& context, OneWayChains::Passed& passed) const {
+  void find_passed(std::span<const PathPoint> path, const StepContext& context,
+                   std::vector<ColliderIndex>& passed) const {
     const auto segment_of = [&](PieceIndex piece) -> std::optional<OneWaySegment> {
       const PieceInfo& info = scenery.pieces()[piece];
       if (!info.one_way) return std::nullopt;
@@ -98,7 +97,7 @@ struct TechniqueController::Driver {
     };
     Candidates near;
     const Moving moving{context.movers};
-    one_way.find_passed(path, moving, {solids, near, &moving, nullptr}, segment_of, passed);
+    paperproof::find_passed(character.shape, path, moving, {solids, near, &moving, nullptr}, segment_of, passed);
   }
 
   /// After the move has filled `report.move`.

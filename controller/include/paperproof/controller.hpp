@@ -157,6 +157,8 @@ class Controller {
   using StepRequest = octagon_sweep::StepRequest;
 
   friend class turning::TurningStep;
+  StepStatus go(CharacterState& state, const turning::Wish& wish, const StepContext& context, Scratch& scratch,
+                StepReport& report) const;
   StepStatus step_in_parts(CharacterState& state, const turning::Wish& wish, const StepContext& context,
                            Scratch& scratch, StepReport& report) const;
   friend Controller make_controller_in_float(const Scenery& scenery, const CharacterDef& character,
@@ -180,14 +182,15 @@ class Controller {
   /// Null: all colliders are there.
   [[nodiscard]] const ColliderFilter* filter_of(const StepContext& context) const {
     static constexpr ColliderFilter usual{};
-    return context.filter == nullptr && (asks_all_ || scenery_->counts().filtered > 0) ? &usual : context.filter;
+    const bool asks = search_ == PieceSearch::none || scenery_->counts().filtered > 0;
+    return context.filter == nullptr && asks ? &usual : context.filter;
   }
   template <class Ask>
   [[nodiscard]] auto answer(const Vec2d& position, const Vec2d& displacement, double within, const StepContext& context,
                             Scratch& scratch, const Ask& ask) const;
 
   const Scenery* scenery_;
-  bool asks_all_;  ///< See `PieceSearch::none`.
+  PieceSearch search_;
   CharacterDef character_;
   /// Scratch memory refers to it.
   std::shared_ptr<const octagon_sweep::SweepInParts> sweep_;

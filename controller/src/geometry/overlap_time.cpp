@@ -28,9 +28,8 @@ SeparatingAxis axis(std::span<const Vec2d> mover, std::span<const Vec2d> standin
 
 }  // namespace
 
-std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing) {
-  std::vector<SeparatingAxis> axes;
-  axes.reserve(mover.size() + standing.size());
+SeparatingAxes separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing) {
+  SeparatingAxes axes;
   for (std::size_t i = 0; i < mover.size() + standing.size(); ++i) axes.push_back(axis(mover, standing, i));
   return axes;
 }
@@ -39,16 +38,6 @@ OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from
   OverlapTime time;
   for (std::size_t i = 0; i < axes.size() && time.any(); ++i)
     time.narrow(axes[i].separation(from), axes[i].separation(to), 0);
-  return time;
-}
-
-OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
-                         const Vec2d& to) {
-  OverlapTime time;
-  for (std::size_t i = 0; i < mover.size() + standing.size() && time.any(); ++i) {
-    const SeparatingAxis tested = axis(mover, standing, i);
-    time.narrow(tested.separation(from), tested.separation(to), 0);
-  }
   return time;
 }
 

@@ -6,24 +6,11 @@
 #include <paperproof/types.hpp>
 
 #include <span>
-#include <vector>
 
 namespace paperproof::geometry {
 
 /// When two outlines overlap during a straight motion: their separations are below zero.
 using OverlapTime = TimeBelow<double>;
-
-/// Finds when the open interior of the convex `mover` meets the interior of the convex `standing`, or a segment if
-/// `standing` has two points. The position of `mover` goes straight from `from` to `to`.
-///
-/// The separation along each edge normal of the two (separating axes, which are the edges of their Minkowski sum) is
-/// linear in time; they overlap while all of them are negative. Whether they overlap at an end of the motion depends
-/// on the bits of that position alone, so motions that share this position agree. A fraction is exact but for the
-/// rounding of two separations, a few ulp of the distance between the outlines over the length of the motion.
-/// @param mover 3 points or more, counter-clockwise, relative to its position [m].
-/// @param standing the same, or the two ends of a segment [m].
-[[nodiscard]] OverlapTime overlap_time(std::span<const Vec2d> mover, std::span<const Vec2d> standing, const Vec2d& from,
-                                       const Vec2d& to);
 
 /// A direction in which two outlines can be apart: the normal of an edge of one of them.
 struct SeparatingAxis {
@@ -40,18 +27,27 @@ struct SeparatingAxis {
   }
 };
 
-/// All separating axes of two outlines.
-/// @param mover,standing as of `overlap_time`.
-[[nodiscard]] std::vector<SeparatingAxis> separating_axes(std::span<const Vec2d> mover,
-                                                          std::span<const Vec2d> standing);
+using SeparatingAxes = FixedVector<SeparatingAxis, 40>;
 
-/// The same as the other `overlap_time`, with axes that are already known.
+/// The edge normals of two outlines, along which they can be apart: the edges of their Minkowski sum. No outline of a
+/// piece has more than 32 vertices.
+/// @param mover 3 points or more, counter-clockwise, relative to its position [m].
+/// @param standing the same, or the two ends of a segment [m].
+[[nodiscard]] SeparatingAxes separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing);
+
+/// Finds when the open interior of a convex outline meets the interior of another, or a segment. The position of the
+/// first goes straight from `from` to `to`.
+///
+/// The separation along each axis is linear in time; they overlap while all of them are negative. Whether they overlap
+/// at an end of the motion depends on the bits of that position alone, so motions that share this position agree. A
+/// fraction is exact but for the rounding of two separations, a few ulp of the distance between the outlines over the
+/// length of the motion.
 [[nodiscard]] OverlapTime overlap_time(std::span<const SeparatingAxis> axes, const Vec2d& from, const Vec2d& to);
 
 /// Positions at which `mover` overlaps `standing` by more than `depth` in every direction [m]. They are a box around
 /// the middle of all overlapping positions, or an inverted box (its lower corner above the upper one) if there are
 /// none.
-/// @param mover,standing as of `overlap_time`.
+/// @param mover,standing as of `separating_axes`.
 [[nodiscard]] Box2 deep_overlap(std::span<const Vec2d> mover, std::span<const Vec2d> standing, double depth);
 
 }  // namespace paperproof::geometry

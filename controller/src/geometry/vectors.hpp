@@ -3,6 +3,7 @@
 
 #include "inlining.hpp"
 
+#include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>
 
 #include <algorithm>
@@ -30,6 +31,11 @@ template <class Vector>
 /// The unit normal on the left of an edge.
 [[nodiscard]] inline Vec2d normal_of(const Vec2d& edge) {
   return Vec2d{-edge.y(), edge.x()} / std::sqrt(dot(edge, edge));
+}
+
+/// Whether a position or an offset is one that a level may have [m]. Written so that NaN is out of range.
+[[nodiscard]] inline bool in_range(const Vec2d& at) {
+  return std::abs(at.x()) <= Tolerances{}.range && std::abs(at.y()) <= Tolerances{}.range;
 }
 
 /// The least n·q of some points.

@@ -38,10 +38,7 @@ class OctagonSweep final : public SweepInParts {
   OctagonSweep(const SweepDef& def, const Scenery& scenery, const CharacterDef& character)
       : finder_(scenery, PieceFinder::Kind::solids, character.shape.box().inflated(found_around), def.search),
         shape_(character.shape),
-        chains_(character.shape),
         settings_(settings_for(def, character)) {}
-
-  [[nodiscard]] const PieceFinder& finder() const override { return finder_; }
 
   [[nodiscard]] Scratch make_scratch() const override {
     Scratch scratch;
@@ -59,8 +56,13 @@ class OctagonSweep final : public SweepInParts {
     result.clear();
     const Moving& moving = request.around.moving;
     const CharacterState& state = request.state;
-    if (!in_range(request))
-      return step_parts::refuse(StepStatus::out_of_range, state, request.velocity + state.ride.velocity, result);
+    // Written so that NaN is out of range, and by component: see `desired_velocity`.
+    const auto within = [](Real value) { return std::abs(value) <= tolerances.range; };
+    const Vec2d& position = request.state.position;
+    if (!(within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
+          within(position.y() + request.displacement.y())))
+      return step_parts::refuse(StepStatus::out_of_range, position, request.velocity + state.ride.velocity, state.ride,
+                                result);
     auto& memory = static_cast<StepMemory&>(*scratch.own);
     const bool looks_at_movers = !moving.motions.empty() && comes_near_a_mover(request, memory.space);
     const bool rides = state.ride.ground != Ride::none;
@@ -82,7 +84,7 @@ class OctagonSweep final : public SweepInParts {
       return OneWaySegment{obstacle.source.collider, {ends[0], ends[1]}, obstacle.surfaces, obstacle.surface};
     };
     const Nearby near(finder_, scratch.solids, &around.moving, around.filter, &memory);
-    chains_.find_passed(path, around.moving, near, segment_of, passed);
+    paperproof::find_passed(shape_, path, around.moving, near, segment_of, passed);
   }
 
   template <class Question>
@@ -112,14 +114,6 @@ class OctagonSweep final : public SweepInParts {
   }
 
  private:
-  [[nodiscard]] static bool in_range(const StepRequest& request) {
-    // Written so that NaN is out of range, and by component: see `desired_velocity`.
-    const auto within = [](Real value) { return std::abs(value) <= tolerances.range; };
-    const Vec2d& position = request.state.position;
-    return within(position.x()) && within(position.y()) && within(position.x() + request.displacement.x()) &&
-           within(position.y() + request.displacement.y());
-  }
-
   /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
   /// its displacement is long, and the snap.
   [[nodiscard]] bool comes_near_a_mover(const StepRequest& request, const ConfigurationSpace& space) const {
@@ -132,7 +126,6 @@ class OctagonSweep final : public SweepInParts {
 
   PieceFinder finder_;
   CharacterShape shape_;
-  OneWayChains chains_;
   Settings settings_;
 };
 

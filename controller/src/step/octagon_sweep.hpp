@@ -55,13 +55,11 @@ class SweepInParts {
   [[nodiscard]] virtual Scratch make_scratch() const = 0;
   /// See `Controller::reserve`.
   virtual void reserve(const Box2& positions, Scratch& scratch) const = 0;
-  /// Of solid pieces.
-  [[nodiscard]] virtual const PieceFinder& finder() const = 0;
 
   /// @param scratch made by this sweep, which is not checked here.
   virtual void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const = 0;
 
-  /// See `OneWayChains`.
+  /// See the function of this name.
   virtual void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
                            std::vector<ColliderIndex>& passed) const = 0;
 

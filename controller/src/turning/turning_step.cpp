@@ -75,7 +75,7 @@ void TurningStep::read(const Box2& needed) {
       if (collider.motion.turn() != 0 && !info.sensor && is_there(info.collider)) memory_.turns[mover] = true;
     }
   }
-  std::ranges::sort(memory_.moving, [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::ranges::sort(memory_.moving, {}, &MovingCollider::id);
 }
 
 std::span<const MoverMotion> TurningStep::hold_angles(const Box2& around) {
@@ -145,7 +145,7 @@ StepStatus TurningStep::step_straight(CharacterState& state, const Wish& wish) {
 StepStatus TurningStep::refuse(StepStatus why, const CharacterState& state) {
   memory_.turned.clear();
   report_.clear();
-  step_parts::refuse(why, state, state.velocity, report_.move);
+  step_parts::refuse(why, state.position, state.velocity, state.ride, report_.move);
   return report_.status = why;
 }
 

@@ -107,7 +107,6 @@ Scratch Discrete::make_joint_scratch(std::size_t most_characters) const {
   own->bodies.reserve(pieces + most_characters);
   own->near.reserve(pieces);
   own->gathered.resize(pieces);
-  own->in_way.reserve(pieces);
   // Each character with each piece and each other one; pieces do not meet each other.
   const std::size_t all_pairs = most_characters * pieces + most_characters * (most_characters - 1) / 2;
   own->solver.reserve(pieces + most_characters,
@@ -307,13 +306,13 @@ bool Discrete::pushed_through(Frames frames, BodyIndex character, Scratch& scrat
 /// A push leads through a piece that stands still, from one side of it to another.
 bool Discrete::passes_static(const Vec2d& from, const Vec2d& to, Scratch& scratch) const noexcept {
   using Time = geometry::OverlapTime;
-  std::vector<PieceIndex>& in_way = workplace_of(scratch).in_way;
+  std::vector<PieceIndex>& in_way = scratch.solids.pieces;
   in_way.clear();
   broad_phase_->query(Box2::between(from, to) + box_, in_way);
   return std::ranges::any_of(in_way, [&](PieceIndex piece) {
     if (scenery_->pieces()[piece].one_way) return false;
     const Time time =
-        geometry::overlap_time({outline_.begin(), outline_.end()}, scenery_->vertices_of(piece), from, to);
+        geometry::overlap_time(geometry::separating_axes(outline_, scenery_->vertices_of(piece)), from, to);
     return time.any() && time.begin != Time::before && time.end != Time::after;
   });
 }

@@ -23,10 +23,10 @@ struct Frame {
   MoveResult& result;
   CrowdMember* member;  ///< Null for one that is alone.
   Body character{};
-  Vec2d expected{Vec2d::Zero()};            ///< Where it was expected before the last round [m].
+  Vec2d expected{Vec2d::Zero()};             ///< Where it was expected before the last round [m].
   FixedVector<ColliderIndex, 64> pushers{};  ///< Colliders of movers that pushed the character.
-  bool left_over = true;                    ///< The last round changed something.
-  bool stays = false;                       ///< It was crushed, and is where the step began.
+  bool left_over = true;                     ///< The last round changed something.
+  bool stays = false;                        ///< It was crushed, and is where the step began.
 };
 
 struct Workplace final : OwnMemory {
@@ -35,7 +35,6 @@ struct Workplace final : OwnMemory {
   std::vector<Body> bodies;            ///< The characters, then what is near any of them.
   std::vector<PieceIndex> near;        ///< The pieces among the bodies, ascending.
   std::vector<std::uint8_t> gathered;  ///< By piece: it is among them. All zero between frames.
-  std::vector<PieceIndex> in_way;      ///< Of a push.
 };
 
 }  // namespace paperproof::discrete
