@@ -41,10 +41,7 @@ Scenery::Scenery(const SceneryDef& def) {
   boxes_.reserve(def.colliders.size());
   // Standing colliders, moving ones by mover, and sensors likewise; colliders of one kind keep their order.
   ColliderDef accepted;
-  const auto add = [&](ColliderIndex i) {
-    const PieceIndex first = cut(i, def.colliders[i], accepted);
-    place(i, accepted, first);
-  };
+  const auto add = [&](ColliderIndex i) { place(i, accepted, cut(i, def.colliders[i], accepted)); };
   const auto role = [&](ColliderIndex i) { return std::pair(def.colliders[i].sensor, def.colliders[i].mover); };
   std::vector<ColliderIndex> others;
   for (ColliderIndex i = 0; i < colliders_.size(); ++i)
@@ -170,8 +167,7 @@ void Scenery::tally(ColliderIndex id, int change) noexcept {
 void Scenery::log(ColliderIndex id) {
   const PieceRange range = pieces_of(id);
   const ColliderInfo& info = collider(id);
-  Box2 box;
-  if (range.size() > 0) box = boxes_[range.first];
+  Box2 box = Box2::nowhere();
   for (PieceIndex piece = range.first; piece < range.end; ++piece) box = box.merged(boxes_[piece]);
   edits_.add({range, box, info.mover, info.one_way.has_value()});
 }

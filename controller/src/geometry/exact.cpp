@@ -144,16 +144,9 @@ int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others
 }
 
 double length_rounded_up(const Vec2d& v) {
-  const auto is_short = [&](double length) {
-    ExactSum<6> over;
-    over.add_product(length, length);
-    over.add_product(-v.x(), v.x());
-    over.add_product(-v.y(), v.y());
-    return over.sign() < 0;
-  };
   double length = std::sqrt(v.x() * v.x() + v.y() * v.y());
   length -= length * (4 * rounding);
-  while (is_short(length))  // 8 ulp at most
+  while (height_sign_of_sum(v, {&v, 1}, length, length) > 0)  // 8 ulp at most
     length = std::nextafter(length, std::numeric_limits<double>::infinity());
   return length;
 }

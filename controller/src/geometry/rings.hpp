@@ -14,10 +14,7 @@ namespace paperproof::geometry {
 using Ring = std::span<const Vec2d>;
 
 /// Rings that bound no polygon; `what()` gives the reason in words that a level designer understands.
-class InvalidRings : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
+using InvalidRings = std::invalid_argument;
 
 /// Order of sweeps: by x, and by y where x is the same. This order works as if the plane were turned by a very small
 /// angle, so that no side is vertical.

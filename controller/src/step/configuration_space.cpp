@@ -302,7 +302,7 @@ double ConfigurationSpace::open_part(const Facet& facet) {
     const Interval part = inside(facet, other);
     if (part.from < part.to) inside_.push_back(part);
   }
-  std::ranges::sort(inside_, [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  std::ranges::sort(inside_, {}, &Interval::from);
   double open = 0;
   double reached = 0;
   for (const Interval& part : inside_) {

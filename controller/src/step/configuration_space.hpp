@@ -153,7 +153,6 @@ class ConfigurationSpace {
   /// Forgets the obstacles of pieces that came or went, and of those near them.
   void follow_edits();
 
-  [[nodiscard]] const PieceFinder& solids() const { return solids_; }
   [[nodiscard]] const Scenery& scenery() const { return solids_.scenery(); }
   /// Hull of the character, counter-clockwise [m].
   [[nodiscard]] std::span<const Vec2d> hull() const { return axes_.hull(); }

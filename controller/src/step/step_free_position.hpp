@@ -35,21 +35,20 @@ namespace paperproof::octagon_sweep::PAPERPROOF_REAL {
   const Real whole = reach + beyond;
   // Mostly there is one nearby, among few pieces.
   const Real near = std::min<Real>(whole, step.space.hull_box().size().maxCoeff());
-  std::optional<Vec2> nearest;
   FreePositionQuery query = query_here(step);
   query.from = step.result.path[corner].position;
   query.begin = static_cast<Real>(step.result.path[corner].fraction);
   query.end = 1;
   query.entered_from = step.moving.last_free;
   query.gap = gap;
+  if (!(query.begin < 1)) return std::nullopt;
   for (const Real radius : {near, whole}) {
     query.reach = radius;
-    if (!(query.begin < 1)) break;
     const auto passable = [&](PieceIndex piece) { return may_pass(step, piece, corner); };
-    nearest = nearest_free(step.space, pieces_for(step, query, passable), query);
-    if (nearest || near == whole) break;
+    const std::optional<Vec2> nearest = nearest_free(step.space, pieces_for(step, query, passable), query);
+    if (nearest || near == whole) return nearest;
   }
-  return nearest;
+  return std::nullopt;
 }
 
 /// Whether a piece is one of those that left no motion.

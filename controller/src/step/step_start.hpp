@@ -16,12 +16,12 @@ inline constexpr int restore_rounds = 16;
 
 /// @param now its displacement is that at the end of the step.
 inline void remember(Step& step, const Crusher& now) {
-  for (Crusher& known : step.memory.crushers) {
-    if (known.collider != now.collider) continue;
-    known = now;
-    return;
-  }
-  step.memory.crushers.push_back(now);
+  auto& all = step.memory.crushers;
+  const auto known = std::ranges::find(all, now.collider, &Crusher::collider);
+  if (known != all.end())
+    *known = now;
+  else
+    all.push_back(now);
 }
 
 [[nodiscard]] inline bool overlaps(const Step& step, PieceIndex piece, const Vec2& position) {
@@ -50,8 +50,7 @@ inline bool ignore_overlapping_movers(Step& step) {
     if (!step.memory.is(collider, overlaps_since_start)) continue;
     ++step.moving.overlapping;
     Crusher now{collider, before.last_free, displacement_of(step, collider), !full};
-    const auto known =
-        std::ranges::find_if(before.crushers, [&](const Crusher& each) { return each.collider == collider; });
+    const auto known = std::ranges::find(before.crushers, collider, &Crusher::collider);
     if (known != before.crushers.end())
       now = {collider, known->last_free, known->displacement + now.displacement, known->has_side};
     else if (!before.has_last_free && !full)
