@@ -1,6 +1,7 @@
 #include "command/commands.hpp"
 
 #include "command/compare_command.hpp"
+#include "embedded.hpp"
 #include "records/output_file.hpp"
 #include "runs/contender.hpp"
 #include "runs/row_views.hpp"
@@ -8,51 +9,14 @@
 #include "scenes/load.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 namespace paperproof::compare {
 namespace {
 
 constexpr double pixels_per_line = 5;
-
-/// How a technique looks for collisions, and what that means for the bullet.
-struct Lesson {
-  std::string_view name;
-  std::string_view words;
-};
-
-constexpr std::array lessons{
-    Lesson{"grid",
-           "The level is an array of squares, and the character is in exactly one. It moves by whole squares, so a "
-           "bullet of one pixel is not its business."},
-    Lesson{"pixel_colour",
-           "Before each pixel of its way it looks at the colours beside it. 50 pixels are 50 looks: it "
-           "misses nothing that is drawn, and pays for each pixel."},
-    Lesson{"pixel_tile", "As pixel_colour, with tiles that say per pixel what a collision does."},
-    Lesson{"mask",
-           "It draws itself where it would arrive, and asks which pixels lie on the level. Nobody looks at the "
-           "way: the bullet arrives behind the platform."},
-    Lesson{"bounding_box",
-           "Boxes around everything, tested where the step ends. The box of the bullet is behind the box "
-           "of the platform by then."},
-    Lesson{"discrete", "It looks at the present and the expected place, and at nothing in between."},
-    Lesson{"wind_back",
-           "If a point is in something where the step ends, it goes back along the way. Here no point is in "
-           "anything: there is nothing to go back from."},
-    Lesson{"penetration_resolution", "Points that end in something are pushed out of it. These ended behind it."},
-    Lesson{"speculative_march",
-           "It advances along the way one unit at a time and goes back one when a point is in "
-           "something: the article's answer. A platform thinner than a unit would be stepped over."},
-    Lesson{"speculative",
-           "The same with the time of impact of each point computed. Points alone: a spike between two of "
-           "them would not be met."},
-    Lesson{"octagon_sweep", "The whole outline is swept along the whole way, and stops at the time of impact."},
-    Lesson{"box2d", "Box2D sweeps the body to its time of impact, too, and stops within its skin."},
-    Lesson{"box2d_pieces", "The same with one fixture per convex piece."},
-};
 
 /// Steps that are drawn: behind them a bullet that got through is below the picture.
 constexpr std::size_t drawn_steps = 2;
@@ -89,15 +53,17 @@ int demo_command(const std::string& technique) {
   print_out(
       "The article's bullet: one pixel, falling 50 pixels in its first frame, onto a platform 5 pixels thick that\n"
       "begins 30 pixels below it. It should stop at 0.6 of the frame.\n\n");
-  for (const Lesson& lesson : lessons) {
-    if (!technique.empty() && lesson.name != technique) continue;
+  // How each technique looks for collisions, and what that means for the bullet.
+  const auto lessons = nlohmann::ordered_json::parse(lessons_file.front().text);
+  for (const auto& [name, words] : lessons.items()) {
+    if (!technique.empty() && name != technique) continue;
     RunOptions options;
-    options.contenders = {std::string(lesson.name)};
+    options.contenders = {name};
     options.reference = false;
     options.measure_cost = false;
     options.max_replay_steps = 8;
     const ReportScene result = run_scene(scene, options);
-    print_out(fmt::format("{}: {}\n{}\n", lesson.name, outcome_of(result.rows.front()), lesson.words));
+    print_out(fmt::format("{}: {}\n{}\n", name, outcome_of(result.rows.front()), words.get<std::string>()));
     if (result.runs.empty())
       print_out(fmt::format("  {}\n", result.rows.front().reason));
     else

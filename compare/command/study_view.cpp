@@ -159,18 +159,16 @@ ChartPage StudyView::page() const {
                                    score.rate().low, score.rate().high),
                        ""});
   lines.insert(lines.end(), faults_.begin(), faults_.end());
-  const Table table = table_of<Line>(lines, {{"question", [](const Line& line) { return unless_empty(line.title); }},
-                                             {"contender", [](const Line& line) { return line.who; }},
-                                             {"at", [](const Line& line) { return unless_empty(line.at); }},
-                                             {"verdict", [](const Line& line) { return line.verdict; }},
-                                             {"why", [](const Line& line) { return unless_empty(line.why); }},
-                                             {"command", [](const Line& line) { return unless_empty(line.command); }}});
+  std::vector<Column<Line>> columns;
+  for (const char* heading : {"question", "contender", "at", "verdict", "why", "command"})
+    columns.push_back({heading, [i = columns.size()](const Line& line) { return unless_empty(line[i]); }});
+  const Table table = table_of(lines, columns);
   ChartPage page;
   page.title = study_.title;
   for (const auto& [name, title] : titles_)
     for (ChartGrid& grid : title.grids ? title.grids->grids() : std::vector<ChartGrid>{})
       page.grids.push_back(std::move(grid));
-  if (!page.grids.empty()) page.paragraphs.emplace_back(how_to_read_maps);
+  if (!page.grids.empty()) page.paragraphs.push_back(how_to_read_maps());
   page.paragraphs.insert(page.paragraphs.end(), study_.paragraphs.begin(), study_.paragraphs.end());
   if (!lines.empty()) page.table = {"", table.heading, table.lines};
   page.environment = environment();

@@ -6,6 +6,7 @@
 #include "studies/bullet.hpp"
 #include "studies/prepared_studies.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,15 +57,8 @@ class StudyView {
     std::string theory;
     Row row;
   };
-  /// A line of the page's table.
-  struct Line {
-    std::string title;
-    std::string who;
-    std::string at;
-    std::string verdict;
-    std::string why;
-    std::string command;
-  };
+  /// Of the page's table: question, contender, at, verdict, why, command.
+  using Line = std::array<std::string, 6>;
 
   void add_border(const StudyPart& part, const Row& row);
   static std::vector<Column<Scored>> score_columns(Bad bad);

@@ -1,10 +1,10 @@
 #include "report/report.hpp"
 
+#include "embedded.hpp"
 #include "records/output_file.hpp"
 #include "report/chart_json.hpp"
 #include "report/index_json.hpp"
 #include "report/json_text.hpp"
-#include "report/page_parts.hpp"
 #include "report/replay.hpp"
 
 #include <algorithm>
@@ -20,9 +20,13 @@ std::pair<std::string_view, std::string_view> split_at(std::string_view text, st
   return {text.substr(0, at), text.substr(at + marker.size())};
 }
 
+std::string_view text_of(std::string_view file) {
+  return std::ranges::find(page_files, file, &EmbeddedFile::name)->text;
+}
+
 std::string head_of_page() {
-  const auto [head, rest] = split_at(page::page_html, "/*STYLE*/");
-  return std::string(head).append(page::style_css).append(split_at(rest, "<!--DATA-->").first);
+  const auto [head, rest] = split_at(text_of("page.html"), "/*STYLE*/");
+  return std::string(head).append(text_of("style.css")).append(split_at(rest, "<!--DATA-->").first);
 }
 
 std::string data_element(const std::string& id, const std::string& json) {
@@ -32,14 +36,11 @@ std::string data_element(const std::string& id, const std::string& json) {
 /// @param charts the page needs the library that draws them.
 std::string tail_of_page(bool charts) {
   std::string text;
-  if (charts) text.append("<script>").append(page::chart_min_js).append("</script>\n");
-  const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
+  if (charts) text.append("<script>").append(page_files.back().text).append("</script>\n");
+  const auto [before, after] = split_at(split_at(text_of("page.html"), "<!--DATA-->").second, "/*SCRIPT*/");
   text += before;
-  for (const std::string_view part :
-       {page::time_js, page::trace_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js, page::cells_js,
-        page::disagreements_js, page::focus_js, page::controls_js, page::replay_js, page::first_js, page::main_js}) {
-    text += part;
-  }
+  for (const EmbeddedFile& file : page_files.first(page_files.size() - 1))
+    if (file.name.ends_with(".js")) text += file.text;
   return text.append(after);
 }
 

@@ -1,8 +1,10 @@
 #include "report/row_pictures.hpp"
 
+#include "embedded.hpp"
 #include "records/verdict.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +15,12 @@
 
 namespace paperproof::compare {
 namespace {
+
+/// What pages say first.
+const nlohmann::json& how_to_read() {
+  static const auto words = nlohmann::json::parse(how_to_read_file.front().text);
+  return words;
+}
 
 constexpr double least_error = 1e-9;  ///< Drawn [m].
 
@@ -39,6 +47,8 @@ std::string verdict_and_reason(const Row& row) {
 }
 
 }  // namespace
+
+std::string how_to_read_maps() { return how_to_read().at("maps"); }
 
 std::string slope_in_words(const Row& curve) {
   return in_hundredths(*curve.slope) + " \u00b1 " + in_hundredths(curve.slope_within.value_or(0));
@@ -216,25 +226,7 @@ ChartTable borders_table(const std::vector<Row>& borders) {
 ChartPage precision_page(const std::vector<Row>& rows) {
   ChartPage page;
   page.title = "What does accuracy cost?";
-  page.paragraphs = {
-      "How to read this: each point is one setting of a contender, and each curve goes over its settings from coarse "
-      "to fine: the length of a step, or a knob of its own. Lower is closer to continuous motion, further left is "
-      "faster, so that the best are below and to the left. Large points are on the front: no other is both faster and "
-      "closer. A slope of 1 means that half the knob gives half the error; it is told with its 95 % interval, and only "
-      "where "
-      "the three finest points or more lie on a line. Errors below 1e-9 m are drawn there. Errors "
-      "and times "
-      "are measured apart; times are the minimum of nine runs after a warm-up, contenders taking turns.",
-      "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
-      "its own law: Box2D with that of a body without friction, octagon_sweep and the techniques of the article with "
-      "that of walking. The law of steps is that of walking in exact arithmetic: its error is that of steps alone, and "
-      "what a contender differs from it is the error of its collision. It has no cost, and stands at the time of the "
-      "fastest point. The article's jump rules are off for all. Box2D stops 15 mm away from what it meets: its "
-      "curves "
-      "end there. Its time is that of the engine alone.",
-      "Every run is judged. A struck-out point passes something or ends inside it, and a hollow one goes beyond a "
-      "limit "
-      "that its contender documents. Neither counts for the front and the slope."};
+  page.paragraphs = how_to_read().at("precision");
   page.charts = charts_of(rows);
   page.table.heading = {"motion", "contender", "over", "slope"};
   for (const Row& row : rows) {
@@ -277,7 +269,7 @@ ChartPage RowPictures::page_of(const Swept& swept) {
     page.title = swept.in.question;
   else
     page.title = swept.in.bad == Bad::tunnels ? bullets_title : fmt::format("Where does `{}` hold?", swept.scene);
-  page.paragraphs = {how_to_read_maps};
+  page.paragraphs = {how_to_read_maps()};
   page.table = borders_table(swept.borders);
   return page;
 }

@@ -13,12 +13,8 @@
 namespace paperproof::compare {
 
 inline constexpr const char* bullets_title = "Where do bullets pass?";
-inline constexpr const char* how_to_read_maps =
-    "How to read this: one map for each contender. A cell stands for all cases with its two values, and counts those "
-    "that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is the border between "
-    "none and some. Point at a cell, or go there with the arrow keys, to read its numbers. A click, or Enter, replays "
-    "one of its cases, and names the command that runs it alone; a large map has replays of up to 100 cells, those at "
-    "the border first.";
+/// Of heat maps.
+[[nodiscard]] std::string how_to_read_maps();
 
 /// Who ran: the contender with its knobs, and its number type where it could be another.
 /// @param varied keys that are left out: an axis shows what they are.

@@ -8,7 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "scenes/built_in_texts.hpp"
+#include "embedded.hpp"
 #include "scenes/formula.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
@@ -21,37 +21,31 @@ namespace {
 /// A file of `built_in/`, read when something in it is first asked for: most runs ask for one scene.
 class File {
  public:
-  File(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
+  explicit File(const EmbeddedFile& file) : file_(file) {}
   const Json& json() {
-    if (json_.is_null()) json_ = Json::parse(text_, nullptr, false);
-    if (json_.is_discarded()) json_ = parse_json(std::string(text_), name_);  // says what is wrong, and takes longer
+    if (json_.is_null()) json_ = Json::parse(file_.text, nullptr, false);
+    if (json_.is_discarded())  // this says what is wrong, and takes longer
+      json_ = parse_json(std::string(file_.text), std::string(file_.name));
     return json_;
   }
   /// Whether it may have something of that name.
   [[nodiscard]] bool names(std::string_view name) const {
-    return text_.find(fmt::format("\"{}\"", name)) != std::string_view::npos;
+    return file_.text.find(fmt::format("\"{}\"", name)) != std::string_view::npos;
   }
 
  private:
-  std::string name_;
-  std::string_view text_;
+  EmbeddedFile file_;
   Json json_;
 };
 
 /// In the order of registration.
 std::vector<File>& files() {
-  using namespace built_in_texts;
-  static std::vector<File> all{
-      {"paper.json", paper_json},     {"angle.json", angle_json},     {"ground.json", ground_json},
-      {"article.json", article_json}, {"claims.json", claims_json},   {"limits.json", limits_json},
-      {"one_way.json", one_way_json}, {"moving.json", moving_json},   {"bodies.json", bodies_json},
-      {"crowd.json", crowd_json},     {"extreme.json", extreme_json}, {"play.json", play_json},
-      {"tight.json", tight_json},     {"motions.json", motions_json}};
+  static std::vector<File> all(built_in_files.begin() + 1, built_in_files.end());
   return all;
 }
 
 const Json& base() {
-  static const Json file = Json::parse(built_in_texts::base_json);
+  static const Json file = Json::parse(built_in_files.front().text);
   return file;
 }
 

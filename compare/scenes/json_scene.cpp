@@ -8,13 +8,13 @@
 #include <set>
 #include <type_traits>
 
+#include "embedded.hpp"
 #include "near_names.hpp"
 #include "records/collider_json.hpp"
 #include "records/schema.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "scenes/picture.hpp"
-#include "scenes/schema_text.hpp"
 #include "scenes/step_times.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
@@ -362,7 +362,7 @@ class SceneReader {
 }  // namespace
 
 Scene read_json_scene(const Json& document, const std::string& path, const std::string& given) {
-  static const Schema schema(schema_text::paperproof_scene_schema_json);
+  static const Schema schema(scene_schema.front().text);
   const JsonCursor root(document, given);
   static_cast<void>(root.require("paperproof_scene"));  // what has none is no scene, whatever its keys
   if (const std::optional<std::string> fault = schema.fault(document)) refuse(given, *fault);
