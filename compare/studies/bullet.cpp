@@ -3,6 +3,9 @@
 #include "oracle/exemptions.hpp"
 #include "runs/contender.hpp"
 #include "runs/run_case.hpp"
+#include "scenes/json_text.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 
@@ -36,8 +39,6 @@ bool leaves_a_gap(double circumference, double length) {
 
 double pixels_drawn(double thickness) { return std::max(0.0, std::ceil(thickness / pixel - 0.5)); }
 
-std::string phase_axis(int phases) { return fmt::format("phase=0:{}:lin{}", (phases - 1.0) / phases, phases); }
-
 }  // namespace
 
 std::vector<NamedContender> bullet_contenders() {
@@ -45,87 +46,34 @@ std::vector<NamedContender> bullet_contenders() {
       {{"box2d", {{"continuous", "off"}}}, {"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}});
 }
 
-namespace {
-
-Sweep bullet_sweep(GridSize size, const NamedContender& contender) {
-  struct Grid {
-    const char* axes;  ///< With a place for the phases.
-    int phases;
-    int promised_phases;
-  };
-  constexpr std::array grids{
-      Grid{"speed=5:5000:log12 thickness=0.001,0.01,0.1,0.5 angle=90,45 {} dt=0.016666666666666666", 3, 12},
-      Grid{"speed=5:5000:log40 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1 angle=90,60,30,5 {} "
-           "dt=0.016666666666666666,0.006944444444444444",
-           16, 400},
-      Grid{"speed=5:5000:log80 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3,1 angle=90,75,60,45,30,5 {} "
-           "dt=0.03333333333333333,0.016666666666666666,0.006944444444444444",
-           32, 1000}};
-  const Grid& grid = grids[static_cast<std::size_t>(size)];
-  const int phases = is_guaranteed(contender.name, "double") ? grid.promised_phases : grid.phases;
-  Sweep sweep;
-  sweep.scene = "paper";
-  sweep.axes = parse_axes(fmt::format(fmt::runtime(grid.axes), phase_axis(phases)));
-  sweep.contenders = {contender};
-  return sweep;
-}
-
-StudyPart moving_paper_part(GridSize size) {
-  constexpr std::array counts{std::pair{6, 2}, std::pair{24, 8}, std::pair{80, 32}};
-  const auto [speeds, phases] = counts[static_cast<std::size_t>(size)];
-  StudyPart part{moving_paper_title, {}, {}, Bad::tunnels};
-  part.sweep.scene = "moving_paper";
-  part.sweep.axes = parse_axes(fmt::format("closing=5:5000:log{} thickness=0.001,0.1 {}", speeds, phase_axis(phases)));
-  part.sweep.contenders = all_contenders_and({{"box2d", {{"movers", "transform"}}}});
-  return part;
-}
-
-StudyPart far_part(GridSize size) {
-  StudyPart part{far_title, {}, {}, Bad::tunnels};
-  part.sweep.scene = "far";
-  part.sweep.axes = parse_axes(size == GridSize::quick ? "origin=100:1e6:log8" : "origin=100:1e6:log24");
-  part.sweep.contenders = all_contenders_and({});
-  return part;
-}
-
-int phases_of(GridSize size) { return size == GridSize::quick ? 24 : size == GridSize::standard ? 160 : 400; }
-
-StudyPart lowest_speeds_part(GridSize size) {
-  StudyPart part{lowest_speeds_title, {}, {}, Bad::tunnels};
-  part.sweep.scene = "paper";
-  SweepAxis thickness{"thickness", {}};
-  for (const double value : bullet_thicknesses()) thickness.values.push_back(fmt::format("{}", value));
-  part.sweep.axes = {thickness};
-  part.sweep.contenders = bullet_contenders();
-  part.sweep.border = "speed";
-  part.run = [phases = phases_of(size)](const Sweep& sweep, std::size_t index) {
-    return lowest_speed_through(sweep.at(index),
-                                bullet_thicknesses()[index / (sweep.contenders.size() * sweep.scalars.size())], phases);
-  };
-  return part;
-}
-
-}  // namespace
-
-std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
-
 std::vector<StudyPart> bullet_parts(GridSize size, const std::vector<std::string>&) {
+  const Json& study = study_text("bullet");
   std::vector<StudyPart> parts;
-  for (const NamedContender& contender : bullet_contenders())
-    parts.push_back({"", bullet_sweep(size, contender), {}, Bad::tunnels});
-  parts.push_back(moving_paper_part(size));
-  parts.push_back(far_part(size));
-  parts.push_back(lowest_speeds_part(size));
+  for (const NamedContender& contender : bullet_contenders()) {
+    const bool promises = is_guaranteed(contender.name, "double");
+    parts.push_back(part_of(study.at(promises ? "promised" : "others"), size));
+    parts.back().sweep.contenders = {contender};
+  }
+  for (const Json& text : study.at("parts")) {
+    StudyPart& part = parts.emplace_back(part_of(text, size));
+    if (!part.sweep.border) continue;
+    part.sweep.contenders = bullet_contenders();
+    part.run = [phases = of_size(text.at("phases"), size).get<int>()](const Sweep& sweep, std::size_t index) {
+      return lowest_speed_through(sweep.at(index), phases);
+    };
+  }
+  for (StudyPart& part : parts) part.bad = Bad::tunnels;
   return parts;
 }
 
-Row lowest_speed_through(const Case& paper, double thickness, int phases) {
+Row lowest_speed_through(const Case& paper, int phases) {
+  const std::string& thickness = paper.parameters.front().value;
   const auto over_phases = [&](double speed) {
     Row worst;
     for (int phase = 0; phase < phases; ++phase) {
       Case one = paper;
       one.parameters = {{"speed", fmt::format("{}", speed)},
-                        {"thickness", fmt::format("{}", thickness)},
+                        {"thickness", thickness},
                         {"height", "0.1"},
                         {"phase", fmt::format("{}", static_cast<double>(phase) / phases)}};
       worst = run_case(one);
@@ -134,7 +82,7 @@ Row lowest_speed_through(const Case& paper, double thickness, int phases) {
     }
     return worst;
   };
-  const double paper_per_step = thickness / usual_step;
+  const double paper_per_step = number_in<double>(thickness).value() / usual_step;
   Row row = find_border("speed_m_s", 0.9 * paper_per_step, 1.6 * paper_per_step, over_phases, fine_values);
   if (!row.border_high && was_judged(row)) row = find_border("speed_m_s", 1.6 * paper_per_step, fastest, over_phases);
   std::erase_if(row.parameters, [](const auto& each) { return each.first == "speed_m_s" || each.first == "phase"; });

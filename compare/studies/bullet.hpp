@@ -13,26 +13,17 @@ namespace paperproof::compare {
 /// All contenders, and Box2D with continuous collision off, and with a non-bullet against dynamic paper.
 [[nodiscard]] std::vector<NamedContender> bullet_contenders();
 
-/// The parts of the study, in this order:
-/// - without a title, one for each contender: speed × thickness × angle × phase × length of a step. A contender that
-///   promises to let nothing through, octagon_sweep, is tried at more phases: over a million cases on the standard
-///   grid;
-/// - `moving_paper_title`: paper that comes to a character that stands; for Box2D also put there by SetTransform;
-/// - `far_title`: a wall far from the origin;
-/// - `lowest_speeds_title`: for each contender and thickness `lowest_speed_through`.
+/// First, without a title, one part for each contender: speed × thickness × angle × phase × length of a step. A
+/// contender that promises to let nothing through, octagon_sweep, is tried at more phases: over a million cases on the
+/// standard grid. Then paper that comes to a character that stands, for Box2D also put there by SetTransform; a wall
+/// far from the origin; and for each contender and thickness `lowest_speed_through`.
 [[nodiscard]] std::vector<StudyPart> bullet_parts(GridSize size, const std::vector<std::string>& contenders = {});
-inline constexpr const char* moving_paper_title = "paper that comes";
-inline constexpr const char* far_title = "a wall far from the origin";
-inline constexpr const char* lowest_speeds_title = "lowest speeds";
-
-/// The thicknesses at which the lowest speed is looked for [m].
-[[nodiscard]] std::vector<double> bullet_thicknesses();
 
 /// The lowest speed at which it passes the paper head-on, over so many phases [m/s]: `border_low` and `border_high` of
 /// the row, as of `find_border`. It looks from 0.9 times the speed that goes through the paper's thickness in one step:
 /// in fine strides up to 1.6 times that, then in coarse ones up to 3,000 m/s. `border_high` alone: at any speed.
-/// @param paper who runs, in the family `paper`; its parameters are not read.
-[[nodiscard]] Row lowest_speed_through(const Case& paper, double thickness, int phases);
+/// @param paper who runs, in the family `paper`; its one parameter is the thickness.
+[[nodiscard]] Row lowest_speed_through(const Case& paper, int phases);
 
 /// What theory says about that speed, for the article's character (feet, arms and head at 0, 0.3125, 0.9375 and 1.25
 /// m), head-on, in steps of 1/60 s, over all phases. A way of s = speed · dt per step lets it through

@@ -5,6 +5,7 @@
 #include "runs/contender.hpp"
 #include "runs/peers.hpp"
 #include "runs/run_case.hpp"
+#include "scenes/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -18,74 +19,6 @@ namespace {
 constexpr double visible = 1e-4;    ///< A motion of what should rest [m]: a 300th of a pixel at 32 pixels per metre.
 constexpr double most_lost = 0.01;  ///< Share of the wanted motion: less is lost where a float ends.
 constexpr double most_off = 0.1;    ///< From the exact way [m]: five of the largest skins.
-
-using FieldAxes = std::array<std::string_view, 3>;
-
-struct FieldScene {
-  std::string scene;
-  FieldAxes axes{};            ///< For each size of the grid; empty: as the scene is.
-  std::array<int, 3> steps{};  ///< The same; 0: the scene's.
-  std::string_view instead{};  ///< Of the playground, which stands for a file that is not there.
-  bool either_way = false;     ///< It may stop as well as go on: no way is the exact one.
-};
-
-struct Group {
-  std::string_view name;
-  std::string_view question;
-  std::vector<FieldScene> scenes;
-};
-
-/// None is half the acceleration of who walks: a body without friction that walks into a side of 2:1 is in balance
-/// there.
-constexpr FieldAxes gravities{"gravity=20,45", "gravity=11:59:lin9", "gravity=11:59:lin25"};
-constexpr FieldAxes minute_hour_day{"steps=3600", "steps=216000", "steps=5184000"};
-
-/// A map of SuperTux.
-FieldScene map(const std::string& level, std::string_view instead) {
-  return {"/usr/share/games/supertux2/levels/" + level + ".stl", {}, {300, 3600, 3600}, instead};
-}
-
-std::vector<Group> groups() {
-  return {
-      {"bullets",
-       "A fall onto paper, at five speeds and more.",
-       {{"paper",
-         {"speed=10,20,40,80,160 thickness=0.001,0.1", "speed=5:640:log15 thickness=0,0.001,0.01,0.1 phase=0,0.25,0.5",
-          "speed=5:640:log36 thickness=0,0.001,0.003,0.01,0.03,0.1,0.3 phase=0:0.9:lin10"}}}},
-      {field_seams,
-       "A walk over flush tiles of a metre.",
-       {{"tiles", {"speed=1.7,7.3,11.3", "speed=0.5:12:lin24", "speed=0.12:12:lin100"}}}},
-      {"slopes",
-       "Up a slope of the climb limit; down into a valley; over a hill.",
-       {{"climb45_3m"}, {"skier_no_snap"}, {"slope_joints_no_snap"}}},
-      {"steps",
-       "Against kerbs of 1 mm and 10 cm and a step of 30 cm, which are walls where nobody climbs steps.",
-       {{.scene = "kerb_1mm", .either_way = true}, {"kerb_10cm"}, {"low_step"}}},
-      {"edges",
-       "Off a ledge, over a gap, into a gap, with the key held, under less and more gravity.",
-       {{"ledge_corner", gravities}, {"gap_crossed"}, {"gap_fallen", gravities}}},
-      {"wedges",
-       "A fall into a V.",
-       {{"wedge",
-         {"angle=60,30,5", "angle=1:60:log12", "angle=1:120:log60 dt=0.004166666666666667,0.016666666666666666"}}}},
-      {"lifts", "Up, down and to the side, and back.", {{"lift_up"}, {"lift_down"}, {"lift_sideways"}}},
-      {"turning", "Beside a paper that turns; under an arm that does.", {{"rotating_paper"}, {"turning_arm"}}},
-      {"one-way",
-       "Up through a ledge that moves; onto one at 50 m/s; dropped through one onto the next.",
-       {{"one_way_lift_from_below"}, {"one_way_from_above"}, {"one_way_drop"}}},
-      {"closing walls",
-       "Between walls that leave 10 cm of room; before a paper that comes at 20 m/s.",
-       {{"closing_walls",
-         {"closing=1,10 clearance=0.1", "closing=0.5:50:log12 clearance=0.02,0.1",
-          "closing=0.5:1000:log30 clearance=0.02,0.1"}},
-        {"sweeping_paper"}}},
-      {"rest", "A minute of rest; with --grid standard an hour, with full a day.", {{"rest", minute_hour_day}}},
-      {"play",
-       "Walks and jumps at random through three maps.",
-       {map("bonus1/abednego-level4", "seed=1"), map("bonus2/level16", "seed=2"),
-        map("bonus3/crystalfields", "seed=3")}},
-  };
-}
 
 template <class Number>
 std::optional<double> beyond(const std::optional<Number>& size, double bound) {
@@ -179,18 +112,18 @@ std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>
     who = {{"octagon_sweep"}, {"box2d"}};
     for (const Peer& peer : peers()) who.push_back({peer.name});
   }
-  const auto of_size = static_cast<std::size_t>(size);
   std::vector<StudyPart> parts;
-  for (const Group& group : groups())
-    for (const FieldScene& one : group.scenes) {
-      StudyPart part{field_title + std::string(group.name), {}, {}, Bad::does_not_hold, std::string(group.question)};
-      const bool is_there = one.instead.empty() || std::filesystem::exists(one.scene);
-      part.sweep.scene = is_there ? one.scene : "playground";
-      const std::string_view axes = is_there ? one.axes[of_size] : one.instead;
-      if (!axes.empty()) part.sweep.axes = parse_axes(axes);
-      if (one.steps[of_size] > 0) part.sweep.steps = one.steps[of_size];
+  for (const Json& group : study_text("field").at("groups"))
+    for (const Json& text : group.at("parts")) {
+      StudyPart part = part_of(text, size);
+      part.title = field_title + group.at("name").get<std::string>();
+      part.question = group.at("question");
+      if (text.contains("instead") && !std::filesystem::exists(part.sweep.scene)) {
+        part.sweep.scene = "playground";
+        part.sweep.axes = parse_axes(text["instead"].get<std::string>());
+      }
       part.sweep.contenders = who;
-      const Asked asked{.seams = group.name == field_seams, .way = !one.either_way};
+      const Asked asked{.seams = group.at("name") == field_seams, .way = !text.value("either_way", false)};
       part.run = [asked](const Sweep& sweep, std::size_t index) {
         const Case one_case = sweep.at(index);
         // Costs are those of the walk over tiles, which everybody can make.
@@ -203,23 +136,10 @@ std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>
   return parts;
 }
 
-std::vector<std::string> field_paragraphs() {
-  std::vector<std::string> all{
-      "How to read this: a line for each contender, a column for each kind of trouble. A cell has the worst that its "
-      "runs do, and of how many runs how many do anything wrong, judged step by step by exact arithmetic. Choose a "
-      "cell to see the run beside that of octagon_sweep, step by step.",
-      "From bad to less: fails; through a one-way ledge against its normal; through, at the slowest speed, also over "
-      "an edge that it sinks into by more than 20 mm; inside something by more than its skin; hangs in the air; clips "
-      "a corner; restless, where it should rest, or hops at seams once it has settled, by more than 0.1 mm; loses "
-      "more than 1 % of the wanted motion to nothing; off the exact way by more than 0.1 m. A peer's way is held "
-      "against the law of octagon_sweep and that of a body without friction, for its own shape, and the nearer one "
-      "counts. Steps on which such a law hangs at the same place are no fault, but of octagon_sweep. Where more is "
-      "wanted than its maker documents, such as 2 m a step of Box2D 2.4, it is beyond its limit, unless it fails, "
-      "passes or ends inside something. What a law of response does by design is no fault, and the scenes' own "
-      "answers are not asked. At the kerb of 1 mm it may stop or go over.",
-      "Not in it: stairs, as no built-in scene has any and of the peers Rapier's controller alone climbs; several "
-      "characters, as no peer that ships runs them."};
-  for (const Group& group : groups()) all.push_back(fmt::format("{}: {}", group.name, group.question));
+std::vector<std::string> field_questions() {
+  std::vector<std::string> all;
+  for (const Json& group : study_text("field").at("groups"))
+    all.push_back(fmt::format("{}: {}", group.at("name").get<std::string>(), group.at("question").get<std::string>()));
   return all;
 }
 

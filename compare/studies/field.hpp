@@ -21,8 +21,8 @@ inline constexpr std::string_view field_seams = "seams";
 /// SuperTux are in it where Debian has installed them; in the place of one that is not here is the playground.
 [[nodiscard]] std::vector<StudyPart> field_parts(GridSize size, const std::vector<std::string>& contenders);
 
-/// What is asked, and what counts as what.
-[[nodiscard]] std::vector<std::string> field_paragraphs();
+/// What each group asks.
+[[nodiscard]] std::vector<std::string> field_questions();
 
 /// A number as tables of the field have it: two digits, or all before the point.
 [[nodiscard]] std::string in_short(double number);

@@ -14,8 +14,8 @@ namespace paperproof::compare {
 /// and borders are looked for in fewer strides; the full one has the longest runs whole.
 [[nodiscard]] std::vector<StudyPart> stability_parts(GridSize size, const std::vector<std::string>& contenders);
 
-/// What is asked, and each predicate with its bound.
-[[nodiscard]] std::vector<std::string> stability_paragraphs();
+/// Each predicate with its bound.
+[[nodiscard]] std::vector<std::string> stability_predicates();
 
 /// Says of a row that was run which predicates hold (`penetration_ok`, `drift_ok`, `energy_ok`, `hanging_ok`), each
 /// where it applies, and makes what fails a fault.
