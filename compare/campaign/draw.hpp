@@ -1,7 +1,6 @@
 /// Draws the runs of each kind. The same seed draws the same run on every machine; no draw reads what a run does.
 #pragma once
 
-#include "campaign/named.hpp"
 #include "campaign/play_levels.hpp"
 #include "campaign/random.hpp"
 #include "campaign/random_run.hpp"
@@ -24,8 +23,6 @@ enum class Turning : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 6> turning_names{"planks",  "see_saws", "wheels",
                                                                "presses", "papers",   "balls"};
-inline constexpr std::array all_turning = all_of<Turning>(turning_names);
-[[nodiscard]] inline std::string name_of(Turning turning) { return name_among(turning_names, turning); }
 
 /// A line that goes to the right.
 enum class Line : std::uint8_t {
@@ -35,8 +32,6 @@ enum class Line : std::uint8_t {
   ramp,      ///< Straight, but for the rounding of its corners.
 };
 inline constexpr std::array<std::string_view, 4> line_names{"hill", "arch", "sawtooth", "ramp"};
-inline constexpr std::array all_lines = all_of<Line>(line_names);
-[[nodiscard]] inline std::string name_of(Line line) { return name_among(line_names, line); }
 
 /// Launches at 1e-3 to 1e6 m per step among solids that stand, up to 1e6 m from the origin; some begin inside.
 /// @param up_turns between steps, now and then.

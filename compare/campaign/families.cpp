@@ -1,197 +1,110 @@
 #include "campaign/families.hpp"
 
 #include "campaign/draw.hpp"
+#include "contains.hpp"
+#include "embedded.hpp"
 #include "near_names.hpp"
 #include "scenes/input_error.hpp"
+#include "scenes/json_text.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <iterator>
+#include <map>
 
 namespace paperproof::compare {
 namespace {
 
-/// It happens: of few families more is known.
-constexpr double ever = 1e-9;
+/// A kind of runs, and what draws one: a family for each name. families.json says what each covers.
+struct Kind {
+  std::vector<std::string> families;
+  std::function<RandomRun(std::size_t family, std::uint64_t seed)> draw;
+};
 
-/// A family for each value of an enumeration. @param make from the value and its number, counted from 1; gives no name.
-template <class Values, class Make>
-std::vector<Family> one_of_each(const Values& values, const Make& make) {
-  std::vector<Family> all;
-  for (const auto value : values) {
-    all.push_back(make(value, std::uint64_t{all.size() + 1}));
-    all.back().name = name_of(value);
-  }
-  return all;
+template <class Names>
+std::vector<std::string> listed(const Names& names) {
+  return {names.begin(), names.end()};
 }
 
-std::vector<Family> still() {
-  return one_of_each(all_terrains, [](Terrain terrain, std::uint64_t number) -> Family {
-    const bool has_ledges = terrain == Terrain::one_way || terrain == Terrain::one_way_solids;
-    return {.kind = "static",
-            .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, false); },
-            .first_seed = 1000003 * number,
-            .covers = {{"contact", 0.1, 0.9},
-                       {"falling", 0.1},
-                       {"launched", 0.1},
-                       {"sensed", ever},
-                       {"unnamed", 0, 0},
-                       {"through", has_ledges ? ever : 0, has_ledges ? 1.0 : 0.0}}};
-  });
+constexpr std::array rates{60, 240, 1000};  ///< Steps per second.
+
+std::vector<std::string> names_of_play() {
+  std::vector<std::string> names;
+  for (const std::string_view level : play_level_names)
+    for (const int rate : rates) names.push_back(fmt::format("{}_at_{}", level, rate));
+  return names;
 }
 
-std::vector<Family> any_up() {
-  return one_of_each(all_terrains, [](Terrain terrain, std::uint64_t number) -> Family {
-    return {.kind = "any_up",
-            .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, true); },
-            .first_seed = 2000003 * number,
-            .covers = {{"contact", 0.06, 0.9},
-                       {"falling", 0.1},
-                       {"walkable", 0.01},
-                       {"steep", 0.003},
-                       {"wall", 0.0004},
-                       {"ceiling", 0.01},
-                       {"sensed", ever}}};
-  });
+template <class Value>
+auto of_each(RandomRun (*draw)(Value, std::uint64_t)) {
+  return [draw](std::size_t family, std::uint64_t seed) { return draw(static_cast<Value>(family), seed); };
 }
 
-std::vector<Family> movers(bool up_turns) {
-  return one_of_each(all_terrains, [up_turns](Terrain terrain, std::uint64_t number) -> Family {
-    return {.kind = up_turns ? "movers_any_up" : "movers",
-            .draw = [terrain, up_turns](std::uint64_t seed) { return draw_among_movers(terrain, seed, up_turns); },
-            .first_seed = 2000003 * number,
-            .share = up_turns ? 2.0 / 9 : 1,
-            .covers = {{"contact", 0.1, 0.9},
-                       {"riding", ever},
-                       {"crushed", ever, 0.2},
-                       {"sensed", ever},
-                       {"unnamed", 0, up_turns ? 1.0 : 0.0}}};
-  });
-}
-
-std::vector<Family> turning() {
-  return one_of_each(all_turning, [](Turning family, std::uint64_t number) -> Family {
-    const double least_crushed = family == Turning::presses ? ever : 0;
-    return {.kind = "turning",
-            .draw = [family](std::uint64_t seed) { return draw_among_turning(family, seed); },
-            .first_seed = 3000017 * number,
-            .share = family == Turning::balls ? 1 : 1.0 / 3,  // a ball seldom carries anyone
-            .covers = {{"turning", 0.2},
-                       {"moving", 0.02, 0.9},
-                       {"riding", ever},
-                       {"sensed", ever},
-                       {"crushed", least_crushed, 0.2}}};
-  });
-}
-
-std::vector<Family> play() {
-  std::vector<Family> all;
-  for (const PlayLevel level : all_play_levels)
-    for (const int rate : {60, 240, 1000})
-      all.push_back({.kind = "play",
-                     .name = fmt::format("{}_at_{}", name_of(level), rate),
-                     .draw = [level, rate](std::uint64_t seed) { return draw_play(level, rate, seed); },
-                     .first_seed = 7919 + static_cast<std::uint64_t>(level),
-                     .share = 4.0 / 9,
-                     .covers = {{"falling", 0.01}}});
-  return all;
-}
-
-std::vector<Family> play_on_stairs() {
-  return one_of_each(all_play_levels, [](PlayLevel level, std::uint64_t /*number*/) -> Family {
-    std::vector<Coverage> covers;
-    if (level == PlayLevel::kerbs) covers = {{"climbing", 0.0005}, {"descending", 0.001}};
-    return {.kind = "stairs",
-            .draw = [level](std::uint64_t seed) { return draw_stairs(level, seed); },
-            .share = 4.0 / 9,
-            .covers = covers};
-  });
-}
-
-std::vector<Family> slanted() {
-  return one_of_each(all_play_levels, [](PlayLevel level, std::uint64_t number) -> Family {
-    return {.kind = "slanted",
-            .draw = [level](std::uint64_t seed) { return draw_slanted(level, seed); },
-            .first_seed = 13000027 * number,
-            .share = 4.0 / 9,
-            .covers = {{"grounded", 0.2}, {"falling", 0.01}}};
-  });
-}
-
-std::vector<Family> on_lines() {
-  return one_of_each(all_lines, [](Line line, std::uint64_t number) -> Family {
-    const double through = line == Line::arch || line == Line::ramp ? ever : 0;  // from the others few get through
-    return {.kind = "lines",
-            .draw = [line](std::uint64_t seed) { return draw_on_line(line, seed); },
-            .first_seed = 4000037 * number,
-            .share = 1.0 / 3,
-            .covers = {{"contact", 0.1, 0.95}, {"walkable", 0.05}, {"through", through}}};
-  });
-}
-
-std::vector<Family> inside() {
-  constexpr std::array some{Terrain::tiles, Terrain::stairs, Terrain::concave, Terrain::lattice, Terrain::circles};
-  return one_of_each(some, [](Terrain terrain, std::uint64_t number) -> Family {
-    return {.kind = "inside",
-            .draw = [terrain](std::uint64_t seed) { return draw_inside(terrain, seed); },
-            .first_seed = 5000011 * number,
-            .share = 1.0 / 6,
-            .covers = {{"inside", 0.1}, {"freed", 0.1}, {"stuck", 0.001}}};
-  });
-}
-
-std::vector<Family> tight() {
-  const auto fits = [](bool rest) { return [rest](std::uint64_t seed) { return draw_exact_fit(rest, seed); }; };
-  return {{"tight", "corners", draw_near_a_corner, 6000011, 2, {{"contact", 0.5, 0.9}}},
-          {"tight", "sensors", draw_through_sensors, 7000003, 1, {{"sensed", 0.15}}},
-          {"tight", "fits", fits(true), 8000009, 1, {{"ceiling", 0.05}}},
-          {"tight", "openings", draw_opening, 11000027, 1, {{"contact", 0.2, 0.95}, {"falling", 0.2}}},
-          {"presses", "fits", fits(false), 9000011, 1, {{"ceiling", 0.05}, {"crushed", 0.02}, {"riding", 0.05}}},
-          {"presses", "ledges", draw_touched_by_ledge, 10000019, 1, {{"contact", 0.2, 0.9}}}};
-}
-
-std::vector<Family> courses() {
-  return {{"courses",
-           "walks",
-           draw_course,
-           14000029,
-           2,
-           {{"climbing", 0.002}, {"riding", 0.1}, {"descending", 0.002}, {"grounded", 0.3}, {"crushed", 0, 0.01}}}};
-}
-
-std::vector<Family> rest() {
-  const auto presses = [](const char* name, bool rims) -> Family {
-    return {.kind = "presses",
-            .name = name,
-            .draw = [rims](std::uint64_t seed) { return draw_among_presses(rims, seed); },
-            .share = 1.0 / 3,
-            .covers = {{"aside", 0.02}, {"crushed", 0.005}, {"again", 0.0005}, {"freed", 0.002}, {"unnamed", 0, 1e-4}}};
+std::map<std::string, Kind> all_kinds() {
+  using Seed = std::uint64_t;
+  const std::vector<std::string> terrains = listed(terrain_names);
+  const std::vector<std::string> levels = listed(play_level_names);
+  const auto draw_play_at = [](std::size_t i, Seed seed) {
+    return draw_play(static_cast<PlayLevel>(i / rates.size()), rates[i % rates.size()], seed);
   };
-  return {presses("chambers", false),
-          presses("buckets", true),
-          {.kind = "crowd",
-           .name = "rooms",
-           .draw = draw_crowd,
-           .share = 2,
-           .covers = {{"met", 0.1, 0.95}, {"grounded", 0.05}, {"stuck", 0, 0}}},
-          {.kind = "crowd_movers",
-           .name = "rooms",
-           .draw = draw_crowd_among_movers,
-           .share = 0.25,
-           .covers = {{"met", 0.1}, {"riding", 0.02}, {"crushed", 0.0005, 0.02}, {"dropped", 0, 0.0002}}}};
+  const auto draw_tight = [](std::size_t i, Seed seed) {
+    if (i == 0) return draw_near_a_corner(seed);
+    if (i == 1) return draw_through_sensors(seed);
+    return i == 2 ? draw_exact_fit(true, seed) : draw_opening(seed);
+  };
+  const auto draw_presses = [](std::size_t i, Seed seed) {
+    if (i >= 2) return draw_among_presses(i == 3, seed);
+    return i == 0 ? draw_exact_fit(false, seed) : draw_touched_by_ledge(seed);
+  };
+  return {
+      {"static", {terrains, of_each<Terrain>([](Terrain t, Seed seed) { return draw_still(t, seed, false); })}},
+      {"any_up", {terrains, of_each<Terrain>([](Terrain t, Seed seed) { return draw_still(t, seed, true); })}},
+      {"movers", {terrains, of_each<Terrain>([](Terrain t, Seed seed) { return draw_among_movers(t, seed, false); })}},
+      {"movers_any_up",
+       {terrains, of_each<Terrain>([](Terrain t, Seed seed) { return draw_among_movers(t, seed, true); })}},
+      {"turning", {listed(turning_names), of_each(draw_among_turning)}},
+      {"play", {names_of_play(), draw_play_at}},
+      {"stairs", {levels, of_each(draw_stairs)}},
+      {"courses", {{"walks"}, [](std::size_t, Seed seed) { return draw_course(seed); }}},
+      {"slanted", {levels, of_each(draw_slanted)}},
+      {"lines", {listed(line_names), of_each(draw_on_line)}},
+      {"inside", {terrains, of_each(draw_inside)}},
+      {"tight", {{"corners", "sensors", "fits", "openings"}, draw_tight}},
+      {"presses", {{"fits", "ledges", "chambers", "buckets"}, draw_presses}},
+      {"crowd", {{"rooms"}, [](std::size_t, Seed seed) { return draw_crowd(seed); }}},
+      {"crowd_movers", {{"rooms"}, [](std::size_t, Seed seed) { return draw_crowd_among_movers(seed); }}}};
+}
+
+/// All of one kind. @param text what families.json has of it.
+void add_families(const Json& text, const Kind& kind, std::vector<Family>& families) {
+  const Json some = text.value("only", Json(kind.families));
+  for (std::size_t i = 0, number = 0; i < kind.families.size(); ++i) {
+    if (!contains(some, kind.families[i])) continue;
+    Json own = text;
+    own.merge_patch(text.value("but", Json::object()).value(kind.families[i], Json::object()));
+    Family& family = families.emplace_back();
+    family.kind = own["kind"];
+    family.name = kind.families[i];
+    family.draw = [draw = kind.draw, i](std::uint64_t seed) { return draw(i, seed); };
+    if (own.contains("first_seeds")) family.first_seed = own["first_seeds"].at(number);
+    ++number;
+    if (own.contains("first_seed")) family.first_seed = own["first_seed"].get<std::uint64_t>() * number;
+    family.share = own.value("share", 1.0);
+    const Json covers = own.value("covers", Json::object());
+    for (const auto& [happening, shares] : covers.items())
+      family.covers.push_back({happening, shares.at(0), shares.size() > 1 ? shares[1].get<double>() : 1});
+  }
 }
 
 }  // namespace
 
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
-    std::vector<Family> joined;
-    for (std::vector<Family>& some :
-         std::array{still(), any_up(), movers(false), movers(true), turning(), play(), play_on_stairs(), courses(),
-                    slanted(), on_lines(), inside(), tight(), rest()})
-      std::move(some.begin(), some.end(), std::back_inserter(joined));
-    return joined;
+    std::vector<Family> listed;
+    const std::map<std::string, Kind> kinds = all_kinds();
+    const Json texts = Json::parse(families_file.front().text);
+    for (const Json& text : texts) add_families(text, kinds.at(text.at("kind")), listed);
+    return listed;
   }();
   return all;
 }

@@ -1,4 +1,4 @@
-/// The families of random runs: what each draws, and how much of what must happen in its runs.
+/// The families of random runs: what each draws, and how much of what must happen in its runs (families.json).
 #pragma once
 
 #include "campaign/happening.hpp"
@@ -16,7 +16,7 @@ namespace paperproof::compare {
 /// How large a share of a family's records a happening has, at least and at most. Few records scatter: a test fails
 /// below half of the least share, and where a happening never is.
 struct Coverage {
-  std::string_view happening;  ///< By its name.
+  std::string happening;  ///< By its name.
   double least = 0;
   double most = 1;
 };
@@ -24,7 +24,7 @@ struct Coverage {
 struct Family {
   std::string kind;    ///< `movers`: runs that are drawn alike.
   std::string name{};  ///< `tiles`: the scenery, or what moves in it.
-  std::function<RandomRun(std::uint64_t)> draw;
+  std::function<RandomRun(std::uint64_t)> draw{};
   std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow; no other family of the kind does.
   double share = 1;              ///< Of the steps that are asked for: some are slow.
   std::vector<Coverage> covers{};
