@@ -274,7 +274,7 @@ class Comparison {
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
     std::vector<ReportSection> reported = sections;
     for (ReportSection& standing : standing_sections()) reported.push_back(std::move(standing));
-    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), reported);
+    if (report_) report_->finish({environment(), tolerances_, totals_.lines(), reported});
     if (arguments_.explain) sections.push_back(exemptions_section());
     if (arguments_.json)
       print_json(gallery);

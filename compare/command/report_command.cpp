@@ -18,16 +18,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What stands beside the results: of the first input that has any.
-struct Facts {
-  Environment environment;
-  std::vector<NamedTolerance> tolerances;
-  std::vector<std::string> guarantee_notes;
-  std::vector<ReportSection> sections;
-};
-
-Facts facts_of_page(const ordered_json& index) {
-  Facts facts;
+/// Of the first input that has any.
+ReportFacts facts_of_page(const ordered_json& index) {
+  ReportFacts facts;
   facts.environment = index.at("environment").get<Environment>();
   for (const ordered_json& tolerance : index.at("tolerances"))
     facts.tolerances.push_back({tolerance[0], tolerance[1].is_number() ? tolerance[1].get<double>() : std::nan("")});
@@ -46,7 +39,7 @@ class PageOfRecords {
       if (input.ends_with(".html")) take_page(input);
     take_rows();
     if (facts_.sections.empty()) facts_.sections = standing_sections();
-    writer_.finish(facts_.environment, facts_.tolerances, facts_.guarantee_notes, facts_.sections);
+    writer_.finish(facts_);
   }
 
  private:
@@ -100,7 +93,7 @@ class PageOfRecords {
 
   ReportWriter writer_;
   const std::vector<std::string>& inputs_;
-  Facts facts_;
+  ReportFacts facts_;
 };
 
 }  // namespace

@@ -47,9 +47,8 @@ std::string scene_index_json(const ReportScene& scene) {
   return script_safe(dumped(object));
 }
 
-std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-                       const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections,
-                       const std::vector<std::string>& scenes, const std::vector<std::string>& studies) {
+std::string index_json(const ReportFacts& facts, const std::vector<std::string>& scenes,
+                       const std::vector<std::string>& studies) {
   nlohmann::json columns = nlohmann::json::array();
   for (const Metric& metric : metrics())
     columns.push_back({{"key", metric.key},
@@ -58,17 +57,15 @@ std::string index_json(const Environment& environment, const std::vector<NamedTo
                        {"group", name_of(metric.group)},
                        {"kind", name_of(metric.kind)},
                        {"meaning", metric.meaning}});
-  nlohmann::json names = nlohmann::json::array();
-  for (const auto& [name, value] : environment) names.push_back({name, value});
   nlohmann::json lengths = nlohmann::json::array();
-  for (const NamedTolerance& tolerance : tolerances) lengths.push_back({tolerance.name, tolerance.metres});
+  for (const NamedTolerance& tolerance : facts.tolerances) lengths.push_back({tolerance.name, tolerance.metres});
   nlohmann::json titled = nlohmann::json::array();
-  for (const ReportSection& section : sections)
+  for (const ReportSection& section : facts.sections)
     titled.push_back({{"title", section.title}, {"lines", section.lines}, {"table", section.table}});
-  std::string text = script_safe(dumped(nlohmann::json{{"environment", names},
+  std::string text = script_safe(dumped(nlohmann::json{{"environment", facts.environment},
                                                        {"metrics", columns},
                                                        {"tolerances", lengths},
-                                                       {"guarantee_notes", guarantee_notes},
+                                                       {"guarantee_notes", facts.guarantee_notes},
                                                        {"sections", titled}}));
   text.back() = ',';
   return text + "\"scenes\":" + list_of(scenes) + ",\"studies\":" + list_of(studies) + '}';

@@ -12,9 +12,7 @@ namespace paperproof::compare {
 /// `{"environment":[[name,value]…],"tolerances":[[name,metres]…],"guarantee_notes":[…],
 /// "sections":[{"title","lines","table"}…],"scenes":[…],"studies":[…]}`.
 /// @param scenes,studies one JSON object each: see `chart_page_json`.
-[[nodiscard]] std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-                                     const std::vector<std::string>& guarantee_notes,
-                                     const std::vector<ReportSection>& sections, const std::vector<std::string>& scenes,
+[[nodiscard]] std::string index_json(const ReportFacts& facts, const std::vector<std::string>& scenes,
                                      const std::vector<std::string>& studies);
 
 }  // namespace paperproof::compare

@@ -81,16 +81,15 @@ void ReportWriter::add_study(std::string json, const std::string& replays) {
   studies_.push_back(std::move(json));
 }
 
-void ReportWriter::finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-                          const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections) {
-  file_->write(data_element("index", index_json(environment, tolerances, guarantee_notes, sections, index_, studies_)));
+void ReportWriter::finish(const ReportFacts& facts) {
+  file_->write(data_element("index", index_json(facts, index_, studies_)));
   file_->write(tail_of_page(!studies_.empty()));
   file_->commit();
 }
 
 std::string html_of(const ChartPage& page) {
   return head_of_page() + data_element("cells-0", list_of(page.replays)) +
-         data_element("index", index_json(page.environment, {}, {}, {}, {}, {chart_page_json(page)})) +
+         data_element("index", index_json({.environment = page.environment}, {}, {chart_page_json(page)})) +
          tail_of_page(true);
 }
 
@@ -100,12 +99,6 @@ ReportOptions options_for(std::size_t runs) noexcept {
   constexpr std::size_t most = 1200;
   const std::size_t share = std::clamp(steps_in_all / std::max<std::size_t>(runs, 1), fewest, most);
   return {.max_replay_steps = static_cast<int>(share)};
-}
-
-void write_report(const std::string& path, const Report& report, const ReportOptions& options) {
-  ReportWriter writer(path, options);
-  for (const ReportScene& scene : report.scenes) writer.add(scene);
-  writer.finish(report.environment, report.tolerances, report.guarantee_notes);
 }
 
 }  // namespace paperproof::compare

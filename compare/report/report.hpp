@@ -15,18 +15,19 @@ namespace paperproof::compare {
 
 class OutputFile;
 
-struct Report {
-  Environment environment;
-  std::vector<NamedTolerance> tolerances;
-  std::vector<ReportScene> scenes;
-  std::vector<std::string> guarantee_notes;  ///< What is guaranteed, and the counts of violations, zero included.
-};
-
 /// Under a heading of its own in the summary, opened by a click.
 struct ReportSection {
   std::string title;
   std::vector<std::string> lines;
   std::vector<std::vector<std::string>> table{};  ///< The first row is the heading; may be empty.
+};
+
+/// What stands beside the scenes and studies.
+struct ReportFacts {
+  Environment environment{};
+  std::vector<NamedTolerance> tolerances{};
+  std::vector<std::string> guarantee_notes{};  ///< What is guaranteed, and the counts of violations, zero included.
+  std::vector<ReportSection> sections{};
 };
 
 /// How much of the runs goes into the file. A stored step takes about 40 bytes.
@@ -59,8 +60,7 @@ class ReportWriter {
   /// cells', as a JSON array.
   void add_study(std::string json, const std::string& replays);
   /// To be called once, last.
-  void finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-              const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections = {});
+  void finish(const ReportFacts& facts);
 
  private:
   std::unique_ptr<OutputFile> file_;
@@ -68,10 +68,6 @@ class ReportWriter {
   std::vector<std::string> index_;  ///< One JSON object per scene: what the summary and the tables need.
   std::vector<std::string> studies_;
 };
-
-/// The whole report at once.
-/// @throws std::runtime_error that says in words which file could not be written and why.
-void write_report(const std::string& path, const Report& report, const ReportOptions& options = {});
 
 /// The page of a study alone.
 [[nodiscard]] std::string html_of(const ChartPage& page);

@@ -10,6 +10,17 @@ namespace paperproof::compare {
 
 using nlohmann::json;
 
+struct Report {
+  ReportFacts facts;
+  std::vector<ReportScene> scenes;
+};
+
+inline void write_report(const std::string& path, const Report& report, const ReportOptions& options = {}) {
+  ReportWriter writer(path, options);
+  for (const ReportScene& scene : report.scenes) writer.add(scene);
+  writer.finish(report.facts);
+}
+
 /// A folder of its own for each test, and a page in it.
 class ReportTest : public SceneFilesTest {
  protected:
@@ -32,11 +43,7 @@ inline std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-inline Report report_of(const ReportScene& scene) {
-  Report report;
-  report.scenes = {scene};
-  return report;
-}
+inline Report report_of(const ReportScene& scene) { return {{}, {scene}}; }
 
 inline TraceStep step_of(int number, std::vector<PathPoint> path, const Vec2d& velocity = {0, 0}) {
   TraceStep step;

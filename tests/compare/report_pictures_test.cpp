@@ -102,7 +102,7 @@ TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
   study.grids[0].cells[0][1].replay = 0;
   ReportWriter writer(path());
   writer.add_study(study);
-  writer.finish({}, {}, {});
+  writer.finish({});
   const json cells = element(content(path()), "cells-0");
   ASSERT_EQ(cells.size(), 1U);
   EXPECT_EQ(cells[0]["parameters"], json::parse(R"([["speed [m/s]", "120"], ["phase", "0.25"]])"));

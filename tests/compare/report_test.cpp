@@ -23,9 +23,9 @@ Report hostile_report() {
   run.events = {{1, ReportEvent::Kind::note, hostile_text}};
   Report report = report_of(scene);
   report.scenes.push_back(walk_of(3));
-  report.environment.emplace_back(hostile_text, hostile_text);
-  report.guarantee_notes.push_back(hostile_text);
-  report.tolerances.push_back({hostile_text, 1});
+  report.facts.environment.emplace_back(hostile_text, hostile_text);
+  report.facts.guarantee_notes.push_back(hostile_text);
+  report.facts.tolerances.push_back({hostile_text, 1});
   return report;
 }
 
