@@ -1,6 +1,5 @@
 #include "command/campaign_command.hpp"
 
-#include "campaign/campaign.hpp"
 #include "records/output_file.hpp"
 #include "records/row.hpp"
 #include "runs/view.hpp"
@@ -70,21 +69,21 @@ int campaign_command(const CampaignArguments& arguments) {
     if (!kind.empty()) print_out(table_of(kind));
     kind.clear();
   };
-  const std::string as = arguments.contender == "octagon_sweep" ? "" : " --contender " + arguments.contender;
+  const std::string& contender = arguments.settings.contender;
+  const std::string as = contender == "octagon_sweep" ? "" : " --contender " + contender;
   for (const Family* family : asked_for(arguments.families)) {
     if (!kind.empty() && kind.front().family->kind != family->kind) print_kind();
     Findings findings =
-        run_family(*family, arguments.steps, {.contender = arguments.contender, .trace_stem = arguments.trace_stem},
-                   [&](std::uint64_t seed, const Findings& run) {
-                     broken += describe(run.breaches, family->replay_of(seed) + as + ": ");
-                   });
+        run_family(*family, arguments.steps, arguments.settings, [&](std::uint64_t seed, const Findings& run) {
+          broken += describe(run.breaches, family->replay_of(seed) + as + ": ");
+        });
     if (!findings.failed.empty()) missing += fmt::format("{}: {}\n", family->title(), findings.failed);
     for (const std::string& uncovered_part : uncovered(*family, findings)) missing += uncovered_part + "\n";
     if (findings.records > 0) kind.push_back({family, std::move(findings)});
   }
   print_kind();
   print_out(broken + missing);
-  const bool breaks = !broken.empty() && is_guaranteed(arguments.contender, "double");
+  const bool breaks = !broken.empty() && is_guaranteed(contender, "double");
   return missing.empty() && !breaks ? 0 : 1;
 }
 
@@ -99,18 +98,17 @@ int replay_command(const ReplayArguments& arguments) {
     file.write(scene_json(with_names(run.scene, name)).dump() + "\n");
     file.commit();
   }
-  const Findings found =
-      run_and_judge(run, name, {.contender = arguments.contender, .trace_stem = arguments.trace_stem});
+  const Findings found = run_and_judge(run, name, arguments.settings);
   if (!found.failed.empty()) throw InputError(fmt::format("{} {}: {}", family.title(), arguments.seed, found.failed));
   if (found.steps == 0) throw InputError(fmt::format("{} {}: no step is judged", family.title(), arguments.seed));
   std::string said = fmt::format("{} {}: {} judged of {}\n", family.title(), arguments.seed,
-                                 counted(found.steps, "step"), arguments.contender);
+                                 counted(found.steps, "step"), arguments.settings.contender);
   for (std::size_t i = 0; i < found.happened.size(); ++i)
     if (found.happened[i] > 0)
       said += fmt::format("  {:<11}{} in {}\n", happenings()[i].name, happenings()[i].meaning,
                           counted(found.happened[i], "step"));
   print_out(said + describe(found.breaches, "  breaks "));
-  return !found.breaches.empty() && is_guaranteed(arguments.contender, "double") ? 1 : 0;
+  return !found.breaches.empty() && is_guaranteed(arguments.settings.contender, "double") ? 1 : 0;
 }
 
 }  // namespace paperproof::compare

@@ -1,6 +1,8 @@
 /// `paperproof campaign` and `paperproof replay`: random runs, judged by every clause of the guarantee.
 #pragma once
 
+#include "campaign/campaign.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +12,7 @@ namespace paperproof::compare {
 struct CampaignArguments {
   std::vector<std::string> families;  ///< `movers/tiles`, or `movers` for all of them. Empty: every family.
   int steps = 2000;                   ///< Of a family; slow ones take a share.
-  std::string contender = "octagon_sweep";
-  std::string trace_stem;  ///< Of every run; empty: no traces.
+  RunSettings settings;
 };
 
 /// Prints a table for each kind of runs: steps, what happened in what share of them, and which clauses were broken;
@@ -23,8 +24,7 @@ int campaign_command(const CampaignArguments& arguments);
 struct ReplayArguments {
   std::string family;
   std::uint64_t seed = 0;
-  std::string contender = "octagon_sweep";
-  std::string trace_stem;  ///< Empty: no trace.
+  RunSettings settings;
   std::string scene_path;  ///< Where the scene goes as JSON; empty: nowhere.
 };
 

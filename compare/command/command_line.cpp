@@ -49,11 +49,21 @@ std::vector<std::string> chosen(std::vector<std::string> contenders) {
   return without_repeats(contenders);
 }
 
-/// Runs a command when its options are parsed, and keeps its exit status.
-/// @param arguments live as long as the command.
-template <class Arguments, class Command>
-void on_parsed(CLI::App& app, int& status, std::shared_ptr<Arguments> arguments, Command command) {
-  app.callback([&status, arguments = std::move(arguments), command] { status = command(*arguments); });
+/// A command, and what its options say once they are parsed.
+template <class Arguments>
+struct Command {
+  CLI::App& app;
+  Arguments& typed;
+};
+
+/// @param run is called when the options are parsed; `status` is then what it returns.
+template <class Arguments, class Run>
+Command<Arguments> add_command(CLI::App& parent, int& status, const std::string& name, const std::string& help,
+                               Run run) {
+  CLI::App& app = *parent.add_subcommand(name, help);
+  const auto arguments = std::make_shared<Arguments>();
+  app.callback([&status, arguments, run] { status = run(*arguments); });
+  return {app, *arguments};
 }
 
 /// Options of `compare` as typed.
@@ -65,7 +75,24 @@ struct CompareWords {
   std::vector<std::string> knobs;
 };
 
-void add_compare_options(CLI::App& command, CompareWords& words) {
+int compare(const CompareWords& words) {
+  CompareArguments arguments = words.arguments;
+  if (arguments.scenes.empty() && arguments.files_from.empty())
+    throw InputError("paperproof: SCENE is required; see paperproof compare --help");
+  arguments.run.full_plan = words.plan == "full";
+  arguments.run.continuous = true;
+  arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
+  if (!words.scalars.empty()) arguments.run.scalars.clear();
+  for (const std::string& scalar : without_repeats(words.scalars))
+    arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
+  arguments.run.contenders = chosen(arguments.run.contenders);
+  arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
+  return compare_scenes(std::move(arguments));
+}
+
+void add_compare(CLI::App& app, int& status) {
+  const auto [command, words] = add_command<CompareWords>(
+      app, status, "compare", "Run scenes, judge every step exactly, say who is right", compare);
   CompareArguments& arguments = words.arguments;
   command.add_option("SCENE", arguments.scenes, scene_words);
   add_option(command, "--files-from", arguments.files_from, "FILE|-",
@@ -91,28 +118,6 @@ void add_compare_options(CLI::App& command, CompareWords& words) {
   add_flag(command, "--explain", arguments.explain, "Print what each contender is excused, and up to what size");
   add_flag(command, "--quiet", arguments.quiet, "No tables, no progress");
   add_flag(command, "--json", arguments.json, "Rows as JSON on standard output");
-}
-
-int compare(const CompareWords& words) {
-  CompareArguments arguments = words.arguments;
-  if (arguments.scenes.empty() && arguments.files_from.empty())
-    throw InputError("paperproof: SCENE is required; see paperproof compare --help");
-  arguments.run.full_plan = words.plan == "full";
-  arguments.run.continuous = true;
-  arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
-  if (!words.scalars.empty()) arguments.run.scalars.clear();
-  for (const std::string& scalar : without_repeats(words.scalars))
-    arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
-  arguments.run.contenders = chosen(arguments.run.contenders);
-  arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
-  return compare_scenes(std::move(arguments));
-}
-
-void add_compare(CLI::App& app, int& status) {
-  CLI::App& command = *app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
-  const auto words = std::make_shared<CompareWords>();
-  add_compare_options(command, *words);
-  on_parsed(command, status, words, compare);
 }
 
 void add_cases(CLI::App& command, CaseArguments& cases) {
@@ -149,74 +154,70 @@ void forget_repeats(CaseArguments& cases) {
 }
 
 void add_sweep(CLI::App& app, int& status) {
-  CLI::App& command = *app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
-  const auto arguments = std::make_shared<SweepArguments>();
-  command.add_option("SCENE", arguments->scene, scene_words)->required();
-  add_option(command, "--vary", arguments->vary, "KEY=FIRST:LAST:logN|linN|a,b,c",
+  const auto run = [](SweepArguments& typed) {
+    forget_repeats(typed.cases);
+    return sweep_command(typed);
+  };
+  const auto [command, typed] =
+      add_command<SweepArguments>(app, status, "sweep", "Run a scene or family over ranges of its parameters", run);
+  command.add_option("SCENE", typed.scene, scene_words)->required();
+  add_option(command, "--vary", typed.vary, "KEY=FIRST:LAST:logN|linN|a,b,c",
              "An axis: a parameter of the scene (see `list parameters`) or a knob")
       .allow_extra_args(false);
-  add_option(command, "--find-border", arguments->border, "KEY[=FIRST:LAST]",
+  add_option(command, "--find-border", typed.border, "KEY[=FIRST:LAST]",
              "Bisect this parameter, over its range or a part of it, to where a contender ceases to hold");
-  add_settings(command, arguments->set);
-  add_steps(command, arguments->steps);
-  add_input(command, arguments->seed);
-  add_cases(command, arguments->cases);
-  add_run_options(command, arguments->run);
-  add_flag_off(command, "--no-reference", arguments->reference, "Without Box2D, where no contender is named");
+  add_settings(command, typed.set);
+  add_steps(command, typed.steps);
+  add_input(command, typed.seed);
+  add_cases(command, typed.cases);
+  add_run_options(command, typed.run);
+  add_flag_off(command, "--no-reference", typed.reference, "Without Box2D, where no contender is named");
   command
       .add_flag_callback(
           "--no-timing", [] {}, "A sweep measures no costs anyway")
       ->disable_flag_override();
-  on_parsed(command, status, arguments, [](SweepArguments& typed) {
-    forget_repeats(typed.cases);
-    return sweep_command(typed);
-  });
 }
 
 /// A study that is a list of sweeps.
 void add_prepared_study(CLI::App& parent, const PreparedStudy& study, int& status) {
-  CLI::App& command = *parent.add_subcommand(study.name, study.help);
-  const auto arguments = std::make_shared<StudyArguments>();
-  arguments->grid = study.grid;
-  add_option(command, "--grid", arguments->grid, "quick|standard|full", "How many cases");
-  add_cases(command, arguments->cases);
-  add_run_options(command, arguments->run);
-  on_parsed(command, status, arguments, [&study](StudyArguments& typed) {
+  const auto run = [&study](StudyArguments& typed) {
     forget_repeats(typed.cases);
     return study_command(study, typed);
-  });
+  };
+  const auto [command, typed] = add_command<StudyArguments>(parent, status, study.name, study.help, run);
+  typed.grid = study.grid;
+  add_option(command, "--grid", typed.grid, "quick|standard|full", "How many cases");
+  add_cases(command, typed.cases);
+  add_run_options(command, typed.run);
 }
 
 void add_scale(CLI::App& study, int& status) {
-  CLI::App& command = *study.add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
-  const auto arguments = std::make_shared<ScaleArguments>();
-  add_option(command, "--grid", arguments->grid, "N,...",
-             fmt::format("Numbers of pieces, multiples of {}", tiles_per_floor))
+  const auto [command, typed] = add_command<ScaleArguments>(
+      study, status, "scale", "Cost of a step against the number of pieces, per broad phase", study_scale_command);
+  add_option(command, "--grid", typed.grid, "N,...", fmt::format("Numbers of pieces, multiples of {}", tiles_per_floor))
       .check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
-  add_run_outputs(command, arguments->run);
-  on_parsed(command, status, arguments, study_scale_command);
+  add_run_outputs(command, typed.run);
 }
 
 void add_disagreement(CLI::App& study, int& status) {
-  CLI::App& command =
-      *study.add_subcommand("disagreement", "Every event on which octagon_sweep and Box2D differ, and its cause");
-  const auto arguments = std::make_shared<DisagreementArguments>();
-  command.add_option("SCENE", arguments->scenes, std::string(scene_words) + "; every registered one if none is given");
-  add_run_options(command, arguments->run);
-  on_parsed(command, status, arguments, study_disagreement_command);
+  const auto [command, typed] = add_command<DisagreementArguments>(
+      study, status, "disagreement", "Every event on which octagon_sweep and Box2D differ, and its cause",
+      study_disagreement_command);
+  command.add_option("SCENE", typed.scenes, std::string(scene_words) + "; every registered one if none is given");
+  add_run_options(command, typed.run);
 }
 
 void add_precision(CLI::App& app, int& status) {
-  CLI::App& command = *app.add_subcommand("work-precision", "Error against run time, for motions known in closed form");
-  const auto arguments = std::make_shared<PrecisionArguments>();
-  command.add_option("MOTION", arguments->motions, "Only these (without any: all)");
-  add_contenders(command, arguments->contenders);
-  add_run_outputs(command, arguments->run);
-  on_parsed(command, status, arguments, [](PrecisionArguments& typed) {
+  const auto run = [](PrecisionArguments& typed) {
     typed.contenders = chosen(typed.contenders);
     return work_precision_command(typed);
-  });
+  };
+  const auto [command, typed] = add_command<PrecisionArguments>(
+      app, status, "work-precision", "Error against run time, for motions known in closed form", run);
+  command.add_option("MOTION", typed.motions, "Only these (without any: all)");
+  add_contenders(command, typed.contenders);
+  add_run_outputs(command, typed.run);
 }
 
 void add_studies(CLI::App& app, int& status) {
@@ -225,125 +226,97 @@ void add_studies(CLI::App& app, int& status) {
   add_scale(study, status);
   add_precision(app, status);
   for (const PreparedStudy& prepared : prepared_studies())
-    add_prepared_study(std::string_view(prepared.name) == "stability" ? app : study, prepared, status);
+    add_prepared_study(prepared.name == "stability" ? app : study, prepared, status);
   add_disagreement(study, status);
 }
 
-/// What the commands of commands.hpp take.
-struct Words {
-  std::vector<std::string> names;     ///< Of scenes or files.
-  std::string from;                   ///< Of `convert`.
-  std::string to;                     ///< Where the result goes.
-  std::optional<std::uint64_t> seed;  ///< Of `plan`.
-};
-
 void add_rows_commands(CLI::App& app, int& status) {
-  CLI::App& merge = *app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
-  const auto merged = std::make_shared<Words>();
-  merge.add_option("ROWS", merged->names, "Files of rows, .jsonl")->required();
-  add_option(merge, "--rows", merged->to, "FILE.jsonl", "Where they go").required();
-  on_parsed(merge, status, merged, [](const Words& typed) { return merge_command(typed.names, typed.to); });
+  const auto [merge, merged] = add_command<Given>(
+      app, status, "merge", "Put rows of several files together: shards of a sweep, or any", merge_command);
+  merge.add_option("ROWS", merged.names, "Files of rows, .jsonl")->required();
+  add_option(merge, "--rows", merged.to, "FILE.jsonl", "Where they go").required();
 
-  CLI::App& diff = *app.add_subcommand("diff", "Name what changed between two files of rows, costs apart");
-  const auto differed = std::make_shared<Words>();
-  diff.add_option("ROWS", differed->names, "Two files of rows, .jsonl: before and after")->required()->expected(2);
-  on_parsed(diff, status, differed, [](const Words& typed) { return diff_command(typed.names[0], typed.names[1]); });
+  const auto [diff, differed] =
+      add_command<Given>(app, status, "diff", "Name what changed between two files of rows, costs apart", diff_command);
+  diff.add_option("ROWS", differed.names, "Two files of rows, .jsonl: before and after")->required()->expected(2);
 }
 
 void add_judge(CLI::App& app, int& status) {
-  CLI::App& command =
-      *app.add_subcommand("judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic");
-  const auto options = std::make_shared<JudgeOptions>();
-  command.add_option("TRACE", options->traces, "Files written by --trace, or by any other program")->required();
-  command.add_flag("--all", options->all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
-  add_option(command, "--scene", options->scene, "SCENE",
+  const auto [command, typed] = add_command<JudgeOptions>(
+      app, status, "judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic",
+      judge_command);
+  command.add_option("TRACE", typed.traces, "Files written by --trace, or by any other program")->required();
+  command.add_flag("--all", typed.all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
+  add_option(command, "--scene", typed.scene, "SCENE",
              "The scene of the traces: what it says stands instead of their headers");
-  add_settings(command, options->settings);
-  add_steps(command, options->steps);
+  add_settings(command, typed.settings);
+  add_steps(command, typed.steps);
   for (const char* name : {"--set", "--steps"}) command.get_option(name)->needs("--scene");
-  on_parsed(command, status, options, judge_command);
 }
 
 void add_random_runs(CLI::App& app, int& status) {
-  CLI::App& campaign =
-      *app.add_subcommand("campaign", "Run families of random runs, and count what they meet and break");
-  const auto counted = std::make_shared<CampaignArguments>();
-  campaign.add_option("FAMILY", counted->families, "Families such as movers/tiles, or kinds such as movers; none: all");
-  add_option(campaign, "--steps", counted->steps, "N", "Of each family; slow ones take a share")
+  const auto [campaign, counted] = add_command<CampaignArguments>(
+      app, status, "campaign", "Run families of random runs, and count what they meet and break", campaign_command);
+  campaign.add_option("FAMILY", counted.families, "Families such as movers/tiles, or kinds such as movers; none: all");
+  add_option(campaign, "--steps", counted.steps, "N", "Of each family; slow ones take a share")
       .check(CLI::Range(1, 100'000'000));
-  on_parsed(campaign, status, counted, campaign_command);
 
-  CLI::App& replay = *app.add_subcommand("replay", "Run one random run again, as a test or `campaign` names it");
-  const auto again = std::make_shared<ReplayArguments>();
-  replay.add_option("FAMILY", again->family, "Such as movers/tiles")->required();
-  replay.add_option("SEED", again->seed, "Of the run")->required();
-  add_option(replay, "--scene", again->scene_path, "FILE.json", "Write the scene, which has no launches");
+  const auto [replay, again] = add_command<ReplayArguments>(
+      app, status, "replay", "Run one random run again, as a test or `campaign` names it", replay_command);
+  replay.add_option("FAMILY", again.family, "Such as movers/tiles")->required();
+  replay.add_option("SEED", again.seed, "Of the run")->required();
+  add_option(replay, "--scene", again.scene_path, "FILE.json", "Write the scene, which has no launches");
   const auto names = contender_names();
-  const auto add_alike = [&](CLI::App& command, std::string& contender, std::string& trace_stem) {
-    add_option(command, "--contender", contender, "NAME", "Instead of octagon_sweep")
+  const auto add_alike = [&](CLI::App& command, RunSettings& settings) {
+    add_option(command, "--contender", settings.contender, "NAME", "Instead of octagon_sweep")
         .check(expect_one_of({names.begin(), names.end()}));
-    add_option(command, "--trace", trace_stem, "STEM", "Write STEM.<run>.<contender>.<scalar>.jsonl");
+    add_option(command, "--trace", settings.trace_stem, "STEM", "Write STEM.<run>.<contender>.<scalar>.jsonl");
   };
-  add_alike(campaign, counted->contender, counted->trace_stem);
-  add_alike(replay, again->contender, again->trace_stem);
-  on_parsed(replay, status, again, replay_command);
+  add_alike(campaign, counted.settings);
+  add_alike(replay, again.settings);
 }
 
 void add_export(CLI::App& app, int& status) {
   CLI::App& command = *app.add_subcommand("export", "Write what others can use without this project");
   command.require_subcommand(1);
-  CLI::App& queries = *command.add_subcommand("queries", "Questions of first contact, with exact rational answers");
-  struct Asked {
-    int count = 100'000;
-    std::string path;
-    std::vector<std::string> scenes;
-  };
-  const auto asked = std::make_shared<Asked>();
-  add_option(queries, "--count", asked->count, "N", "How many").check(CLI::Range(1, 10'000'000));
-  add_option(queries, "OUT", asked->path, "FILE.jsonl|.csv", "Where they go").required();
-  add_option(queries, "SCENES", asked->scenes, "SCENE|MAP...", "To go through beside the random runs");
-  on_parsed(queries, status, asked,
-            [](const Asked& typed) { return export_queries_command(typed.count, typed.path, typed.scenes); });
+  const auto [queries, asked] = add_command<Given>(
+      command, status, "queries", "Questions of first contact, with exact rational answers", export_queries_command);
+  add_option(queries, "--count", asked.count, "N", "How many").check(CLI::Range(1, 10'000'000));
+  add_option(queries, "OUT", asked.to, "FILE.jsonl|.csv", "Where they go").required();
+  add_option(queries, "SCENES", asked.names, "SCENE|MAP...", "To go through beside the random runs");
 }
 
 void add_report(CLI::App& app, int& status) {
-  CLI::App& command = *app.add_subcommand("report", "Put rows, and pages of --report, into one page");
-  const auto words = std::make_shared<Words>();
-  add_option(command, "FILE", words->to, "FILE.html", "Where the page goes").required();
-  command.add_option("ROWS", words->names, "Files of rows (.jsonl, .json), and pages (.html)")->required();
-  on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.to, typed.names); });
+  const auto [command, typed] =
+      add_command<Given>(app, status, "report", "Put rows, and pages of --report, into one page", report_command);
+  add_option(command, "FILE", typed.to, "FILE.html", "Where the page goes").required();
+  command.add_option("ROWS", typed.names, "Files of rows (.jsonl, .json), and pages (.html)")->required();
 }
 
 void add_scene_commands(CLI::App& app, int& status) {
-  CLI::App& convert = *app.add_subcommand("convert", "Write a map or a built-in scene as a JSON scene");
-  const auto converted = std::make_shared<Words>();
-  convert.add_option("SCENE", converted->from, scene_words)->required();
-  add_option(convert, "OUT", converted->to, "OUT.json", "Where it goes").required();
-  on_parsed(convert, status, converted, [](const Words& typed) { return convert_command(typed.from, typed.to); });
+  const auto [convert, converted] =
+      add_command<Given>(app, status, "convert", "Write a map or a built-in scene as a JSON scene", convert_command);
+  convert.add_option("SCENE", converted.what, scene_words)->required();
+  add_option(convert, "OUT", converted.to, "OUT.json", "Where it goes").required();
 
-  CLI::App& check = *app.add_subcommand("check", "Validate scenes and say what is in them");
-  const auto checked = std::make_shared<Words>();
-  check.add_option("SCENE", checked->names, scene_words)->required();
-  on_parsed(check, status, checked, [](const Words& typed) { return check_command(typed.names); });
+  const auto [check, checked] =
+      add_command<Given>(app, status, "check", "Validate scenes and say what is in them", check_command);
+  check.add_option("SCENE", checked.names, scene_words)->required();
 
-  CLI::App& plan = *app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
-  const auto planned = std::make_shared<Words>();
-  plan.add_option("SCENE", planned->names, scene_words)->required();
-  add_input(plan, planned->seed);
-  on_parsed(plan, status, planned, [](const Words& typed) { return plan_command(typed.names, typed.seed); });
+  const auto [plan, planned] = add_command<Given>(
+      app, status, "plan", "Say what scenes cannot need and runs therefore leave out, and why", plan_command);
+  plan.add_option("SCENE", planned.names, scene_words)->required();
+  add_input(plan, planned.seed);
 }
 
 void add_demo_and_list(CLI::App& app, int& status) {
-  CLI::App& demo = *app.add_subcommand("demo", "The article's bullet, one technique at a time, in the terminal");
-  const auto technique = std::make_shared<std::string>();
-  demo.add_option("TECHNIQUE", *technique, "Only this one");
-  on_parsed(demo, status, technique, demo_command);
+  const auto [demo, shown] = add_command<Given>(
+      app, status, "demo", "The article's bullet, one technique at a time, in the terminal", demo_command);
+  demo.add_option("TECHNIQUE", shown.what, "Only this one");
 
-  CLI::App& list = *app.add_subcommand("list", "Names, one per line");
-  const auto what = std::make_shared<std::string>();
-  add_option(list, "WHAT", *what, "scenes|contenders|families|knobs|metrics|parameters|schema", "Which names")
+  const auto [list, listed] = add_command<Given>(app, status, "list", "Names, one per line", list_command);
+  add_option(list, "WHAT", listed.what, "scenes|contenders|families|knobs|metrics|parameters|schema", "Which names")
       .required();
-  on_parsed(list, status, what, list_command);
 }
 
 /// Why the arguments cannot be used, in one line: with the names that could stand where one is missing or unknown, or

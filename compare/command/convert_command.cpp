@@ -11,12 +11,13 @@
 
 namespace paperproof::compare {
 
-int convert_command(const std::string& from, const std::string& to) {
+int convert_command(const Given& given) {
+  const std::string& to = given.to;
   if (!to.ends_with(".json")) throw InputError("convert: expected an output that ends in .json, not " + to);
   ClaimedFiles files;
-  files.claim(from, "the scene " + from);
+  files.claim(given.what, "the scene " + given.what);
   files.claim_for_option("convert", to);
-  const std::vector<Scene> scenes = load_scenes(from);
+  const std::vector<Scene> scenes = load_scenes(given.what);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     // A level of several sectors is as many scenes.
     const std::string path =

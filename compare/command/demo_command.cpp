@@ -47,7 +47,8 @@ std::string picture(const ReportRun& run, double pixels_per_metre) {
 
 }  // namespace
 
-int demo_command(const std::string& technique) {
+int demo_command(const Given& given) {
+  const std::string& technique = given.what;
   if (!technique.empty()) check_contenders({technique}, "demo");
   const Scene scene = load_scene("article_bullet", {});
   print_out(

@@ -45,17 +45,17 @@ std::string csv_line(const Json& line) {
 
 }  // namespace
 
-int export_queries_command(int count, const std::string& path, const std::vector<std::string>& scenes) {
+int export_queries_command(const Given& given) {
   std::vector<Family> from = families();
-  for (const std::string& name : scenes)
+  for (const std::string& name : given.names)
     std::ranges::transform(load_scenes(name), std::back_inserter(from), ways_through);
   ClaimedFiles files;
-  files.claim_for_option("export queries", path);
-  OutputFile file(path);
-  const bool as_csv = path.ends_with(".csv");
+  files.claim_for_option("export queries", given.to);
+  OutputFile file(given.to);
+  const bool as_csv = given.to.ends_with(".csv");
   if (as_csv) file.write("id,source,points,position,displacement,solids,contact,with,degenerate\n");
   int id = 0;
-  make_queries(count, from, [&](const Query& query) {
+  make_queries(given.count, from, [&](const Query& query) {
     const Json line = query_json(id++, query);
     file.write(as_csv ? csv_line(line) : line.dump() + '\n');
   });

@@ -69,7 +69,8 @@ std::string describe_contenders(const Scene& scene) {
 
 }  // namespace
 
-int list_command(const std::string& what) {
+int list_command(const Given& given) {
+  const std::string& what = given.what;
   std::string text;
   if (what == "contenders") {
     for (const std::string_view name : contender_names()) text += fmt::format("{}\n", name);
@@ -100,18 +101,18 @@ int list_command(const std::string& what) {
   return 0;
 }
 
-int check_command(const std::vector<std::string>& scenes) {
-  for (const std::string& name : scenes)
+int check_command(const Given& given) {
+  for (const std::string& name : given.names)
     for (const Scene& scene : load_scenes(name)) print_out(describe(scene) + describe_contenders(scene) + '\n');
   return 0;
 }
 
-int plan_command(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
-  for (const std::string& name : scenes)
+int plan_command(const Given& given) {
+  for (const std::string& name : given.names)
     for (const Scene& scene : load_scenes(name)) {
       const Scenery scenery(scene.scenery);
       print_out(describe_plan(scene, scenery));  // before the saving is measured, which may take long
-      const Script script = seed ? random_script(scene, *seed, scene.steps) : script_of(scene);
+      const Script script = given.seed ? random_script(scene, *given.seed, scene.steps) : script_of(scene);
       print_out(describe_saving(scene, scenery, script) + '\n');
     }
   return 0;

@@ -98,11 +98,11 @@ class PageOfRecords {
 
 }  // namespace
 
-int report_command(const std::string& path, const std::vector<std::string>& inputs) {
+int report_command(const Given& given) {
   ClaimedFiles files;
-  for (const std::string& input : inputs) files.claim(input, "records");
-  files.claim_for_option("FILE.html", path);
-  PageOfRecords(path, inputs).run();
+  for (const std::string& input : given.names) files.claim(input, "records");
+  files.claim_for_option("FILE.html", given.to);
+  PageOfRecords(given.to, given.names).run();
   return 0;
 }
 

@@ -89,17 +89,17 @@ std::string changes_between(const ordered_json& before, const ordered_json& afte
 
 }  // namespace
 
-int merge_command(const std::vector<std::string>& files, const std::string& rows_path) {
+int merge_command(const Given& given) {
   ClaimedFiles claimed;
   std::vector<std::unique_ptr<RowsReader>> readers;
-  for (const std::string& file : files) {
+  for (const std::string& file : given.names) {
     claimed.claim(file, "rows to merge");
     readers.push_back(std::make_unique<RowsReader>(file));
   }
-  claimed.claim_for_option("--rows", rows_path);
+  claimed.claim_for_option("--rows", given.to);
   ordered_json header = readers.front()->header();
   const std::vector<RowsReader*> shards = in_order(readers);
-  OutputFile out(rows_path);
+  OutputFile out(given.to);
   if (!shards.empty()) {
     const auto cases = header["sweep"]["cases"].get<std::size_t>();
     header["sweep"]["shard"] = {1, 1};
@@ -128,7 +128,9 @@ int merge_command(const std::vector<std::string>& files, const std::string& rows
   return 0;
 }
 
-int diff_command(const std::string& before, const std::string& after) {
+int diff_command(const Given& given) {
+  const std::string& before = given.names[0];
+  const std::string& after = given.names[1];
   const Rows old_rows = rows_of(before);
   const Rows new_rows = rows_of(after);
   std::size_t changed = 0;
