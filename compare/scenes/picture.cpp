@@ -6,19 +6,13 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 
 namespace paperproof::compare {
 namespace {
 
 constexpr std::uint8_t half_transparent = 128;
-
-int digit(char c) noexcept {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 std::string text_of(const std::variant<Colour, PaletteIndex>& pixels) {
   if (const auto* entry = std::get_if<PaletteIndex>(&pixels))
@@ -36,15 +30,12 @@ bool is_named(const PngPicture& picture, const PictureRule& rule, int column, in
 }  // namespace
 
 std::optional<Colour> colour_from(std::string_view text) noexcept {
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  Colour colour{};
-  for (std::size_t i = 0; i < colour.size(); ++i) {
-    const int high = digit(text[1 + 2 * i]);
-    const int low = digit(text[2 + 2 * i]);
-    if (high < 0 || low < 0) return std::nullopt;
-    colour[i] = static_cast<std::uint8_t>(16 * high + low);
-  }
-  return colour;
+  unsigned colour = 0;
+  const char* const end = text.data() + text.size();
+  if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, colour, 16).ptr != end)
+    return std::nullopt;
+  const auto byte = [colour](unsigned shift) { return static_cast<std::uint8_t>(colour >> shift); };
+  return Colour{byte(16), byte(8), byte(0)};
 }
 
 PixelScenery scenery_of(const PngPicture& picture, const PictureRule& rule, double pixels_per_metre,

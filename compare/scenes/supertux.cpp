@@ -58,17 +58,17 @@ class SectorBuilder {
  private:
   void add_tilemap(const SuperTuxTilemap& map, std::size_t index) {
     const std::string own = fmt::format("l{}", index);
-    if (!map.path || map.path->nodes.empty()) {
+    if (!map.path || map.path->waypoints.empty()) {
       size_ = size_.cwiseMax(Vec2d(map.width, map.height));
       return add_still(map, own, Vec2d::Zero());
     }
-    const std::optional<SuperTuxWay> way = way_of(*map.path);
-    if (!way) {
+    const auto& [waypoints, loop, is_clear] = *map.path;
+    if (!is_clear) {
       ++unclear_tilemaps_;
-    } else if (way->waypoints.size() == 1) {
-      add_still(map, own, way->waypoints.front().at);
+    } else if (waypoints.size() == 1) {
+      add_still(map, own, waypoints.front().at);
     } else if (add_tiles(map, own + "/", Vec2d::Zero(), static_cast<MoverIndex>(scene_.movers.size())) > 0) {
-      scene_.movers.push_back({.id = own, .path = way->waypoints, .loop = way->loop});
+      scene_.movers.push_back({.id = own, .path = waypoints, .loop = loop});
     }
   }
 
@@ -112,23 +112,23 @@ class SectorBuilder {
       ++hurting_platforms_;
       return;
     }
-    std::optional<SuperTuxWay> way = platform.path ? way_of(*platform.path) : std::nullopt;
+    auto [waypoints, loop, is_clear] = platform.path.value_or(SuperTuxPath());
     const std::optional<Vec2d> pixels = sprite_size(level_.root, platform.sprite);
-    if (!way || !pixels) {
+    if (!is_clear || waypoints.empty() || !pixels) {
       ++unclear_platforms_;
       return;
     }
     // One that waits for a script stands where its path begins.
-    if (!platform.running) way->waypoints.resize(1);
+    if (!platform.running) waypoints.resize(1);
     const Vec2d size = *pixels / tile_pixels;
     ColliderDef collider;
     collider.points = {{0, -size.y()}, {size.x(), -size.y()}, {size.x(), 0}, {0, 0}};
     scene_.ids.push_back(fmt::format("platform{}", next_platform_++));
-    if (way->waypoints.size() == 1) {
-      for (Vec2d& point : collider.points) point += way->waypoints.front().at;
+    if (waypoints.size() == 1) {
+      for (Vec2d& point : collider.points) point += waypoints.front().at;
     } else {
       collider.mover = static_cast<MoverIndex>(scene_.movers.size());
-      scene_.movers.push_back({.id = scene_.ids.back(), .path = std::move(way->waypoints), .loop = way->loop});
+      scene_.movers.push_back({.id = scene_.ids.back(), .path = std::move(waypoints), .loop = loop});
     }
     scene_.scenery.colliders.push_back(std::move(collider));
   }

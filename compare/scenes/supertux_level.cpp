@@ -26,15 +26,9 @@ enum class Half : std::uint8_t { whole, bottom, top, left, right };
 
 /// (tile (id 1) (solid #t) (data 0)): one tile, its attributes by name.
 void read_tile(const SReader& reader, const SExpression& entry, SuperTuxTiles& tiles) {
-  struct Named {
-    std::string_view name;
-    std::uint32_t bits;
-  };
-  static constexpr std::array named{Named{"solid", solid_bit}, Named{"unisolid", solid_bit | one_way_bits}};
   SuperTuxTile tile;
-  for (const Named& attribute : named) {
-    if (reader.flag(entry, attribute.name, false)) tile.attributes |= attribute.bits;
-  }
+  if (reader.flag(entry, "solid", false)) tile.attributes |= solid_bit;
+  if (reader.flag(entry, "unisolid", false)) tile.attributes |= solid_bit | one_way_bits;
   tile.data = static_cast<std::uint32_t>(reader.integer(entry, "data", 0));
   const int id = reader.integer(entry, "id", std::nullopt);
   if (id > 0) tiles[static_cast<std::uint32_t>(id)] = tile;
@@ -141,22 +135,34 @@ class LevelReader {
   SuperTuxPath path(const SExpression& list) const {
     SuperTuxPath path;
     const std::string_view mode = reader_.text(list, "mode");
-    if (mode == "oneshot") path.mode = SuperTuxPath::Mode::one_shot;
-    if (mode == "pingpong") path.mode = SuperTuxPath::Mode::ping_pong;
-    if (mode == "unordered") path.mode = SuperTuxPath::Mode::unordered;
+    path.is_clear = mode != "unordered";
+    if (mode == "oneshot") path.loop = MoverDef::Loop::once;
+    if (mode == "pingpong") path.loop = MoverDef::Loop::ping_pong;
+    Vec2d before = Vec2d::Zero();  // [px], y down
+    double time = 0;
+    double to_next = 0;
     double speed = 0;
+    const auto add = [&](const Vec2d& at) {
+      time += to_next;
+      // Otherwise it would have to jump.
+      path.is_clear = path.is_clear && (path.waypoints.empty() || time > path.waypoints.back().time);
+      path.waypoints.push_back({.time = time, .at = at});
+    };
     for (const SExpression& entry : list.items) {
       if (entry.head() != "node") continue;
       const Vec2d at{reader_.number(entry, "x", 0), reader_.number(entry, "y", 0)};
-      if (speed > 0) path.nodes.back().time = (at - path.nodes.back().at).norm() / speed;
-      path.nodes.push_back({.at = at, .time = reader_.number(entry, "time", 1)});
+      if (speed > 0) to_next = (at - before).norm() / speed;
+      add({at.x() / pixels_per_metre, 0 - at.y() / pixels_per_metre});
+      to_next = reader_.number(entry, "time", 1);
       speed = reader_.number(entry, "speed", 0);
       for (const char* side : {"before", "after"}) {
         const Vec2d handle{reader_.number(entry, fmt::format("bezier_{}_x", side), at.x()),
                            reader_.number(entry, fmt::format("bezier_{}_y", side), at.y())};
-        if (handle != at) path.curved = true;
+        path.is_clear = path.is_clear && handle == at;  // of a curve it lies apart
       }
+      before = at;
     }
+    if (path.loop == MoverDef::Loop::loop && path.waypoints.size() > 1) add(Vec2d(path.waypoints.front().at));
     return path;
   }
 
@@ -247,33 +253,6 @@ SuperTuxLevel read_supertux_level(const std::string& path, const std::string& gi
     refuse(given, error.what());
   }
   return level;
-}
-
-std::optional<SuperTuxWay> way_of(const SuperTuxPath& path) {
-  if (path.nodes.empty() || path.curved || path.mode == SuperTuxPath::Mode::unordered) return std::nullopt;
-  SuperTuxWay way;
-  double time = 0;
-  const auto add = [&](const SuperTuxPath::Node& node) {
-    way.waypoints.push_back({.time = time, .at = {node.at.x() / pixels_per_metre, 0 - node.at.y() / pixels_per_metre}});
-    time += node.time;
-  };
-  for (const SuperTuxPath::Node& node : path.nodes) add(node);
-  switch (path.mode) {
-    case SuperTuxPath::Mode::circular:
-      if (path.nodes.size() > 1) add(path.nodes.front());
-      way.loop = MoverDef::Loop::loop;
-      break;
-    case SuperTuxPath::Mode::ping_pong:
-      way.loop = MoverDef::Loop::ping_pong;
-      break;
-    case SuperTuxPath::Mode::one_shot:
-    case SuperTuxPath::Mode::unordered:
-      break;
-  }
-  for (std::size_t i = 1; i < way.waypoints.size(); ++i) {
-    if (!(way.waypoints[i].time > way.waypoints[i - 1].time)) return std::nullopt;  // it would have to jump
-  }
-  return way;
 }
 
 std::optional<Vec2d> sprite_size(const std::string& root, const std::string& sprite) {

@@ -35,14 +35,9 @@ struct SuperTuxTile {
 using SuperTuxTiles = std::map<std::uint32_t, SuperTuxTile>;
 
 struct SuperTuxPath {
-  enum class Mode : std::uint8_t { circular, one_shot, ping_pong, unordered };
-  struct Node {
-    Vec2d at{Vec2d::Zero()};  ///< [px], y down
-    double time = 1;          ///< To the next node [s].
-  };
-  Mode mode = Mode::circular;
-  bool curved = false;  ///< A node has handles of a curve that lie apart from it.
-  std::vector<Node> nodes;
+  std::vector<MoverDef::Waypoint> waypoints;  ///< [m, y up]; none: what has this path stands.
+  MoverDef::Loop loop = MoverDef::Loop::loop;
+  bool is_clear = false;  ///< What it does: not of curves, of no order, or where it would have to jump.
 };
 
 struct SuperTuxTilemap {
@@ -80,13 +75,6 @@ struct SuperTuxLevel {
 
 /// @throws InputError
 [[nodiscard]] SuperTuxLevel read_supertux_level(const std::string& path, const std::string& given);
-
-/// A path as waypoints [m, y up], or none where it is not clear what it does.
-struct SuperTuxWay {
-  std::vector<MoverDef::Waypoint> waypoints;
-  MoverDef::Loop loop = MoverDef::Loop::once;
-};
-[[nodiscard]] std::optional<SuperTuxWay> way_of(const SuperTuxPath& path);
 
 /// Width and height of the picture of a sprite [px]; none where it cannot be read.
 /// @param root the folder with images/. @param sprite as the level names it.

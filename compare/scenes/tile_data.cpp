@@ -4,8 +4,6 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include <optional>
-
 #include "scenes/input_error.hpp"
 
 namespace paperproof::compare {
@@ -16,14 +14,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr bool is_xml_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-std::optional<std::uint32_t> base64_value(char c) {
-  if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
-  if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a') + 26;
-  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0') + 52;
-  if (c == '+') return 62;
-  if (c == '/') return 63;
-  return std::nullopt;
-}
+constexpr std::string_view base64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 Bytes unpack_base64(std::string_view text, const std::string& where) {
   Bytes bytes;
@@ -33,13 +24,13 @@ Bytes unpack_base64(std::string_view text, const std::string& where) {
   std::size_t padding = 0;
   for (const char c : text) {
     if (is_xml_space(c)) continue;
-    const std::optional<std::uint32_t> value = base64_value(c);
+    const std::size_t value = base64.find(c);
     if (c == '=') {
       ++padding;
-    } else if (!value || padding > 0) {
+    } else if (value == base64.npos || padding > 0) {
       refuse(where, fmt::format("expected base64; \"{}\" does not belong there", c));
     }
-    bits = bits << 6U | value.value_or(0);
+    bits = bits << 6U | (c == '=' ? 0 : static_cast<std::uint32_t>(value));
     if (++digits % 4 != 0) continue;
     for (const unsigned shift : {16U, 8U, 0U}) bytes.push_back(static_cast<unsigned char>(bits >> shift));
     bits = 0;

@@ -14,37 +14,24 @@ namespace {
 
 /// Cosine and sine of an angle in degrees: exact for multiples of 90, and the same bits on every machine (the library's
 /// are not).
-struct Turn {
-  double cos = 1;
-  double sin = 0;
-};
-
-Turn turn_by(double degrees) {
+Vec2d turn_by(double degrees) {
   const double quarters = std::nearbyint(degrees / 90);
   const double angle = (degrees - quarters * 90) * (std::numbers::pi / 180);  // within +-45 degrees
   // Taylor series; at 45 degrees the first term left out is below 1e-20.
   double term = 1;
-  Turn turn{.cos = 0, .sin = 0};
+  Vec2d turn = Vec2d::Zero();
   for (int n = 0; n < 20; ++n) {
-    const double sign = n % 4 < 2 ? 1 : -1;
-    (n % 2 == 0 ? turn.cos : turn.sin) += sign * term;
+    turn[n % 2] += n % 4 < 2 ? term : -term;
     term *= angle / (n + 1);
   }
-  switch (static_cast<int>(std::fmod(std::fmod(quarters, 4) + 4, 4))) {
-    case 1:
-      return {.cos = -turn.sin, .sin = turn.cos};
-    case 2:
-      return {.cos = -turn.cos, .sin = -turn.sin};
-    case 3:
-      return {.cos = turn.sin, .sin = -turn.cos};
-    default:
-      return turn;
-  }
+  const auto more = static_cast<int>(std::fmod(std::fmod(quarters, 4) + 4, 4));
+  for (int quarter = 0; quarter < more; ++quarter) turn = Vec2d(-turn.y(), turn.x());
+  return turn;
 }
 
 /// Clockwise on the screen, as y points down.
-Vec2d turned(const Vec2d& v, const Turn& turn) {
-  return {v.x() * turn.cos - v.y() * turn.sin, v.x() * turn.sin + v.y() * turn.cos};
+Vec2d turned(const Vec2d& v, const Vec2d& turn) {
+  return {v.x() * turn.x() - v.y() * turn.y(), v.x() * turn.y() + v.y() * turn.x()};
 }
 
 /// How a tile is mirrored within its own rectangle; first the diagonal, then the others, as Tiled does.
@@ -71,7 +58,7 @@ std::vector<Vec2d> rectangle(const Vec2d& size) { return {{0, 0}, {size.x(), 0},
 std::vector<Vec2d> rounded_rectangle(const Vec2d& size, const Vec2d& radii, const std::string& where) {
   constexpr int most = 256;
   int edges = 2;  // of a quarter
-  while (edges <= most && radii.maxCoeff() * (1 - turn_by(45.0 / edges).cos) > straight_within) ++edges;
+  while (edges <= most && radii.maxCoeff() * (1 - turn_by(45.0 / edges).x()) > straight_within) ++edges;
   if (edges > most) refuse(where, "expected a round object with radii of at most 26,000 px; use a polygon");
   std::vector<Vec2d> points;
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -79,8 +66,7 @@ std::vector<Vec2d> rounded_rectangle(const Vec2d& size, const Vec2d& radii, cons
     const bool is_low = quarter == 1 || quarter == 2;
     const Vec2d centre{is_right ? size.x() - radii.x() : radii.x(), is_low ? size.y() - radii.y() : radii.y()};
     for (int k = 0; k <= edges; ++k) {
-      const Turn turn = turn_by(90.0 * (quarter - 1) + 90.0 * k / edges);
-      const Vec2d point = centre + radii.cwiseProduct(Vec2d{turn.cos, turn.sin});
+      const Vec2d point = centre + radii.cwiseProduct(turn_by(90.0 * (quarter - 1) + 90.0 * k / edges));
       if (points.empty() || points.back() != point) points.push_back(point);
     }
   }
@@ -135,7 +121,7 @@ PixelShape outline(const TiledObject& object) {
     case TiledObject::Shape::tile:
       break;
   }
-  const Turn turn = turn_by(object.rotation);
+  const Vec2d turn = turn_by(object.rotation);
   for (Vec2d& point : shape.points) point = turned(point, turn);
   return shape;
 }
@@ -169,7 +155,7 @@ std::vector<PixelShape> shapes_of_tile_object(const TiledMap& map, const TiledOb
   if (!(object.size.minCoeff() > 0) || !(flip.size().minCoeff() > 0)) return {};
   const Vec2d scale = object.size.cwiseQuotient(flip.size());
   const Vec2d corner = -anchor(info.tileset->object_alignment).cwiseProduct(object.size);
-  const Turn turn = turn_by(object.rotation);
+  const Vec2d turn = turn_by(object.rotation);
   std::vector<PixelShape> shapes = shapes_of_tile(info, flip, object.where);
   for (PixelShape& shape : shapes) {
     for (Vec2d& point : shape.points) point = corner + point.cwiseProduct(scale);

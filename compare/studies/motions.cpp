@@ -10,8 +10,8 @@ const std::vector<Motion>& motions() {
   static const std::vector<Motion> all = [] {
     std::vector<Motion> listed;
     for (const Json* text : texts_of("motions"))
-      listed.push_back({text->at("name").get<std::string>().substr(std::string("motion_").size()),
-                        text->at("description"), text->at("duration"), text->value("without_friction", "")});
+      listed.push_back(
+          {text->at("name").get<std::string>().substr(std::string("motion_").size()), text->at("duration")});
     return listed;
   }();
   return all;

@@ -11,10 +11,7 @@ namespace paperproof::compare {
 /// A scene that can be run with steps of any length that divides `longest_step`.
 struct Motion {
   std::string name;
-  std::string description;  ///< With the formula where there is a short one.
-  double duration;          ///< [s]
-  /// Where a body without friction goes another way than octagon_sweep's law has it: how. Empty: both go the same way.
-  std::string without_friction;
+  double duration;  ///< [s]
 };
 
 inline constexpr double longest_step = 1.0 / 15;  ///< [s]
