@@ -95,16 +95,16 @@ class ChartPicture {
       series: chart.series.map((series) => ({...series, own: !series.shown}))
     }));
     this.shown = this.charts.find((chart) => chart.name === first) || this.charts[0];
-    this.select = el(
-        'select', {}, this.charts.map((chart) => el('option', {selected: chart === this.shown}, chart.name)));
-    this.select.addEventListener('change', () => {
+    const choose = () => {
       this.shown = this.charts[this.select.selectedIndex];
       this.draw();
-    });
+    };
+    this.select = el(
+        'select', {onchange: choose},
+        this.charts.map((chart) => el('option', {selected: chart === this.shown}, chart.name)));
     this.caption = el('p', {class: 'chart-title'});
     this.frame = el('div', {class: 'chart'});
-    const own = el('input', {type: 'checkbox'});
-    own.addEventListener('change', () => this.showOwn(own.checked));
+    const own = el('input', {type: 'checkbox', onchange: () => this.showOwn(own.checked)});
     this.own = el('label', {class: 'quiet small'}, own, ' curves over knobs of their own, too');
     this.legend = el('div', {class: 'legend curves', role: 'group', 'aria-label': 'Curves shown'});
     this.numbers = el('div', {});

@@ -24,17 +24,11 @@ function keptInWords(replay) {
 function legend(replay) {
   const toggles = replay.runs.map((run) => {
     const ink = inkOf(run, replay.names);
-    const button =
-        el('button', {type: 'button', 'aria-pressed': 'true', title: 'Show or hide; double-click shows only this one'},
-           el('span', {
-             class: 'swatch',
-             style: `border-color:${ink.colour};border-top-style:${ink.dash.length ? 'dashed' : 'solid'}`
-           }),
-           run.label);
-    button.addEventListener('click', () => replay.toggle(run));
-    button.addEventListener('dblclick', () => replay.only(run));
-    run.button = button;
-    return button;
+    const style = `border-color:${ink.colour};border-top-style:${ink.dash.length ? 'dashed' : 'solid'}`;
+    const title = 'Show or hide; double-click shows only this one', swatch = el('span', {class: 'swatch', style});
+    const acts = {onclick: () => replay.toggle(run), ondblclick: () => replay.setVisible([run])};
+    run.button = el('button', {type: 'button', 'aria-pressed': 'true', title, ...acts}, swatch, run.label);
+    return run.button;
   });
   return el(
       'div', {class: 'bar legend', role: 'group', 'aria-label': 'Contenders shown'}, toggles,
@@ -44,13 +38,11 @@ function legend(replay) {
 
 function cameraBar(replay) {
   const choice = (key, words) => {
-    const input = el('input', {type: 'checkbox'});
-    input.checked = replay.show[key];
-    input.addEventListener('change', () => {
-      replay.show[key] = input.checked;
+    const act = ({target}) => {
+      replay.show[key] = target.checked;
       replay.draw();
-    });
-    return el('label', {}, input, words);
+    };
+    return el('label', {}, el('input', {type: 'checkbox', checked: replay.show[key], onchange: act}), words);
   };
   replay.modeButtons =
       new Map([['event', 'Event'], ['fit', 'Fit scene'], ['ways', 'Fit trajectories'], ['follow', 'Follow']].map(
@@ -85,9 +77,9 @@ function transport(replay) {
     max: Math.max(replay.timeline.length - 1, 0),
     step: 1,
     value: 0,
-    'aria-label': 'Step'
+    'aria-label': 'Step',
+    oninput: ({target}) => replay.seek(Number(target.value))
   });
-  replay.slider.addEventListener('input', () => replay.seek(Number(replay.slider.value)));
   replay.within =
       el('input',
          {type: 'range', class: 'within', min: 0, max: 1, step: 0.001, value: 1, 'aria-label': 'Fraction of the step'});
@@ -96,17 +88,17 @@ function transport(replay) {
     replay.t = Number(replay.within.value);
     replay.draw();
   });
-  const speed =
-      el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === replay.speed}, words)));
-  speed.addEventListener('change', () => {
-    replay.speed = Number(speed.value);
-  });
+  const setSpeed = ({target}) => {
+    replay.speed = Number(target.value);
+  };
+  const speeds = SPEEDS.map(([value, words]) => el('option', {value, selected: value === replay.speed}, words));
   replay.clock = el('span', {class: 'clock'});
   return el(
       'div', {class: 'bar transport', role: 'group', 'aria-label': 'Transport'},
       button('\u25c0', 'One step back', () => replay.move(-1)), replay.playButton,
       button('\u25b6', 'One step forward', () => replay.move(1)), replay.slider, replay.clock,
-      el('label', {}, 'within the step', replay.within), el('label', {}, 'speed', speed));
+      el('label', {}, 'within the step', replay.within),
+      el('label', {}, 'speed', el('select', {onchange: setSpeed}, speeds)));
 }
 
 function jumps(replay) {

@@ -7,19 +7,8 @@ function darkPreferred() {
 
 function theme() {
   const style = getComputedStyle(document.documentElement);
-  const value = (name) => style.getPropertyValue(`--${name}`).trim();
-  return {
-    canvas: value('canvas'),
-    solid: value('solid'),
-    mover: value('mover'),
-    edge: value('solid-edge'),
-    chain: value('chain'),
-    grid: value('grid'),
-    text: value('text'),
-    quiet: value('quiet'),
-    bad: value('bad'),
-    accent: value('accent')
-  };
+  const names = ['canvas', 'solid', 'mover', 'edge', 'chain', 'grid', 'text', 'quiet', 'bad', 'accent'];
+  return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
 /// As many as there are contenders. Ours, the first, is the only blue one.
@@ -102,15 +91,32 @@ class Painter {
         box[1] <= this.worldY(0);
   }
 
+  /// Adds a line through pixels to the path.
+  line(points) {
+    points.forEach(([x, y], i) => (i === 0 ? this.context.moveTo(x, y) : this.context.lineTo(x, y)));
+  }
+
+  /// The same through metres. @param flat one coordinate after the other.
   ring(flat, close) {
-    for (let i = 0; i < flat.length; i += 2) {
-      const x = this.toX(flat[i]), y = this.toY(flat[i + 1]);
-      if (i === 0)
-        this.context.moveTo(x, y);
-      else
-        this.context.lineTo(x, y);
-    }
+    this.context.moveTo(this.toX(flat[0]), this.toY(flat[1]));
+    for (let i = 2; i < flat.length; i += 2) this.context.lineTo(this.toX(flat[i]), this.toY(flat[i + 1]));
     if (close) this.context.closePath();
+  }
+
+  pixels(corners) {
+    return corners.map(([x, y]) => [this.toX(x), this.toY(y)]);
+  }
+
+  /// Draws the lines that `add` adds to the path.
+  stroke(colour, width, dash, add) {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.setLineDash(dash);
+    c.beginPath();
+    add();
+    c.stroke();
+    c.setLineDash([]);
   }
 
   /// As it is at a fraction of a step.
@@ -130,21 +136,15 @@ class Painter {
     const polygons = visible.filter((collider) => !collider.chain);
     const c = this.context;
     c.beginPath();
-    for (const collider of polygons)
-      for (const ring of collider.rings) this.ring(ring, true);
+    for (const collider of polygons) this.outline(collider);
     c.fillStyle = fill;
     c.fill('nonzero');
     // Outlines of pieces that are a few pixels wide would be nothing but grey; paper would vanish without one.
-    c.beginPath();
-    for (const collider of polygons) {
-      const w = (collider.box[2] - collider.box[0]) * this.camera.scale,
-            h = (collider.box[3] - collider.box[1]) * this.camera.scale;
-      if (Math.min(w, h) > 7 || Math.min(w, h) < 2)
-        for (const ring of collider.rings) this.ring(ring, true);
-    }
-    c.strokeStyle = this.colours.edge;
-    c.lineWidth = 0.75;
-    c.stroke();
+    const isOutlined = ({box}) => {
+      const thickness = Math.min(box[2] - box[0], box[3] - box[1]) * this.camera.scale;
+      return thickness > 7 || thickness < 2;
+    };
+    this.stroke(this.colours.edge, 0.75, [], () => polygons.filter(isOutlined).forEach((one) => this.outline(one)));
     for (const collider of visible) {
       if (collider.chain)
         this.chain(collider);
@@ -153,44 +153,33 @@ class Painter {
     }
   }
 
+  outline(collider) {
+    for (const ring of collider.rings) this.ring(ring, !collider.chain);
+  }
+
   /// Blocks nothing: an outline that lets see through.
   sensor(collider) {
-    const c = this.context;
-    c.strokeStyle = this.colours.quiet;
-    c.lineWidth = 1.5;
-    c.setLineDash([5, 4]);
-    c.beginPath();
-    for (const ring of collider.rings) this.ring(ring, !collider.chain);
-    c.stroke();
-    c.setLineDash([]);
+    this.stroke(this.colours.quiet, 1.5, [5, 4], () => this.outline(collider));
   }
 
   chain(collider) {
-    const c = this.context, flat = collider.rings[0];
-    c.strokeStyle = this.colours.chain;
-    c.lineWidth = 2;
-    c.beginPath();
-    this.ring(flat, false);
-    c.stroke();
+    const flat = collider.rings[0];
+    this.stroke(this.colours.chain, 2, [], () => this.ring(flat, false));
     if (!collider.oneWay) return;
-    c.lineWidth = 1;
-    c.beginPath();
-    for (let i = 0; i + 3 < flat.length; i += 2) this.ticks(flat.slice(i, i + 4), collider.oneWay);
-    c.stroke();
+    this.stroke(this.colours.chain, 1, [], () => {
+      for (let i = 0; i + 3 < flat.length; i += 2) this.ticks(flat.slice(i, i + 4), collider.oneWay);
+    });
   }
 
   /// Of a one-way polygon: its outer ring is counter-clockwise, so that an edge faces to its right.
-  blockingSides(collider) {
-    const c = this.context, flat = [...collider.rings[0], ...collider.rings[0].slice(0, 2)];
-    c.strokeStyle = this.colours.chain;
-    c.lineWidth = 1;
-    c.beginPath();
-    for (let i = 0; i + 3 < flat.length; i += 2) {
-      const [x0, y0, x1, y1] = flat.slice(i, i + 4);
-      if ((y1 - y0) * collider.oneWay[0] - (x1 - x0) * collider.oneWay[1] > 0)
-        this.ticks([x0, y0, x1, y1], collider.oneWay);
-    }
-    c.stroke();
+  blockingSides({rings: [ring], oneWay}) {
+    const flat = [...ring, ...ring.slice(0, 2)];
+    this.stroke(this.colours.chain, 1, [], () => {
+      for (let i = 0; i + 3 < flat.length; i += 2) {
+        const [x0, y0, x1, y1] = flat.slice(i, i + 4);
+        if ((y1 - y0) * oneWay[0] - (x1 - x0) * oneWay[1] > 0) this.ticks([x0, y0, x1, y1], oneWay);
+      }
+    });
   }
 
   /// Short strokes on the side from which a one-way segment blocks.
@@ -207,41 +196,28 @@ class Painter {
     const count = Math.max(1, Math.min(200, Math.floor((length * this.camera.scale) / 10)));
     for (let i = 0; i < count; ++i) {
       const part = (i + 0.5) / count, x = this.toX(x0 + (x1 - x0) * part), y = this.toY(y0 + (y1 - y0) * part);
-      this.context.moveTo(x, y);
-      this.context.lineTo(x + nx * 6, y - ny * 6);
+      this.line([[x, y], [x + nx * 6, y - ny * 6]]);
     }
   }
 
   /// The outline of one collider, emphasised.
   highlight(collider, colour, dash = []) {
-    const c = this.context;
-    c.setLineDash(dash);
-    c.strokeStyle = colour;
-    c.lineWidth = 2;
-    c.globalAlpha = 0.5;
-    c.beginPath();
-    for (const ring of collider.rings) this.ring(ring, !collider.chain);
-    c.stroke();
-    c.setLineDash([]);
-    c.globalAlpha = 1;
+    this.context.globalAlpha = 0.5;
+    this.stroke(colour, 2, dash, () => this.outline(collider));
+    this.context.globalAlpha = 1;
   }
 
   octagon(hull, x, y, {colour, fill = false, dash = [], alpha = 1}) {
     const c = this.context;
     c.globalAlpha = alpha;
-    c.beginPath();
-    this.ring(hull.map((v, i) => v + (i % 2 === 0 ? x : y)), true);
-    if (fill) {
+    this.stroke(colour, 1.75, dash, () => {
+      this.ring(hull.map((v, i) => v + (i % 2 === 0 ? x : y)), true);
+      if (!fill) return;
       c.globalAlpha = alpha * 0.25;
       c.fillStyle = colour;
       c.fill();
       c.globalAlpha = alpha;
-    }
-    c.setLineDash(dash);
-    c.strokeStyle = colour;
-    c.lineWidth = 1.75;
-    c.stroke();
-    c.setLineDash([]);
+    });
     c.globalAlpha = 1;
     this.dot(x, y, 1.75, colour);
   }
@@ -263,55 +239,40 @@ class Painter {
 
   /// The way within one step, a diamond at each corner.
   way(path, colour, dashed) {
-    const c = this.context;
-    c.strokeStyle = colour;
-    c.lineWidth = 2.5;
-    c.setLineDash(dashed ? [3, 3] : []);
-    c.beginPath();
-    path.forEach(([x, y], i) => (i === 0 ? c.moveTo(this.toX(x), this.toY(y)) : c.lineTo(this.toX(x), this.toY(y))));
-    c.stroke();
-    c.setLineDash([]);
+    const c = this.context, pixels = this.pixels(path);
+    this.stroke(colour, 2.5, dashed ? [3, 3] : [], () => this.line(pixels));
     c.fillStyle = colour;
-    for (const corner of path.slice(1, -1)) {
-      const x = this.toX(corner[0]), y = this.toY(corner[1]);
+    for (const [x, y] of pixels.slice(1, -1)) {
       c.beginPath();
-      c.moveTo(x - 4, y);
-      c.lineTo(x, y - 4);
-      c.lineTo(x + 4, y);
-      c.lineTo(x, y + 4);
+      this.line([[x - 4, y], [x, y - 4], [x + 4, y], [x, y + 4]]);
       c.fill();
     }
   }
 
   /// All the ways of a run from one stored step to another.
   trajectory(steps, from, to, {colour, dash, alpha}) {
-    const c = this.context;
-    c.strokeStyle = colour;
-    c.lineWidth = 1.5;
-    c.globalAlpha = alpha;
-    c.setLineDash(dash);
-    c.beginPath();
-    for (let i = Math.max(from, 0); i < to; ++i) {
-      const jump = i === from || steps[i].respawn;
-      steps[i].path.forEach(
-          ([x, y], k) => (jump && k === 0 ? c.moveTo(this.toX(x), this.toY(y)) : c.lineTo(this.toX(x), this.toY(y))));
-    }
-    c.stroke();
-    c.setLineDash([]);
-    c.globalAlpha = 1;
+    this.context.globalAlpha = alpha;
+    this.stroke(colour, 1.5, dash, () => {
+      let joined = [];
+      for (let i = Math.max(from, 0); i < to; ++i) {
+        if (steps[i].respawn) {
+          this.line(joined);
+          joined = [];
+        }
+        joined.push(...this.pixels(steps[i].path));
+      }
+      this.line(joined);
+    });
+    this.context.globalAlpha = 1;
   }
 
   contact({point: [x, y], normal: [nx, ny]}, colour, length = 26) {
     const c = this.context, px = this.toX(x), py = this.toY(y), ex = px + nx * length, ey = py - ny * length;
-    c.strokeStyle = colour;
-    c.lineWidth = 2;
-    c.beginPath();
-    c.moveTo(px, py);
-    c.lineTo(ex, ey);
-    c.moveTo(ex - 6 * nx + 4 * ny, ey + 6 * ny + 4 * nx);
-    c.lineTo(ex, ey);
-    c.lineTo(ex - 6 * nx - 4 * ny, ey + 6 * ny - 4 * nx);
-    c.stroke();
+    const barb = (side) => [ex - 6 * nx + side * ny, ey + 6 * ny + side * nx];
+    this.stroke(colour, 2, [], () => {
+      this.line([[px, py], [ex, ey]]);
+      this.line([barb(4), [ex, ey], barb(-4)]);
+    });
     c.fillStyle = this.colours.canvas;
     c.beginPath();
     c.arc(px, py, 4, 0, 2 * Math.PI);
@@ -322,27 +283,17 @@ class Painter {
   velocity(x, y, [vx, vy], colour) {
     const speed = Math.hypot(vx, vy);
     if (!(speed > 0)) return;
-    const c = this.context, length = Math.min(60, 14 + 8 * Math.log1p(speed));
-    c.strokeStyle = colour;
-    c.lineWidth = 1;
-    c.setLineDash([2, 2]);
-    c.beginPath();
-    c.moveTo(this.toX(x), this.toY(y));
-    c.lineTo(this.toX(x) + (vx / speed) * length, this.toY(y) - (vy / speed) * length);
-    c.stroke();
-    c.setLineDash([]);
+    const [[px, py]] = this.pixels([[x, y]]), length = Math.min(60, 14 + 8 * Math.log1p(speed));
+    const end = [px + (vx / speed) * length, py - (vy / speed) * length];
+    this.stroke(colour, 1, [2, 2], () => this.line([[px, py], end]));
   }
 
   cross(x, y) {
-    const c = this.context, px = this.toX(x), py = this.toY(y);
-    c.strokeStyle = this.colours.bad;
-    c.lineWidth = 2.5;
-    c.beginPath();
-    c.moveTo(px - 5, py - 5);
-    c.lineTo(px + 5, py + 5);
-    c.moveTo(px + 5, py - 5);
-    c.lineTo(px - 5, py + 5);
-    c.stroke();
+    const px = this.toX(x), py = this.toY(y);
+    this.stroke(this.colours.bad, 2.5, [], () => {
+      this.line([[px - 5, py - 5], [px + 5, py + 5]]);
+      this.line([[px + 5, py - 5], [px - 5, py + 5]]);
+    });
   }
 
   scaleBar() {
@@ -352,14 +303,8 @@ class Painter {
     c.fillStyle = this.colours.canvas;
     c.fillRect(6, y - 20, pixels + 12, 26);
     c.globalAlpha = 1;
-    c.strokeStyle = this.colours.quiet;
-    c.lineWidth = 1.5;
-    c.beginPath();
-    c.moveTo(12, y - 4);
-    c.lineTo(12, y);
-    c.lineTo(12 + pixels, y);
-    c.lineTo(12 + pixels, y - 4);
-    c.stroke();
+    const ends = [[12, y - 4], [12, y], [12 + pixels, y], [12 + pixels, y - 4]];
+    this.stroke(this.colours.quiet, 1.5, [], () => this.line(ends));
     c.fillStyle = this.colours.quiet;
     c.font = '12px system-ui, sans-serif';
     c.fillText(lengthInWords(metres), 18, y - 5);

@@ -39,8 +39,8 @@ class Strip {
     this.step = focus ? focus.step : 0;
     this.t = 1;
     this.tiles = scene.rows.map((row) => this.tile(scene, row));
-    this.slider = el('input', {type: 'range', min: 0, max: 1, step: 0.001, value: 1, 'aria-label': 'Fraction of the step'});
-    this.slider.addEventListener('input', () => this.show(Number(this.slider.value)));
+    const slide = ({target}) => this.show(Number(target.value));
+    this.slider = el('input', {type: 'range', min: 0, max: 1, step: 0.001, value: 1, 'aria-label': 'Fraction of the step', oninput: slide});
     this.button = el('button', {type: 'button', onclick: () => this.play()}, 'Play');
     this.clock = el('span', {class: 'clock'});
     this.nodes = [

@@ -36,9 +36,6 @@ class Replay {
     const next = this.runs.filter((other) => this.visible.has(other) !== (other === run));
     this.setVisible(next);
   }
-  only(run) {
-    this.setVisible([run]);
-  }
   setVisible(runs) {
     this.visible = new Set(runs);
     for (const run of this.runs) run.button.setAttribute('aria-pressed', String(this.visible.has(run)));

@@ -19,14 +19,7 @@ class StepTimes {
   /// The step that is going on after so many seconds, and the fraction of it that is over.
   stepAt(seconds) {
     const rounds = Math.floor(seconds / this.round), rest = seconds - rounds * this.round;
-    let low = 0, high = this.lengths.length;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.begins[middle] <= rest)
-        low = middle;
-      else
-        high = middle;
-    }
+    const low = this.begins.findLastIndex((begin) => begin <= rest);
     const fraction = Math.min(1, (rest - this.begins[low]) / this.lengths[low]);
     return {step: rounds * this.lengths.length + low, fraction};
   }

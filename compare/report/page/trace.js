@@ -135,15 +135,7 @@ function drawnAt(steps, index, t) {
 
 /// Position in `run.steps` of the last stored step that is not later than `step`; -1 before the first.
 function indexAt(run, step) {
-  let low = 0, high = run.steps.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (run.steps[middle].step <= step)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low - 1;
+  return run.steps.findLastIndex((stored) => stored.step <= step);
 }
 
 // --- reading, and saving ---
