@@ -16,22 +16,19 @@
 namespace paperproof::compare::continuous {
 
 /// One straight part. The solid is on the left of the way from `begin` to `end`, the free side on the right.
-template <class Real>
 struct Facet {
   static constexpr std::size_t none = ~std::size_t{0};
-  Point<Real> begin;   ///< [m]; of a mover, where it is at offset zero.
-  Point<Real> along;   ///< Unit vector from begin to end.
-  Point<Real> normal;  ///< Unit vector to the free side.
-  Real length{0};      ///< [m]
+  Point begin;     ///< [m]; of a mover, where it is at offset zero.
+  Point along;     ///< Unit vector from begin to end.
+  Point normal;    ///< Unit vector to the free side.
+  Real length{0};  ///< [m]
   bool walkable = false;
   std::size_t before = none;  ///< The facet that ends where this one begins, at a convex corner of the outline.
   std::size_t after = none;   ///< The facet that begins where this one ends, at a convex corner of the outline.
-  ColliderIndex collider = 0;
   MoverIndex mover = no_mover;
 };
 
 /// Of all colliders that block, in their order. Sensors have none.
-template <class Real>
-[[nodiscard]] std::vector<Facet<Real>> facets_of(const Scene& scene);
+[[nodiscard]] std::vector<Facet> facets_of(const Scene& scene);
 
 }  // namespace paperproof::compare::continuous

@@ -11,7 +11,6 @@
 namespace paperproof::compare::continuous {
 
 /// An event of step k takes effect when that step begins. The events must outlive this.
-template <class Real>
 class InputTimes {
  public:
   InputTimes(const Scene& scene, const std::vector<InputEvent>& events) : events_(events) {
@@ -23,7 +22,7 @@ class InputTimes {
   [[nodiscard]] const Real& end() const { return end_; }
   /// The next event after a time, or the end.
   [[nodiscard]] Real next_after(const Real& time) const {
-    const auto next = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto next = std::ranges::upper_bound(times_, time);
     return next == times_.end() ? end_ : std::min(*next, end_);
   }
 

@@ -61,59 +61,50 @@ enum class Law : std::uint8_t {
 };
 
 /// A surface that is touched.
-template <class Real>
 struct Touch {
   std::size_t facet = 0;
-  Point<Real> normal;  ///< Unit vector to the free side.
+  Point normal;  ///< Unit vector to the free side.
   bool walkable = false;
   /// Where it is touched at a convex corner of the outline: the normal on the corner's other side. Only what enters
   /// both sides enters the corner.
-  std::optional<Point<Real>> corner{};
+  std::optional<Point> corner{};
 };
 
 /// The velocity after the impact of one that enters some of the surfaces touched.
 /// @param stood it stood on walkable ground up to this moment.
-template <class Real>
-[[nodiscard]] Point<Real> after_impact(Law law, Point<Real> velocity, std::span<const Touch<Real>> touched, bool stood);
+[[nodiscard]] Point after_impact(Law law, Point velocity, std::span<const Touch> touched, bool stood);
 
 /// The velocity without a climb: by octagon_sweep's law nothing rises along a steep surface that gravity presses onto.
-template <class Real>
-[[nodiscard]] Point<Real> without_climb(Law law, Point<Real> velocity, std::span<const Touch<Real>> touched);
+[[nodiscard]] Point without_climb(Law law, Point velocity, std::span<const Touch> touched);
 
 /// The motion of a step.
-template <class Real>
 struct StepMotion {
-  Point<Real> velocity;
-  Point<Real> momentum;  ///< Velocity without what this step's steering adds,
-  Real steered{0};       ///< and what that adds across, unless a surface answered it as momentum.
+  Point velocity;
+  Point momentum;   ///< Velocity without what this step's steering adds,
+  Real steered{0};  ///< and what that adds across, unless a surface answered it as momentum.
 };
 
 /// The law of steps: the motion after the impact of one that enters some of the surfaces touched.
 /// @param stood it stands on walkable ground up to this moment.
-template <class Real>
-[[nodiscard]] StepMotion<Real> after_impact(Law law, const StepMotion<Real>& step, std::span<const Touch<Real>> touched,
-                                            bool stood);
+[[nodiscard]] StepMotion after_impact(Law law, const StepMotion& step, std::span<const Touch> touched, bool stood);
 
 /// What acts on a body that enters nothing.
-template <class Real>
 struct Forces {
-  Point<Real> velocity;  ///< Relative to what carries it [m/s].
-  Real fall{0};          ///< Acceleration downwards: gravity, or 0 at the greatest speed of falling [m/s²].
-  Real missing{0};       ///< What is missing to the wanted horizontal speed [m/s]; 0 where it is reached.
-  Real on_ground{0};     ///< Acceleration of steering [m/s²], 0 where nothing steers,
-  Real in_air{0};        ///< and that in the air.
+  Point velocity;     ///< Relative to what carries it [m/s].
+  Real fall{0};       ///< Acceleration downwards: gravity, or 0 at the greatest speed of falling [m/s²].
+  Real missing{0};    ///< What is missing to the wanted horizontal speed [m/s]; 0 where it is reached.
+  Real on_ground{0};  ///< Acceleration of steering [m/s²], 0 where nothing steers,
+  Real in_air{0};     ///< and that in the air.
 };
 
 /// How it goes on.
-template <class Real>
 struct Hold {
-  Point<Real> acceleration;
+  Point acceleration;
   std::vector<std::size_t> facets{};  ///< That hold it.
   bool stands = false;
   bool chatters = false;  ///< The ground holds it with the acceleration of the ground, and not with that of the air.
 };
 
-template <class Real>
-[[nodiscard]] Hold<Real> acceleration_of(Law law, const Forces<Real>& forces, std::span<const Touch<Real>> touched);
+[[nodiscard]] Hold acceleration_of(Law law, const Forces& forces, std::span<const Touch> touched);
 
 }  // namespace paperproof::compare::continuous

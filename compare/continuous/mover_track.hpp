@@ -9,17 +9,15 @@
 namespace paperproof::compare::continuous {
 
 /// Where a mover is from some moment on.
-template <class Real>
 struct Leg {
-  Point<Real> offset;         ///< At that moment [m].
-  Point<Real> velocity;       ///< [m/s]
+  Point offset;               ///< At that moment [m].
+  Point velocity;             ///< [m/s]
   std::optional<Real> until;  ///< When it ends [s]; absent: never.
 };
 
 /// The leg that a mover is on at a time and right after it. Seconds count from the start of the scene.
-template <class Real>
-[[nodiscard]] Leg<Real> leg_at(const MoverDef& mover, const Real& time) {
-  const auto place = [&](std::size_t i) { return Point<Real>{Real(mover.path[i].at.x()), Real(mover.path[i].at.y())}; };
+[[nodiscard]] inline Leg leg_at(const MoverDef& mover, const Real& time) {
+  const auto place = [&](std::size_t i) { return point_of(mover.path[i].at); };
   const auto moment = [&](std::size_t i) { return Real(mover.path[i].time); };
   const std::size_t last = mover.path.size() - 1;
   if (time < moment(0)) return {place(0), {}, moment(0)};
@@ -34,9 +32,9 @@ template <class Real>
   };
   for (std::size_t k = 0; k < last; ++k) {
     if (time >= reached(k + 1)) continue;
-    const Point<Real> from = place(back ? last - k : k);
-    const Point<Real> to = place(back ? last - k - 1 : k + 1);
-    const Point<Real> velocity = (to - from) * (1 / (reached(k + 1) - reached(k)));
+    const Point from = place(back ? last - k : k);
+    const Point to = place(back ? last - k - 1 : k + 1);
+    const Point velocity = (to - from) * (1 / (reached(k + 1) - reached(k)));
     return {from + velocity * (time - reached(k)), velocity, reached(k + 1)};
   }
   return {place(last), {}, std::nullopt};

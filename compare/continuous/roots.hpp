@@ -9,9 +9,8 @@ namespace paperproof::compare::continuous {
 
 /// The time t > 0 at which a + b t + c t² / 2 falls through zero. Nothing where it never does; of what is at zero and
 /// falling already nothing either. There is one such time at most: a parabola falls through a line once.
-template <class Real>
-[[nodiscard]] std::optional<Real> falls_through_zero(const Real& a, const Real& b, const Real& c) {
-  const Real& zero = same<Real>();
+[[nodiscard]] inline std::optional<Real> falls_through_zero(const Real& a, const Real& b, const Real& c) {
+  const Real& zero = same();
   if (abs(a) <= zero) {
     if (!(b > zero) || !(c < 0)) return std::nullopt;
     return Real(-2 * b / c);

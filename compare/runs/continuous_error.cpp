@@ -26,7 +26,7 @@ bool is_small(const Scene& scene) {
 Courses courses_of(const Scene& scene, const std::vector<InputEvent>& input, continuous::Law law) {
   const auto course = [&](continuous::Time time) -> std::optional<continuous::Course<double>> {
     try {
-      return continuous::rounded(continuous::course_of<continuous::Number<50>>(scene, input, law, time));
+      return continuous::rounded(continuous::course_of(scene, input, law, time));
     } catch (const continuous::NotCovered&) {
       return std::nullopt;
     }
@@ -56,7 +56,7 @@ ContinuousError::ContinuousError(const std::vector<const Courses*>& courses) {
 
 void ContinuousError::add(const Vec2d& position, double time) {
   ++count_;
-  const auto from = [&](const continuous::Course<double>& course) { return (position - course.at(time)).norm(); };
+  const auto from = [&](const continuous::Course<double>& course) { return (position - course.place_at(time)).norm(); };
   for (Beside& one : beside_) {
     if (one.courses->steps) one.largest_of_law = std::max(one.largest_of_law, from(*one.courses->steps));
     if (!one.courses->motion) continue;
@@ -69,8 +69,8 @@ void ContinuousError::add(const Vec2d& position, double time) {
 void ContinuousError::add_hanging(const Vec2d& from, double asked, double begin, double end) {
   hanging_by_law_ += std::any_of(beside_.begin(), beside_.end(), [&](const Beside& one) {
     if (!one.courses->steps) return false;
-    const Vec2d there = one.courses->steps->at(begin);
-    const double fell = there.y() - one.courses->steps->at(end).y();
+    const Vec2d there = one.courses->steps->place_at(begin);
+    const double fell = there.y() - one.courses->steps->place_at(end).y();
     return (from - there).norm() <= near_course && fell < least_share * asked;
   });
 }
