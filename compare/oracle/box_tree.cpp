@@ -1,69 +1,41 @@
 #include "oracle/box_tree.hpp"
 
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
+
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace paperproof::compare::detail {
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;
-constexpr std::size_t max_depth = 64;
+namespace geometry = boost::geometry;
+using Corner = geometry::model::point<double, 2, geometry::cs::cartesian>;
+using Entry = std::pair<geometry::model::box<Corner>, std::uint32_t>;
+
+geometry::model::box<Corner> same(const Box2& box) {
+  return {Corner(box.lower.x(), box.lower.y()), Corner(box.upper.x(), box.upper.y())};
+}
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box2> boxes, std::vector<std::uint32_t> names)
-    : boxes_(std::move(boxes)), names_(std::move(names)), order_(boxes_.size()) {
-  if (boxes_.empty()) return;
-  std::iota(order_.begin(), order_.end(), 0U);
-  nodes_.reserve(boxes_.size());
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(boxes_.size()));
-}
+struct BoxTree::Tree : geometry::index::rtree<Entry, geometry::index::quadratic<8>> {
+  using rtree::rtree;
+};
 
-void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  Box2 box = boxes_[order_[first]];
-  for (std::uint32_t i = first + 1; i < first + count; ++i) box = box.merged(boxes_[order_[i]]);
-  nodes_[node].box = box;
-  if (count <= leaf_size) {
-    nodes_[node].first = first;
-    nodes_[node].count = count;
-    return;
-  }
-  const bool wide = box.upper.x() - box.lower.x() >= box.upper.y() - box.lower.y();
-  const auto centre = [&](std::uint32_t i) {
-    const Box2& b = boxes_[i];
-    return wide ? b.lower.x() + b.upper.x() : b.lower.y() + b.upper.y();
-  };
-  const std::uint32_t half = count / 2;
-  const auto begin = order_.begin() + first;
-  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-    return centre(a) != centre(b) ? centre(a) < centre(b) : a < b;
-  });
-  const auto left = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = left;
-  nodes_.emplace_back();
-  nodes_.emplace_back();
-  build(left, first, half);
-  build(left + 1, first + half, count - half);
+BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> names) {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < boxes.size(); ++i) entries.emplace_back(same(boxes[i]), names[i]);
+  tree_ = std::make_shared<const Tree>(entries);
 }
 
 std::vector<std::uint32_t> BoxTree::meeting(const Box2& box) const {
   std::vector<std::uint32_t> found;
-  if (nodes_.empty()) return found;
-  std::array<std::uint32_t, max_depth> waiting{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const Node& node = nodes_[waiting[--size]];
-    if (!node.box.overlaps(box)) continue;
-    if (node.count == 0) {
-      waiting[size++] = node.first + 1;
-      waiting[size++] = node.first;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (boxes_[order_[i]].overlaps(box)) found.push_back(names_[order_[i]]);
-    }
-  }
-  std::sort(found.begin(), found.end());
+  const auto add = [&](const Entry& entry) { found.push_back(entry.second); };
+  if (tree_) tree_->query(geometry::index::intersects(same(box)), boost::make_function_output_iterator(add));
+  std::ranges::sort(found);
   return found;
 }
 

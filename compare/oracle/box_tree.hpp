@@ -1,8 +1,9 @@
-/// A binary tree of boxes: which of them meet a given box. The oracle's own, independent of the controller's.
+/// A tree of boxes: which of them meet a given box. Boost's, independent of the controller's.
 #pragma once
 
 #include <paperproof/types.hpp>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,23 +14,14 @@ class BoxTree {
  public:
   BoxTree() = default;
   /// @param names what each box is called in an answer.
-  BoxTree(std::vector<Box2> boxes, std::vector<std::uint32_t> names);
+  BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> names);
 
   /// The names of the boxes that meet `box` (closed), ascending.
   [[nodiscard]] std::vector<std::uint32_t> meeting(const Box2& box) const;
 
  private:
-  struct Node {
-    Box2 box;
-    std::uint32_t first = 0;  ///< Leaf: into `order_`. Inner node: the left child; the right one follows it.
-    std::uint32_t count = 0;  ///< 0 for an inner node.
-  };
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-
-  std::vector<Box2> boxes_;
-  std::vector<std::uint32_t> names_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  struct Tree;
+  std::shared_ptr<const Tree> tree_;
 };
 
 }  // namespace paperproof::compare::detail

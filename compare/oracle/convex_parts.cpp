@@ -26,7 +26,7 @@ Polygon with_windings(const ColliderDef& def) {
       ring.push_back(static_cast<std::uint32_t>(polygon.vertices.size()));
       polygon.vertices.push_back(point);
     }
-    if (winding(points) != wanted) std::reverse(ring.begin(), ring.end());
+    if (winding(points) != wanted) std::ranges::reverse(ring);
     polygon.rings.push_back(std::move(ring));
   };
   add(def.points, Sign::positive);
@@ -39,16 +39,9 @@ Sign turn_at(const Polygon& polygon, const Ring& ring, std::size_t i) {
   return turn(polygon.vertices[ring[(i + n - 1) % n]], polygon.vertices[ring[i]], polygon.vertices[ring[(i + 1) % n]]);
 }
 
-bool is_convex(const Polygon& polygon, const Ring& ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (turn_at(polygon, ring, i) == Sign::negative) return false;
-  }
-  return true;
-}
-
 /// Strictly between a and b, for a point on their line.
 bool between(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
-  return p != a && p != b && Box2{a.cwiseMin(b), a.cwiseMax(b)}.overlaps({p, p});
+  return p != a && p != b && Box2::between(a, b).overlaps({p, p});
 }
 
 /// Whether the open segments a-b and c-d have a point in common, or an end of one lies inside the other.
@@ -124,7 +117,7 @@ void join_holes(Polygon& polygon) {
 }
 
 bool in_closed_triangle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& p) {
-  if (!Box2{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.overlaps({p, p})) return false;
+  if (!Box2::between(a, b).with(c).overlaps({p, p})) return false;
   return turn(a, b, p) != Sign::negative && turn(b, c, p) != Sign::negative && turn(c, a, p) != Sign::negative;
 }
 
@@ -211,7 +204,7 @@ class Parts {
   [[nodiscard]] bool stays_convex(const Ring& left, std::size_t at, const Ring& right) const {
     const std::size_t n = left.size();
     const std::size_t m = right.size();
-    const auto start = static_cast<std::size_t>(std::find(right.begin(), right.end(), left[at]) - right.begin());
+    const auto start = static_cast<std::size_t>(std::ranges::find(right, left[at]) - right.begin());
     const auto corner = [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       return turn(polygon_.vertices[a], polygon_.vertices[b], polygon_.vertices[c]) != Sign::negative;
     };
@@ -222,7 +215,7 @@ class Parts {
   /// `left` with `right` in place of its edge number `at`; both contain it, in opposite directions.
   static Ring joined(const Ring& left, std::size_t at, Ring right) {
     const std::uint32_t end = left[(at + 1) % left.size()];
-    std::rotate(right.begin(), std::find(right.begin(), right.end(), left[at]), right.end());
+    std::rotate(right.begin(), std::ranges::find(right, left[at]), right.end());
     Ring ring(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1);
     for (std::size_t i = 1; i < right.size() && right[i] != end; ++i) ring.push_back(right[i]);
     ring.insert(ring.end(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1, left.end());
@@ -235,8 +228,7 @@ class Parts {
 };
 
 ConvexPart make_part(std::vector<Vec2d> points) {
-  Box2 box{points[0], points[0]};
-  for (const Vec2d& point : points) box = box.merged({point, point});
+  const Box2 box = Box2::around(points);
   return {std::move(points), box};
 }
 
@@ -279,7 +271,9 @@ std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
   }
   Polygon polygon = with_windings(def);
   std::vector<Ring> rings;
-  if (polygon.rings.size() == 1 && is_convex(polygon, polygon.rings[0])) {
+  std::size_t bent = 0;  // the first corner that is not convex
+  while (bent < def.points.size() && turn_at(polygon, polygon.rings[0], bent) != Sign::negative) ++bent;
+  if (polygon.rings.size() == 1 && bent == def.points.size()) {
     rings = polygon.rings;
   } else {
     join_holes(polygon);

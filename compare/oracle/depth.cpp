@@ -5,24 +5,6 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// How far points are to the left of an edge, times its length: for its left normal n, n·x = edge × x.
-template <class Number>
-class Heights {
- public:
-  Heights(const Convert<Number>& number, const AxisEdge& axis, const FramePlace& place)
-      : number_(number), from_(place.in(number)), edge_(convert(number, axis.end) - convert(number, axis.start)) {}
-  [[nodiscard]] Number of_corner(const Vec2d& corner) const { return cross(edge_, convert(number_, corner)); }
-  /// Negated: the vertex that is farthest to the left is the one that is nearest to the octagon.
-  [[nodiscard]] Number below_vertex(const Vec2d& vertex) const {
-    return -cross(edge_, convert(number_, vertex) - from_);
-  }
-
- private:
-  Convert<Number> number_;
-  Point<Number> from_;
-  Point<Number> edge_;
-};
-
 template <class Height>
 auto least_of(std::span<const Vec2d> points, const Height& height) {
   auto lowest = height(points[0]);
@@ -30,13 +12,15 @@ auto least_of(std::span<const Vec2d> points, const Height& height) {
   return lowest;
 }
 
-/// The exact product of the separation and the length of the edge.
+/// The exact product of the separation and the length of the edge: for its left normal n, n·x = edge × x.
 template <class Number>
 Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, std::span<const Vec2d> vertices,
                          std::span<const Vec2d> octagon, const FramePlace& place) {
-  const Heights<Number> heights(number, axis, place);
-  return least_of(octagon, [&](const Vec2d& corner) { return heights.of_corner(corner); }) +
-         least_of(vertices, [&](const Vec2d& vertex) { return heights.below_vertex(vertex); });
+  const Point<Number> from = place.in(number);
+  const Point<Number> edge = convert(number, axis.end) - convert(number, axis.start);
+  // The vertex that is farthest to the left is the one that is nearest to the octagon.
+  return least_of(octagon, [&](const Vec2d& corner) { return cross(edge, convert(number, corner)); }) +
+         least_of(vertices, [&](const Vec2d& vertex) { return -cross(edge, convert(number, vertex) - from); });
 }
 
 double length_of(const AxisEdge& axis) {
@@ -196,8 +180,7 @@ std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d>
     if (separation >= 0) apart.push_back({separation, normal_of(estimates.axes[i])});
   }
   if (apart.empty()) apart.push_back(best_of(estimates, part, octagon, place));
-  std::stable_sort(apart.begin(), apart.end(),
-                   [](const Axis& a, const Axis& b) { return a.separation > b.separation; });
+  std::ranges::stable_sort(apart, [](const Axis& a, const Axis& b) { return a.separation > b.separation; });
   if (apart.front().separation > within) return {};
   return apart;
 }

@@ -1,8 +1,10 @@
 #include "oracle/exact.hpp"
 
+#include "contains.hpp"
 #include "oracle/depth.hpp"
 #include "oracle/impact.hpp"
 #include "oracle/sensor.hpp"
+#include "oracle/up.hpp"
 #include "oracle/way_out.hpp"
 #include "oracle/world.hpp"
 
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
 namespace paperproof::compare {
 
@@ -78,15 +81,12 @@ struct ExactScenery::Impl {
     detail::FramePlace there = way.from;
     there.position += touch * way.rounded_displacement();
     const Vec2d normal = detail::best_axis(parts[disc].front(), world.points(), there).normal;
-    const ColliderDef& def = scenery_of(disc);
+    const ColliderDef& def = world.scenery().colliders[disc];
     return {.collider = disc,
             .fraction = touch,
             .normal = normal,
             .point = def.points.front() + def.radius * normal + way.offset_after(touch),
             .exposed = true};
-  }
-  [[nodiscard]] const ColliderDef& scenery_of(ColliderIndex collider) const {
-    return world.scenery().colliders[collider];
   }
 
   /// The octagon overlaps `collider` where it starts.
@@ -119,8 +119,7 @@ struct ExactScenery::Impl {
     for_groups(way_in, [&](const detail::Group& group, const Way& way) {
       add_impacts(Passage(world, group, way), way_in, at_start, all);
     });
-    std::stable_sort(all.begin(), all.end(),
-                     [](const ExactImpact& a, const ExactImpact& b) { return a.collider < b.collider; });
+    std::ranges::stable_sort(all, {}, &ExactImpact::collider);
     return all;
   }
 
@@ -128,13 +127,13 @@ struct ExactScenery::Impl {
   void add_impacts(const Passage& passage, const detail::WayIn& way_in, const std::vector<ColliderIndex>& at_start,
                    std::vector<ExactImpact>& all) const {
     for (const ColliderIndex disc : passage.met_discs())
-      if (!std::binary_search(at_start.begin(), at_start.end(), disc)) all.push_back(impact_with_disc(way_in, disc));
+      if (!std::ranges::binary_search(at_start, disc)) all.push_back(impact_with_disc(way_in, disc));
     const std::vector<std::uint32_t> edges = passage.entered_edges();
     std::vector<ColliderIndex> colliders;
     for (const std::uint32_t edge : edges) colliders.push_back(world.edges()[edge].collider);
     colliders.erase(std::unique(colliders.begin(), colliders.end()), colliders.end());
     for (const ColliderIndex collider : colliders) {
-      if (std::binary_search(at_start.begin(), at_start.end(), collider)) continue;
+      if (std::ranges::binary_search(at_start, collider)) continue;
       const std::span<const std::uint32_t> own = passage.of_collider(edges, collider);
       all.push_back(detail::find_impact(world, way_in, collider, own));
       if (own.size() == 1 || parts[collider].size() == 1) continue;
@@ -150,19 +149,20 @@ struct ExactScenery::Impl {
     const double surely_clear = 1e4 * clearance;
     detail::FramePlace place = barrier.end;
     place.position = position;
-    const Vec2d seen = place.rounded();
-    const Box2& octagon = world.points_box();
-    const Box2 around{seen + octagon.lower, seen + octagon.upper};
+    const Box2 around = world.points_box() + place.rounded();
     if (!barrier.part->box.overlaps(around.inflated(surely_clear))) return true;
     return detail::best_axis(*barrier.exact, world.points(), place).separation >= clearance;
+  }
+
+  [[nodiscard]] bool is_free(std::span<const detail::Barrier> barriers, const Vec2d& end, double clearance) const {
+    return std::ranges::all_of(barriers, [&](const detail::Barrier& barrier) {
+      return !barrier.bars_ends || keeps_clear(barrier, end, clearance);
+    });
   }
 
   /// Everything that may bar a straight way of the question that is no longer than `reach`.
   [[nodiscard]] std::vector<detail::Barrier> barriers(const WayQuestion& question, double reach) const {
     std::vector<detail::Barrier> all;
-    const auto passable = [&](ColliderIndex collider) {
-      return std::find(question.may_pass.begin(), question.may_pass.end(), collider) != question.may_pass.end();
-    };
     for (const detail::Group& group : world.groups()) {
       if (group.sensor) continue;
       const detail::FramePlace from = seen_from(group, question.from);
@@ -174,7 +174,7 @@ struct ExactScenery::Impl {
         for (const detail::ConvexPart& part : parts[collider]) {
           if (!part.box.overlaps(within)) continue;
           detail::Barrier barrier{outline(part), &part, end, !one_way, {}, {}};
-          if (one_way ? starts_above(part, from, collider) : !passable(collider)) {
+          if (one_way ? starts_above(part, from, collider) : !contains(question.may_pass, collider)) {
             barrier.from = from;
             const bool near = question.wider.empty() || detail::best_axis(part, question.wider, from).separation < 0;
             barrier.shape = near ? std::span<const Vec2d>(world.points()) : question.wider;
@@ -197,15 +197,11 @@ struct ExactScenery::Impl {
                                   ColliderIndex collider) const {
     constexpr double rounding = 1e-8;
     const Vec2d along = (segment.points[1] - segment.points[0]).normalized();
-    const Vec2d normal =
-        Vec2d(-along.y(), along.x()) * (along.x() * world.scenery().colliders[collider].one_way->y() -
-                                                    along.y() * world.scenery().colliders[collider].one_way->x() >
-                                                0
-                                            ? 1
-                                            : -1);
+    const Vec2d& up = *world.scenery().colliders[collider].one_way;
+    const Vec2d normal = Vec2d(-along.y(), along.x()) * (cross_of(along, up) > 0 ? 1 : -1);
     const Vec2d seen = place.rounded() - segment.points[0];
-    return std::all_of(world.points().begin(), world.points().end(),
-                       [&](const Vec2d& corner) { return normal.dot(Vec2d(seen + corner)) >= -rounding; });
+    return std::ranges::all_of(world.points(),
+                               [&](const Vec2d& corner) { return normal.dot(Vec2d(seen + corner)) >= -rounding; });
   }
 
   /// Along the best axis the separation is at least this share of the distance: no direction is farther than half the
@@ -247,13 +243,17 @@ std::vector<ColliderIndex> ExactScenery::met(const Place& from, const Place& to)
     const std::vector<ColliderIndex> met = Passage(impl_->world, group, way).met();
     found.insert(found.end(), met.begin(), met.end());
   });
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 
 bool ExactScenery::meets(const Place& from, const Place& to, ColliderIndex collider) const {
   const detail::Group& group = impl_->world.group_of(collider);
   return Passage(impl_->world, group, impl_->way_between(group, from, to)).meets(collider);
+}
+
+bool ExactScenery::meets_only(const Place& from, const Place& to, std::span<const ColliderIndex> colliders) const {
+  return std::ranges::includes(colliders, met(from, to));
 }
 
 std::optional<ExactImpact> ExactScenery::time_of_impact(const Place& from, const Vec2d& displacement,
@@ -306,7 +306,7 @@ std::vector<ColliderIndex> ExactScenery::near(const Place& from, const Place& to
     const std::vector<ColliderIndex> near = group.solid_tree.meeting(box.inflated(within));
     found.insert(found.end(), near.begin(), near.end());
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 
@@ -338,10 +338,8 @@ std::vector<ExactSensorEvent> ExactScenery::sensor_events(std::span<const Place>
       detail::add_sensor_events(impl_->world, sensor, impl_->parts[sensor], places, events);
     }
   }
-  std::stable_sort(events.begin(), events.end(), [](const ExactSensorEvent& a, const ExactSensorEvent& b) {
-    if (a.fraction != b.fraction) return a.fraction < b.fraction;
-    return a.sensor < b.sensor;
-  });
+  std::ranges::stable_sort(events, {},
+                           [](const ExactSensorEvent& event) { return std::tie(event.fraction, event.sensor); });
   return events;
 }
 
@@ -355,10 +353,7 @@ std::optional<Vec2d> ExactScenery::find_free(const WayQuestion& question, double
   const detail::EndSearch search{.reach = reach, .clearance = margin * clearance, .beside = beside};
   for (const Vec2d& way : detail::ends_of_ways(barriers, impl_->world.points(), search)) {
     const Vec2d position = question.from.position + way;
-    const bool free = std::all_of(barriers.begin(), barriers.end(), [&](const detail::Barrier& barrier) {
-      return !barrier.bars_ends || impl_->keeps_clear(barrier, position, clearance);
-    });
-    if (free && accept(position)) return position;
+    if (impl_->is_free(barriers, position, clearance) && accept(position)) return position;
   }
   return std::nullopt;
 }
@@ -370,11 +365,8 @@ std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const 
   constexpr double beside = 1e-6;
   const std::vector<ColliderIndex> inside = overlapped(at);
   if (inside.empty()) return std::nullopt;
-  const auto open = [&](const Vec2d& end) {
-    const std::vector<ColliderIndex> met_there = met(at, Place(end, at.movers, at.fraction));
-    return std::includes(inside.begin(), inside.end(), met_there.begin(), met_there.end());
-  };
-  const Vec2d size = impl_->world.points_box().upper - impl_->world.points_box().lower;
+  const auto open = [&](const Vec2d& end) { return meets_only(at, Place(end, at.movers, at.fraction), inside); };
+  const Vec2d size = impl_->world.points_box().size();
   double farthest = 0;
   for (const ColliderIndex collider : inside) {
     const Vec2d seen = impl_->seen_from(collider, at).rounded();
@@ -391,10 +383,7 @@ std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const 
       const Vec2d end = at.position + out;
       const Vec2d way = (end - at.position).normalized();
       const Vec2d aside = Vec2d(-way.y(), way.x()) * beside;
-      const bool free = std::all_of(barriers.begin(), barriers.end(), [&](const detail::Barrier& barrier) {
-        return !barrier.bars_ends || impl_->keeps_clear(barrier, end, clearance);
-      });
-      if (free && open(end) && open(end + aside) && open(end - aside)) return end;
+      if (impl_->is_free(barriers, end, clearance) && open(end) && open(end + aside) && open(end - aside)) return end;
     }
     if (!(radius < whole)) return std::nullopt;
   }

@@ -126,6 +126,8 @@ class ExactScenery {
 
   /// Whether the open octagon meets `collider` anywhere on the straight way, as `met`.
   [[nodiscard]] bool meets(const Place& from, const Place& to, ColliderIndex collider) const;
+  /// Whether the way meets nothing but some colliders, which are ascending.
+  [[nodiscard]] bool meets_only(const Place& from, const Place& to, std::span<const ColliderIndex> colliders) const;
   /// Whether `collider` is overlapped, as `overlapped`.
   [[nodiscard]] bool overlaps(const Place& at, ColliderIndex collider) const;
 

@@ -282,16 +282,10 @@ class StretchSearch {
 
   /// Boxes around all places of both, with more between them than rounding.
   [[nodiscard]] bool are_far_apart() const {
-    const Box2 way = Box2{stretch_.leg_from->position, stretch_.leg_from->position}.merged(
-        {stretch_.leg_to->position, stretch_.leg_to->position});
-    Box2 hull{octagon_[0], octagon_[0]};
-    for (const Vec2d& corner : octagon_) hull = hull.merged({corner, corner});
-    const Box2 octagon{way.lower + hull.lower, way.upper + hull.upper};
-    const Vec2d& any = (*stretch_.vertices_from)[part_.vertices[0]];
-    Box2 part{any, any};
+    const Box2 octagon = Box2::between(stretch_.leg_from->position, stretch_.leg_to->position) + Box2::around(octagon_);
+    Box2 part = Box2::nowhere();
     for (const std::size_t i : part_.vertices)
-      for (const auto* vertices : {stretch_.vertices_from, stretch_.vertices_to})
-        part = part.merged({(*vertices)[i], (*vertices)[i]});
+      part = part.with((*stretch_.vertices_from)[i]).with((*stretch_.vertices_to)[i]);
     const double size = std::max(octagon.lower.cwiseAbs().maxCoeff(), octagon.upper.cwiseAbs().maxCoeff());
     return !part.overlaps(octagon.inflated(part_.radius + size * 0x1p-50 + std::numeric_limits<double>::min()));
   }
@@ -304,9 +298,8 @@ class StretchSearch {
   }
 
   [[nodiscard]] View<Integer> exactly() const {
-    int place = std::min(
-        {lowest_bit(stretch_.leg_from->position), lowest_bit(stretch_.leg_to->position), lowest_bit(part_.radius)});
-    for (const Vec2d& corner : octagon_) place = std::min(place, lowest_bit(corner));
+    int place = std::min({lowest_bit(stretch_.leg_from->position), lowest_bit(stretch_.leg_to->position),
+                          lowest_bit(part_.radius), lowest_bit_of(octagon_)});
     for (const std::size_t i : part_.vertices)
       place = std::min({place, lowest_bit((*stretch_.vertices_from)[i]), lowest_bit((*stretch_.vertices_to)[i])});
     int time = 0;  // the bit of 1

@@ -23,21 +23,6 @@ struct Timing {
   Answer happens = Answer::unknown;
 };
 
-template <class Number>
-struct Frame {
-  Convert<Number> number;
-  Point<Number> from;
-  Point<Number> way;
-  Octagon<Number> octagon;
-  [[nodiscard]] Point<Number> at(const Vec2d& v) const { return convert(number, v) - from; }
-};
-
-template <class Number>
-Frame<Number> make_frame(const World& world, const Way& way, int unit) {
-  const Convert<Number> number{unit};
-  return {number, way.from.in(number), way.displacement(number), convert_octagon(number, world.points())};
-}
-
 /// The point `q`, moving by `way`, against the edge from `start` along `edge`.
 template <class Number>
 Timing<Number> meeting(const Point<Number>& start, const Point<Number>& edge, const Point<Number>& q,
@@ -179,7 +164,7 @@ Integer lowest_of_octagon(const Frame<Integer>& frame, const Touch& touch) {
 /// Whether the touch's normal separates the octagon, where it touches, from everything that is touched.
 bool stands(const World& world, const Frame<Integer>& frame, const Touch& touch, const std::vector<Touch>& touches) {
   const Integer lowest = lowest_of_octagon(frame, touch);
-  return std::all_of(touches.begin(), touches.end(), [&](const Touch& other) {
+  return std::ranges::all_of(touches, [&](const Touch& other) {
     const Edge& edge = world.edges()[other.event.edge];
     const auto is_below = [&](const Vec2d& vertex) {
       return cross(touch.edge, frame.at(vertex)) * touch.timing.denominator <= lowest;
@@ -208,7 +193,7 @@ const Touch& choose(const World& world, const Frame<Integer>& frame, const std::
   const auto parallel = [&](const Touch& touch) {
     return touch.opposes && sign_of(cross(touch.edge, touches.front().edge)) == Sign::zero;
   };
-  if (std::all_of(touches.begin(), touches.end(), parallel)) return touches.front();
+  if (std::ranges::all_of(touches, parallel)) return touches.front();
 
   const Touch* best = nullptr;
   std::pair<bool, double> best_rank;
@@ -260,7 +245,7 @@ bool is_exposed(const World& world, const std::vector<Touch>& touches, const Tou
                 const Vec2d& normal, const WayIn& way_in) {
   const Group& group = world.group_of(world.edges()[chosen.event.edge].collider);
   const Vec2d place = place_of(world, chosen);
-  const Box2 near = Box2{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)}.merged({place, place});
+  const Box2 near = Box2::between(range.first, range.last).with(place);
   const auto seams = [&] {
     return Seams(world, group, way_in, chosen.timing.numerator, chosen.timing.denominator, near);
   };

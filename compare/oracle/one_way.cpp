@@ -15,12 +15,12 @@ Sign side_of(const Vec2d& a, const Vec2d& b, const Vec2d& one_way) {
 std::vector<std::vector<Vec2d>> one_way_lines_of(const ColliderDef& def) {
   if (def.shape == ColliderDef::Shape::chain) return {def.points};
   std::vector<Vec2d> ring = def.points;
-  if (winding(ring) == Sign::negative) std::reverse(ring.begin(), ring.end());
+  if (winding(ring) == Sign::negative) std::ranges::reverse(ring);
   // Counter-clockwise: an edge faces to its right.
   std::vector<bool> faces;
   for (std::size_t i = 0; i < ring.size(); ++i)
     faces.push_back(side_of(ring[i], ring[(i + 1) % ring.size()], *def.one_way) == Sign::negative);
-  const auto start = std::find(faces.begin(), faces.end(), false) - faces.begin();
+  const auto start = std::ranges::find(faces, false) - faces.begin();
   std::rotate(faces.begin(), faces.begin() + start, faces.end());
   std::rotate(ring.begin(), ring.begin() + start, ring.end());
   std::vector<std::vector<Vec2d>> lines;

@@ -40,31 +40,28 @@ struct Part {
   double end = 0;
   bool jump = false;
 
-  [[nodiscard]] Point at(double fraction) const;
-  [[nodiscard]] Vec2d near(double fraction) const;  ///< The same, rounded.
   [[nodiscard]] Point first() const { return jump ? exact(from.position) : at(begin); }
   [[nodiscard]] Point last() const { return jump ? exact(to.position) : at(end); }
+  [[nodiscard]] Point at(double fraction) const {
+    if (fraction == from.fraction) return exact(from.position);
+    if (fraction == to.fraction) return exact(to.position);
+    const Rational share =
+        (Rational(fraction) - Rational(from.fraction)) / (Rational(to.fraction) - Rational(from.fraction));
+    const Point start = exact(from.position);
+    const Point way = exact(to.position) - start;
+    return {start.x + way.x * share, start.y + way.y * share};
+  }
+  /// The same, rounded.
+  [[nodiscard]] Vec2d near(double fraction) const {
+    if (fraction == from.fraction) return from.position;
+    return from.position + (fraction - from.fraction) / (to.fraction - from.fraction) * (to.position - from.position);
+  }
 };
 
-Point Part::at(double fraction) const {
-  if (fraction == from.fraction) return exact(from.position);
-  if (fraction == to.fraction) return exact(to.position);
-  const Rational share =
-      (Rational(fraction) - Rational(from.fraction)) / (Rational(to.fraction) - Rational(from.fraction));
-  const Point start = exact(from.position);
-  const Point way = exact(to.position) - start;
-  return {start.x + way.x * share, start.y + way.y * share};
-}
-
-Vec2d Part::near(double fraction) const {
-  if (fraction == from.fraction) return from.position;
-  return from.position + (fraction - from.fraction) / (to.fraction - from.fraction) * (to.position - from.position);
-}
-
 /// A character that has arrived waits there until the step ends.
-Part part_of(Corners way, std::size_t corner, double now, double end) {
-  if (corner + 1 < way.size()) return {way[corner], way[corner + 1], now, end, false};
-  return {way[corner], {way[corner].position, std::max(end, 1.0)}, now, end, false};
+Part part_of(Corners way, std::size_t corner, double now, double end, bool jump) {
+  if (corner + 1 < way.size()) return {way[corner], way[corner + 1], now, end, jump};
+  return {way[corner], {way[corner].position, std::max(end, 1.0)}, now, end, jump};
 }
 
 /// Calls `visit(part, part)` for what the two do at the same time, in order, until it returns true.
@@ -84,11 +81,7 @@ bool any_part(Corners one, Corners other, const Visit& visit) {
     const bool other_jumps = !one_jumps && jumps(other, b);
     const bool at_once = one_jumps || other_jumps;
     const double end = at_once ? now : std::min(end_of(one, a), end_of(other, b));
-    Part of_one = part_of(one, a, now, end);
-    Part of_other = part_of(other, b, now, end);
-    of_one.jump = one_jumps;
-    of_other.jump = other_jumps;
-    if (visit(of_one, of_other)) return true;
+    if (visit(part_of(one, a, now, end, one_jumps), part_of(other, b, now, end, other_jumps))) return true;
     if (one_jumps || (!at_once && end_of(one, a) == end)) ++a;
     if (other_jumps || (!at_once && end_of(other, b) == end)) ++b;
     now = end;
@@ -101,75 +94,69 @@ bool any_part(Corners one, Corners other, const Visit& visit) {
 struct ExactPair::Impl {
   std::vector<Side> sides;
 
-  explicit Impl(std::span<const Vec2d> hull);
-  [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const;
-  [[nodiscard]] bool meet_on(const Part& one, const Part& other) const;
+  explicit Impl(std::span<const Vec2d> hull) {
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Vec2d& start = hull[k];
+      const Vec2d edge = hull[(k + 1) % hull.size()] - start;
+      Side side{.edge = exact(hull[(k + 1) % hull.size()]) - exact(start),
+                .reach = 0,
+                .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
+                .width = 0};
+      for (const Vec2d& corner : hull) {
+        side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
+        side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
+      }
+      sides.push_back(std::move(side));
+    }
+  }
+
+  /// By the normals of the sides, over the whole of what leads from corner to corner.
+  [[nodiscard]] bool surely_apart(const Part& one, const Part& other) const {
+    const double size = std::max({largest(one.from.position), largest(one.to.position), largest(other.from.position),
+                                  largest(other.to.position)});
+    return std::ranges::any_of(sides, [&](const Side& side) {
+      const auto range = [&side](const Part& part) {
+        return std::minmax({side.normal.dot(part.from.position), side.normal.dot(part.to.position)});
+      };
+      const auto [one_low, one_high] = range(one);
+      const auto [other_low, other_high] = range(other);
+      return std::max(one_low - other_high, other_low - one_high) > side.width + margin_at(size + side.width);
+    });
+  }
+
   /// Whether the way of the difference of the two, from start to end, leads inside.
-  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const;
-  [[nodiscard]] double separation_of(const Vec2d& difference) const;
+  /// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
+  /// point, or the way is a single point that is inside.
+  [[nodiscard]] bool leads_inside(const Point& start, const Point& end) const {
+    Rational entry = 0;
+    Rational exit = 1;
+    const bool still = start.x == end.x && start.y == end.y;
+    for (const Side& side : sides) {
+      const Rational start_off = cross(side.edge, start);
+      const Rational end_off = cross(side.edge, end);
+      for (const int sign : {1, -1}) {
+        // Inside where above zero. What is right of the edge is beyond it.
+        const Rational before = start_off * sign + side.reach;
+        const Rational after = end_off * sign + side.reach;
+        if (before <= 0 && after <= 0) return false;
+        if (still) continue;
+        if (before <= 0) entry = std::max(entry, Rational(before / (before - after)));
+        if (after <= 0) exit = std::min(exit, Rational(before / (before - after)));
+      }
+    }
+    return still || entry < exit;
+  }
+
+  [[nodiscard]] bool meet_on(const Part& one, const Part& other) const {
+    return !surely_apart(one, other) && leads_inside(one.first() - other.first(), one.last() - other.last());
+  }
+
+  [[nodiscard]] double separation_of(const Vec2d& difference) const {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Side& side : sides) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
+    return best;
+  }
 };
-
-ExactPair::Impl::Impl(std::span<const Vec2d> hull) {
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2d& start = hull[k];
-    const Vec2d edge = hull[(k + 1) % hull.size()] - start;
-    Side side{.edge = exact(hull[(k + 1) % hull.size()]) - exact(start),
-              .reach = 0,
-              .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
-              .width = 0};
-    for (const Vec2d& corner : hull) {
-      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
-      side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
-    }
-    sides.push_back(std::move(side));
-  }
-}
-
-/// By the normals of the sides, over the whole of what leads from corner to corner.
-bool ExactPair::Impl::surely_apart(const Part& one, const Part& other) const {
-  const double size = std::max(
-      {largest(one.from.position), largest(one.to.position), largest(other.from.position), largest(other.to.position)});
-  return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
-    const auto range = [&side](const Part& part) {
-      return std::minmax({side.normal.dot(part.from.position), side.normal.dot(part.to.position)});
-    };
-    const auto [one_low, one_high] = range(one);
-    const auto [other_low, other_high] = range(other);
-    return std::max(one_low - other_high, other_low - one_high) > side.width + margin_at(size + side.width);
-  });
-}
-
-/// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
-/// point, or the way is a single point that is inside.
-bool ExactPair::Impl::leads_inside(const Point& start, const Point& end) const {
-  Rational entry = 0;
-  Rational exit = 1;
-  const bool still = start.x == end.x && start.y == end.y;
-  for (const Side& side : sides) {
-    const Rational start_off = cross(side.edge, start);
-    const Rational end_off = cross(side.edge, end);
-    for (const int sign : {1, -1}) {
-      // Inside where above zero. What is right of the edge is beyond it.
-      const Rational before = start_off * sign + side.reach;
-      const Rational after = end_off * sign + side.reach;
-      if (before <= 0 && after <= 0) return false;
-      if (still) continue;
-      if (before <= 0) entry = std::max(entry, Rational(before / (before - after)));
-      if (after <= 0) exit = std::min(exit, Rational(before / (before - after)));
-    }
-  }
-  return still || entry < exit;
-}
-
-bool ExactPair::Impl::meet_on(const Part& one, const Part& other) const {
-  return !surely_apart(one, other) && leads_inside(one.first() - other.first(), one.last() - other.last());
-}
-
-double ExactPair::Impl::separation_of(const Vec2d& difference) const {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Side& side : sides) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
-  return best;
-}
 
 ExactPair::ExactPair(std::span<const Vec2d> hull) : impl_(std::make_shared<const Impl>(hull)) {}
 
@@ -189,7 +176,7 @@ double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { retur
 bool ExactPair::recedes(const Vec2d& at, const Vec2d& from, const Vec2d& to) const {
   constexpr double noise = 1e-12;
   const double farthest = separation(at, from) - noise;
-  return std::any_of(impl_->sides.begin(), impl_->sides.end(), [&](const auto& side) {
+  return std::ranges::any_of(impl_->sides, [&](const auto& side) {
     const double begins = side.normal.dot(at - from);
     const double ends = side.normal.dot(at - to) * (begins < 0 ? -1 : 1);
     return std::abs(begins) - side.width >= farthest && ends >= std::abs(begins) - noise;

@@ -35,7 +35,7 @@ double thickness_at(const ColliderDef& def, const Vec2d& point, const Vec2d& nor
   const Vec2d way = -normal;
   add_crossings(def.points, point, way, crossings);
   for (const std::vector<Vec2d>& hole : def.holes) add_crossings(hole, point, way, crossings);
-  std::sort(crossings.begin(), crossings.end());
+  std::ranges::sort(crossings);
   // Pairs of entry and exit; the one that was passed begins at the point, up to rounding.
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
     if (crossings[i + 1] > 0) return crossings[i + 1] - crossings[i];

@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace paperproof::compare::detail {
-namespace {
-
-template <class Number>
-Sign side_in(const Convert<Number>& number, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
-  return sign_of(cross(convert(number, end) - convert(number, start), convert(number, to) - convert(number, from)));
-}
-
-}  // namespace
-
 Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const Integer& numerator,
              const Integer& denominator, const Box2& near)
     : world_(world) {
@@ -27,7 +18,7 @@ Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const In
     const Vec2d shift = way.from.rounded() - own_way.from.rounded() +
                         fraction * (way.rounded_displacement() - own_way.rounded_displacement());
     const double rounding = (own_way.size() + way.size()) * 0x1p-48;
-    if (!group.box.overlaps(Box2{near.lower + shift, near.upper + shift}.inflated(rounding))) continue;
+    if (!group.box.overlaps((near + shift).inflated(rounding))) continue;
     const Convert<Integer> number{std::min(own_way.unit(), way.unit())};
     const Point<Integer> start = way.from.in(number)-own_way.from.in(number);
     const Point<Integer> change = way.displacement(number) - own_way.displacement(number);
@@ -43,12 +34,8 @@ Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const In
 }
 
 Sign Seams::side(const Neighbour& neighbour, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
-  int unit = std::min({lowest_bit(start), lowest_bit(end), lowest_bit(from), lowest_bit(to)});
-  if (neighbour.same_frame) {
-    const Sign quick = side_in(Convert<Approximate>{}, start, end, from, to);
-    return quick != Sign::unknown ? quick : side_in(Convert<Integer>{unit}, start, end, from, to);
-  }
-  unit = std::min(unit, neighbour.unit);
+  if (neighbour.same_frame) return detail::side(start, end, from, to);
+  const int unit = std::min({lowest_bit(start), lowest_bit(end), lowest_bit(from), lowest_bit(to), neighbour.unit});
   const Convert<Integer> number{unit};
   const Point<Integer> way = convert(number, to) - convert(number, from);
   const int finer = neighbour.unit - unit;
@@ -63,8 +50,8 @@ bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const
   std::vector<std::pair<double, double>> covers;
   for (const Neighbour& neighbour : neighbours_) {
     const Vec2d& shift = neighbour.rounded_shift;
-    const Box2 box{first.cwiseMin(last) + shift, first.cwiseMax(last) + shift};
-    for (const std::uint32_t i : neighbour.group->edge_tree.meeting(box.inflated(neighbour.rounding))) {
+    const Box2 box = (Box2::between(first, last) + shift).inflated(neighbour.rounding);
+    for (const std::uint32_t i : neighbour.group->edge_tree.meeting(box)) {
       const Edge& other = world_.edges()[i];
       if (other.collider == edge.collider || world_.solids()[other.collider].kind != Kind::polygon) continue;
       // Who lies on the same side, as a copy does, has the same outline there.
@@ -76,7 +63,7 @@ bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const
       covers.emplace_back(std::min(a, b) - 2 * neighbour.rounding, std::max(a, b) + 2 * neighbour.rounding);
     }
   }
-  std::sort(covers.begin(), covers.end());
+  std::ranges::sort(covers);
   double reached = std::min(place(first), place(last));
   const double end = std::max(place(first), place(last));
   bool begun = false;
@@ -89,11 +76,11 @@ bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const
 }
 
 bool Seams::pass(const Vec2d& vertex, std::uint32_t own, const Vec2d& start, const Vec2d& end) const {
-  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+  return std::ranges::any_of(neighbours_, [&](const Neighbour& neighbour) {
     const Vec2d there = vertex + neighbour.rounded_shift;
     const std::vector<std::uint32_t> edges =
         neighbour.group->edge_tree.meeting(Box2{there, there}.inflated(neighbour.rounding));
-    return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
+    return std::ranges::any_of(edges, [&](std::uint32_t i) {
       const Edge& other = world_.edges()[i];
       if (i == own) return false;
       // What may be let through passes no vertex but of its own surface, which is let through with it.

@@ -121,14 +121,11 @@ bool are_one(const Root& r, const Root& s) {
   const auto overlap = [&] { return compare(r.low, s.high) < 0 && compare(s.low, r.high) < 0; };
   if (squares == 0 && ends == 0 && lines == 0) return overlap();
   if (squares == 0 || ends * ends != squares * lines) return false;
-  // -ends / squares
-  const auto is_above = [&](const Binary& t) {
-    return Integer(squares.sign() * ((-ends << t.bits) - t.count * squares)).sign() > 0;
+  // Above zero where -ends / squares is later than a moment.
+  const auto sign_from = [&](const Binary& t) {
+    return Integer(squares.sign() * ((-ends << t.bits) - t.count * squares)).sign();
   };
-  const auto is_below = [&](const Binary& t) {
-    return Integer(squares.sign() * ((-ends << t.bits) - t.count * squares)).sign() < 0;
-  };
-  return is_above(r.low) && is_below(r.high) && is_above(s.low) && is_below(s.high);
+  return sign_from(r.low) > 0 && sign_from(r.high) < 0 && sign_from(s.low) > 0 && sign_from(s.high) < 0;
 }
 
 /// Whether no moment that is no root lies between them, as far as they are isolated.
@@ -165,7 +162,7 @@ Binary between(Root& r, Root& s) {
 std::vector<Root> in_order(std::vector<Root> roots) {
   std::vector<std::size_t> order(roots.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return is_earlier(roots[i], roots[j]); });
+  std::ranges::sort(order, [&](std::size_t i, std::size_t j) { return is_earlier(roots[i], roots[j]); });
   std::vector<Root> sorted{root_at(0)};
   for (const std::size_t i : order) sorted.push_back(std::move(roots[i]));
   sorted.push_back(root_at(1));
@@ -328,16 +325,11 @@ class StraightTime {
 
   /// Boxes around all places of both, with more between them than rounding.
   [[nodiscard]] bool are_far_apart() const {
-    Box2 body = Box2{leg_.from, leg_.from}.merged({leg_.to, leg_.to});
-    Box2 shape{octagon_[0], octagon_[0]};
-    for (const Vec2d& corner : octagon_) shape = shape.merged({corner, corner});
-    body = {body.lower + shape.lower, body.upper + shape.upper};
+    const Box2 body = Box2::between(leg_.from, leg_.to) + Box2::around(octagon_);
     const double rounding = std::max(body.lower.cwiseAbs().maxCoeff(), body.upper.cwiseAbs().maxCoeff()) * 0x1p-48;
-    const Vec2d& any = part_.way.vertices[chord_][part_.vertices[0]];
-    Box2 around{any, any};
+    Box2 around = Box2::nowhere();
     for (const std::size_t k : {chord_, chord_ + 1})
-      for (const std::size_t i : part_.vertices)
-        around = around.merged({part_.way.vertices[k][i], part_.way.vertices[k][i]});
+      for (const std::size_t i : part_.vertices) around = around.with(part_.way.vertices[k][i]);
     return !around.overlaps(body.inflated(part_.radius + rounding + std::numeric_limits<double>::min()));
   }
 
@@ -345,8 +337,8 @@ class StraightTime {
   [[nodiscard]] Scene exactly() const {
     const VertexWay& way = part_.way;
     const std::array<double, 2> chord{way.instants[chord_], way.instants[chord_ + 1]};
-    int places = std::min({lowest_bit(leg_.from), lowest_bit(leg_.to), lowest_bit(part_.radius)});
-    for (const Vec2d& corner : octagon_) places = std::min(places, lowest_bit(corner));
+    int places =
+        std::min({lowest_bit(leg_.from), lowest_bit(leg_.to), lowest_bit(part_.radius), lowest_bit_of(octagon_)});
     for (const std::size_t k : {chord_, chord_ + 1})
       for (const std::size_t i : part_.vertices) places = std::min(places, lowest_bit(way.vertices[k][i]));
     int times = 0;

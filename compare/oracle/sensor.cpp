@@ -61,7 +61,7 @@ std::optional<Stay> stay_in_disc(const World& world, ColliderIndex disc, const F
 
 /// One after the other; what overlaps, or meets in an instant that belongs to one of them, is one stay.
 std::vector<Stay> joined(std::vector<Stay> stays) {
-  std::sort(stays.begin(), stays.end(), [](const Stay& a, const Stay& b) { return a.first < b.first; });
+  std::ranges::sort(stays, [](const Stay& a, const Stay& b) { return a.first < b.first; });
   std::vector<Stay> all;
   for (Stay& stay : stays) {
     const bool apart = all.empty() || stay.first > all.back().last ||

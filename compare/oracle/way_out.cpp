@@ -48,9 +48,7 @@ Region hidden_by(const Barrier& barrier, double beside) {
   Barrier seen = barrier;
   seen.end = *barrier.from;
   const Region covered = covered_by(seen, shape, 0);
-  const HalfPlane& nearest = *std::min_element(covered.begin(), covered.end(), [](const auto& a, const auto& b) {
-    return a.bound < b.bound;  // the larger the separation
-  });
+  const HalfPlane& nearest = *std::ranges::min_element(covered, {}, &HalfPlane::bound);  // the larger the separation
   Region hidden{nearest};
   for (const HalfPlane& facet : covered) {
     if (facet.bound < 0) hidden.push_back(facet);
@@ -111,7 +109,7 @@ struct EdgeLine {
 
 /// What of a part is left when others are taken away.
 std::vector<Interval> without(const Interval& whole, std::vector<Interval> taken) {
-  std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  std::ranges::sort(taken, {}, &Interval::from);
   std::vector<Interval> left;
   double reached = whole.from;
   for (const Interval& part : taken) {
@@ -145,7 +143,7 @@ class Plane {
       boxes.push_back(
           Box2{box.lower - seen - shape.upper, box.upper - seen - shape.lower}.inflated(2 * search.clearance));
     }
-    tree_ = BoxTree(std::move(boxes), std::move(names));
+    tree_ = BoxTree(boxes, names);
   }
 
   [[nodiscard]] std::vector<Vec2d> ends() const {
@@ -179,7 +177,7 @@ class Plane {
     const Vec2d last = line.at(facet.to);
     for (const std::uint32_t other : tree_.meeting({first.cwiseMin(last), first.cwiseMax(last)})) take(covered_[other]);
     if (without(facet, taken).empty()) return;  // as most facets inside a large solid: spare them the shadows
-    std::for_each(hidden_.begin(), hidden_.end(), take);
+    std::ranges::for_each(hidden_, take);
     for (const Interval& part : without(facet, std::move(taken))) {
       ends.push_back(line.at(std::clamp(0.0, part.from, part.to)));
       // Where rounding spoils the nearest end of it, the others may do.
@@ -201,8 +199,7 @@ std::vector<Vec2d> ends_of_ways(std::span<const Barrier> barriers, std::span<con
                                 const EndSearch& search) {
   std::vector<Vec2d> ends = Plane(barriers, octagon, search).ends();
   std::erase_if(ends, [&](const Vec2d& way) { return !(way.norm() <= search.reach); });
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const Vec2d& a, const Vec2d& b) { return a.squaredNorm() < b.squaredNorm(); });
+  std::ranges::stable_sort(ends, [](const Vec2d& a, const Vec2d& b) { return a.squaredNorm() < b.squaredNorm(); });
   return ends;
 }
 

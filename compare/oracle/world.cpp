@@ -9,9 +9,8 @@ namespace paperproof::compare::detail {
 namespace {
 
 template <class Number>
-Sign turn_in(const Convert<Number>& number, const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  const Point<Number> origin = convert(number, a);
-  return sign_of(cross(convert(number, b) - origin, convert(number, c) - origin));
+Sign side_in(const Convert<Number>& number, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
+  return sign_of(cross(convert(number, end) - convert(number, start), convert(number, to) - convert(number, from)));
 }
 
 template <class Number>
@@ -24,45 +23,18 @@ Sign winding_in(const Convert<Number>& number, std::span<const Vec2d> ring) {
   return sign_of(area);
 }
 
-int lowest_bit(std::span<const Vec2d> points) {
-  int lowest = std::numeric_limits<int>::max();
-  for (const Vec2d& point : points) lowest = std::min(lowest, detail::lowest_bit(point));
-  return lowest;
-}
-
-Box2 box_around(std::span<const Vec2d> points) {
-  Box2 box{points[0], points[0]};
-  for (const Vec2d& point : points) box = box.merged({point, point});
-  return box;
-}
-
-bool strictly_inside(std::span<const Vec2d> convex, const Vec2d& point) {
-  for (std::size_t k = 0; k < convex.size(); ++k) {
-    if (turn(convex[k], convex[(k + 1) % convex.size()], point) != Sign::positive) return false;
-  }
-  return true;
-}
-
-Vec2d find_witness(std::span<const Vec2d> points) {
-  Vec2d sum = Vec2d::Zero();
-  for (const Vec2d& point : points) sum += point;
-  const Vec2d mean = sum / static_cast<double>(points.size());
-  if (strictly_inside(points, mean)) return mean;
-  throw std::invalid_argument("the character is not convex, or too thin for its coordinates");
-}
-
 }  // namespace
 
-Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  const Sign quick = turn_in(Convert<Approximate>{}, a, b, c);
+Sign side(const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
+  const Sign quick = side_in(Convert<Approximate>{}, start, end, from, to);
   if (quick != Sign::unknown) return quick;
-  return turn_in(Convert<Integer>{std::min({detail::lowest_bit(a), detail::lowest_bit(b), detail::lowest_bit(c)})}, a,
-                 b, c);
+  const int unit = std::min({lowest_bit(start), lowest_bit(end), lowest_bit(from), lowest_bit(to)});
+  return side_in(Convert<Integer>{unit}, start, end, from, to);
 }
 
 Sign winding(std::span<const Vec2d> ring) {
   const Sign quick = winding_in(Convert<Approximate>{}, ring);
-  return quick != Sign::unknown ? quick : winding_in(Convert<Integer>{lowest_bit(ring)}, ring);
+  return quick != Sign::unknown ? quick : winding_in(Convert<Integer>{lowest_bit_of(ring)}, ring);
 }
 
 std::vector<Vec2d> normalised(std::vector<Vec2d> points) {
@@ -73,15 +45,20 @@ std::vector<Vec2d> normalised(std::vector<Vec2d> points) {
   }
   const Sign way = winding(points);
   if (way == Sign::zero) throw std::invalid_argument("the character's points have no area");
-  if (way == Sign::negative) std::reverse(points.begin(), points.end());
+  if (way == Sign::negative) std::ranges::reverse(points);
   return points;
 }
 
 World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
     : scenery_(scenery), points_(normalised(std::move(points))) {
-  witness_ = find_witness(points_);
-  points_box_ = box_around(points_);
-  points_unit_ = std::min(lowest_bit(points_), detail::lowest_bit(witness_));
+  Vec2d sum = Vec2d::Zero();
+  for (const Vec2d& point : points_) sum += point;
+  witness_ = sum / static_cast<double>(points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (turn(points_[k], points_[(k + 1) % points_.size()], witness_) != Sign::positive)
+      throw std::invalid_argument("the character is not convex, or too thin for its coordinates");
+  points_box_ = Box2::around(points_);
+  points_unit_ = std::min(lowest_bit_of(points_), lowest_bit(witness_));
   for (ColliderIndex i = 0; i < scenery_.colliders.size(); ++i) {
     const ColliderDef& def = scenery_.colliders[i];
     solids_.push_back({.kind = Kind::polygon,
@@ -89,7 +66,7 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
                        .first_edge = static_cast<std::uint32_t>(edges_.size()),
                        .edge_count = 0,
                        .unit = std::numeric_limits<int>::max(),
-                       .box = box_around(def.points)});
+                       .box = Box2::around(def.points)});
     if (def.shape == ColliderDef::Shape::circle)
       add_disc(i);
     else if (def.one_way)
@@ -104,9 +81,8 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
 }
 
 std::uint32_t World::find_group(const ColliderDef& def) {
-  const auto known = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-    return group.mover == def.mover && group.sensor == def.sensor;
-  });
+  const auto known = std::ranges::find_if(
+      groups_, [&](const Group& group) { return group.mover == def.mover && group.sensor == def.sensor; });
   const auto index = static_cast<std::uint32_t>(known - groups_.begin());
   if (known == groups_.end()) {
     groups_.emplace_back();
@@ -126,12 +102,12 @@ void World::build_trees(Group& group) const {
     group.box = group.box.merged(solid.box);
     solid_boxes.push_back(solid.box);
     for (std::uint32_t i = solid.first_edge; i < solid.first_edge + solid.edge_count; ++i) {
-      edge_boxes.push_back({edges_[i].a.cwiseMin(edges_[i].b), edges_[i].a.cwiseMax(edges_[i].b)});
+      edge_boxes.push_back(Box2::between(edges_[i].a, edges_[i].b));
       edge_names.push_back(i);
     }
   }
-  group.solid_tree = BoxTree(std::move(solid_boxes), group.colliders);
-  group.edge_tree = BoxTree(std::move(edge_boxes), std::move(edge_names));
+  group.solid_tree = BoxTree(solid_boxes, group.colliders);
+  group.edge_tree = BoxTree(edge_boxes, edge_names);
 }
 
 void World::add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b) {
@@ -139,7 +115,7 @@ void World::add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b) {
   Solid& solid = solids_[index];
   edges_.push_back({a, b, index});
   ++solid.edge_count;
-  solid.unit = std::min({solid.unit, detail::lowest_bit(a), detail::lowest_bit(b)});
+  solid.unit = std::min({solid.unit, lowest_bit(a), lowest_bit(b)});
 }
 
 void World::add_polygon(ColliderIndex index) {
@@ -160,7 +136,7 @@ void World::add_disc(ColliderIndex index) {
   const ColliderDef& def = scenery_.colliders[index];
   Solid& solid = solids_[index];
   solid.kind = Kind::disc;
-  solid.unit = std::min(detail::lowest_bit(def.points.front()), detail::lowest_bit(def.radius));
+  solid.unit = std::min(lowest_bit(def.points.front()), lowest_bit(def.radius));
   solid.box = box_of_disc(def.points.front(), def.radius);
 }
 
@@ -189,21 +165,27 @@ void World::add_one_way(ColliderIndex index) {
 Box2 World::box_of(const Way& way) const noexcept {
   const Vec2d from = way.from.rounded();
   const Vec2d end = way.rounded_end();
-  const Box2 ends = Box2{from, from}.merged({end, end});
-  const Box2 box{ends.lower + points_box_.lower, ends.upper + points_box_.upper};
+  const Box2 box = Box2::between(from, end) + points_box_;
   // At most eight roundings of numbers no larger than these.
   const double size = way.size() + points_box_.lower.cwiseAbs().maxCoeff() + points_box_.upper.cwiseAbs().maxCoeff();
   return box.inflated(size * 0x1p-49 + std::numeric_limits<double>::min());
 }
 
 template <class Number>
-Passage::Frame<Number> Passage::frame(int unit) const {
-  Frame<Number> frame{.number = {unit}, .from = {}, .way = {}, .octagon = {}, .hull = {}, .known = false};
-  frame.from = way_.from.in(frame.number);
-  frame.way = way_.displacement(frame.number);
-  frame.octagon = convert_octagon(frame.number, world_.points());
+Frame<Number> Passage::frame(int unit) const {
+  Frame<Number> frame = make_frame<Number>(world_, way_, unit);
   frame.known = sweep_hull(frame.octagon, frame.way, frame.hull);
   return frame;
+}
+
+template <class Question>
+bool Passage::decide(int unit, const Question& question) const {
+  Answer answer = question(quick_);
+  if (answer == Answer::unknown) {
+    world_.count_exact();
+    answer = question(frame<Integer>(unit));
+  }
+  return answer == Answer::yes;
 }
 
 template <class Number>
@@ -245,12 +227,8 @@ Answer Passage::above(const Frame<Number>& frame, const Surface& surface) const 
 bool Passage::above(std::uint32_t surface) const {
   if (known_above_ && known_above_->first == surface) return known_above_->second;
   const Surface& asked = world_.surfaces()[surface];
-  Answer answer = above(quick_, asked);
-  if (answer == Answer::unknown) {
-    world_.count_exact();
-    answer = above(frame<Integer>(world_.unit_of(way_, asked)), asked);
-  }
-  known_above_.emplace(surface, answer == Answer::yes);
+  const auto is_above = [&](const auto& frame) { return above(frame, asked); };
+  known_above_.emplace(surface, decide(world_.unit_of(way_, asked), is_above));
   return known_above_->second;
 }
 
@@ -293,19 +271,14 @@ std::vector<std::uint32_t> Passage::entered_edges(ColliderIndex collider) const 
   const Solid& solid = world_.solids()[collider];
   for (std::uint32_t i = solid.first_edge; i < solid.first_edge + solid.edge_count; ++i) {
     const Edge& edge = world_.edges()[i];
-    if (box_.overlaps({edge.a.cwiseMin(edge.b), edge.a.cwiseMax(edge.b)})) candidates.push_back(i);
+    if (box_.overlaps(Box2::between(edge.a, edge.b))) candidates.push_back(i);
   }
   return entered(candidates);
 }
 
 bool Passage::inside(ColliderIndex collider) const {
-  if (world_.solids()[collider].kind != Kind::polygon) return false;
-  Answer answer = inside(quick_, collider);
-  if (answer == Answer::unknown) {
-    world_.count_exact();
-    answer = inside(frame<Integer>(world_.unit_of(way_, collider)), collider);
-  }
-  return answer == Answer::yes;
+  return world_.solids()[collider].kind == Kind::polygon &&
+         decide(world_.unit_of(way_, collider), [&](const auto& frame) { return inside(frame, collider); });
 }
 
 template <class Number>
@@ -316,12 +289,7 @@ Answer Passage::enters_disc(const Frame<Number>& frame, ColliderIndex disc) cons
 }
 
 bool Passage::enters_disc(ColliderIndex disc) const {
-  Answer answer = enters_disc(quick_, disc);
-  if (answer == Answer::unknown) {
-    world_.count_exact();
-    answer = enters_disc(frame<Integer>(world_.unit_of(way_, disc)), disc);
-  }
-  return answer == Answer::yes;
+  return decide(world_.unit_of(way_, disc), [&](const auto& frame) { return enters_disc(frame, disc); });
 }
 
 std::vector<ColliderIndex> Passage::met_discs() const {
@@ -358,7 +326,7 @@ bool Passage::meets(ColliderIndex collider) const {
 std::span<const std::uint32_t> Passage::of_collider(std::span<const std::uint32_t> edges,
                                                     ColliderIndex collider) const {
   const Solid& solid = world_.solids()[collider];
-  const auto first = std::lower_bound(edges.begin(), edges.end(), solid.first_edge);
+  const auto first = std::ranges::lower_bound(edges, solid.first_edge);
   return {first, std::lower_bound(first, edges.end(), solid.first_edge + solid.edge_count)};
 }
 

@@ -127,8 +127,27 @@ template <class Question>
 /// Twice the signed area of a ring: positive when it runs counter-clockwise. Exact.
 [[nodiscard]] Sign winding(std::span<const Vec2d> ring);
 
+/// The sign of (end - start) × (to - from), exact.
+[[nodiscard]] Sign side(const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to);
 /// The sign of the turn a → b → c, exact.
-[[nodiscard]] Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c);
+[[nodiscard]] inline Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return side(a, b, a, c); }
+
+/// The octagon and its way in one kind of number.
+template <class Number>
+struct Frame {
+  Convert<Number> number;
+  Point<Number> from;
+  Point<Number> way;
+  Octagon<Number> octagon;
+  Hull<Number> hull{};  ///< Of the way, where asked for,
+  bool known = false;   ///< and known.
+  [[nodiscard]] Point<Number> at(const Vec2d& v) const { return convert(number, v) - from; }
+};
+template <class Number>
+[[nodiscard]] Frame<Number> make_frame(const World& world, const Way& way, int unit) {
+  const Convert<Number> number{unit};
+  return {number, way.from.in(number), way.displacement(number), convert_octagon(number, world.points())};
+}
 
 /// What of one group the octagon meets on a way in that group's frame. Lives for one question.
 class Passage {
@@ -152,19 +171,12 @@ class Passage {
   [[nodiscard]] bool meets_disc(ColliderIndex disc, double until) const;
 
  private:
-  /// The hull of the way in one kind of number.
-  template <class Number>
-  struct Frame {
-    Convert<Number> number;
-    Point<Number> from;
-    Point<Number> way;
-    Octagon<Number> octagon;
-    Hull<Number> hull;
-    bool known = false;
-    [[nodiscard]] Point<Number> at(const Vec2d& v) const { return convert(number, v) - from; }
-  };
+  /// With the hull.
   template <class Number>
   [[nodiscard]] Frame<Number> frame(int unit) const;
+  /// @param question asked of the frame in doubles, and in integers of a unit where those do not know.
+  template <class Question>
+  [[nodiscard]] bool decide(int unit, const Question& question) const;
   template <class Number>
   [[nodiscard]] Answer enters(const Frame<Number>& frame, const Edge& edge) const;
   template <class Number>
