@@ -56,12 +56,13 @@ bool CompanyJudge::is_beside_another(const TraceStep& one, std::span<const Trace
            pair_.meet_between(mine, theirs, mine + one.requested, theirs);
   };
   const auto comes_near = [&](const TraceStep& other) {
-    return std::any_of(one.path.begin(), one.path.end(),
-                       [&](const PathPoint& at) { return is_near(at.position, place_at(other.path, at.fraction)); }) ||
-           std::any_of(other.path.begin(), other.path.end(),
-                       [&](const PathPoint& at) { return is_near(place_at(one.path, at.fraction), at.position); });
+    return std::ranges::any_of(
+               one.path,
+               [&](const PathPoint& at) { return is_near(at.position, place_at(other.path, at.fraction)); }) ||
+           std::ranges::any_of(
+               other.path, [&](const PathPoint& at) { return is_near(place_at(one.path, at.fraction), at.position); });
   };
-  return !one.turn && std::any_of(steps.begin(), steps.end(), [&](const TraceStep& other) {
+  return !one.turn && std::ranges::any_of(steps, [&](const TraceStep& other) {
     return other.character != one.character && may_meet(one, other) && comes_near(other);
   });
 }
@@ -74,7 +75,7 @@ bool CompanyJudge::may_meet(const TraceStep& one, const TraceStep& other) const 
   const auto covered = [this](const TraceStep& step) {
     const Box2 places = reach_of(step);
     const double size = std::max(places.lower.cwiseAbs().maxCoeff(), places.upper.cwiseAbs().maxCoeff());
-    return Box2{places.lower + box_.lower, places.upper + box_.upper}.inflated(box2d_skin + size * 0x1p-48);
+    return (places + box_).inflated(box2d_skin + size * 0x1p-48);
   };
   return covered(one).overlaps(covered(other));
 }

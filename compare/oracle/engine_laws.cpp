@@ -58,7 +58,7 @@ bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<con
   const Vec2d change = velocity - wanted;
   const double slack = in_float * std::max(1.0, wanted.norm());
   if (!(change.norm() > slack)) return false;
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) {
+  return std::ranges::any_of(surfaces, [&](const MetSurface& at) {
     // What is left runs along the tilted surface, or there is nothing left.
     const Vec2d along_it = velocity - at.velocity;
     const bool ends = !(along_it.norm() > slack);

@@ -14,70 +14,50 @@ constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
 constexpr std::array<Exemption, 14> all_exemptions{{
-    {Exempt::clipped,
-     "clipped",
+    {"clipped",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
      "m",
      {0, its_rim, its_rim, its_rim}},
-    {Exempt::late_match, "late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
-    {Exempt::reach,
-     "reach",
+    {"late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
+    {"reach",
      "reports a contact with what is no farther than this, and not met",
      "m",
      {0, box2d_skin, its_own, its_own}},
-    {Exempt::hover,
-     "hover",
+    {"hover",
      "does not fall, and no solid below or beside it is farther than this; or stands on ground that is beside its foot "
      "by up to 7e-7 m",
      "m",
      {0, box2d_skin, its_own, its_own}},
-    {Exempt::company,
-     "company",
+    {"company",
      "is beside another character that goes at the same time: contacts with scenery, lost speed, falls, ground and "
-     "room "
-     "count neither way",
+     "room count neither way",
      "",
      {0, 1, 1, 1}},
-    {Exempt::stuck,
-     "stuck",
-     "is stuck, crushed or begins inside something, and misses or invents contacts",
-     "",
-     {1, 1, 1, 1}},
-    {Exempt::late_ground,
-     "late_ground",
-     "says that it is grounded by what was under it earlier in the step",
-     "",
-     {0, 1, 1, 1}},
-    {Exempt::drawn,
-     "drawn",
+    {"stuck", "is stuck, crushed or begins inside something, and misses or invents contacts", "", {1, 1, 1, 1}},
+    {"late_ground", "says that it is grounded by what was under it earlier in the step", "", {0, 1, 1, 1}},
+    {"drawn",
      "is inside pixels no deeper than this: it is drawn on whole pixels, and the octagon is not",
      "m",
      {0, 0, its_pixel, 0}},
-    {Exempt::deflected,
-     "deflected",
+    {"deflected",
      "reports a contact that the requested motion has not, but what an exact contact leaves of it",
      "",
      {1, 0, 1, 1}},
-    {Exempt::ahead,
-     "ahead",
+    {"ahead",
      "reports a contact with what is this near along the normal, and met in the next step only",
      "m",
      {1e-6, 0, 1e-6, 1e-6}},
-    {Exempt::far, "far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
-    {Exempt::unsure,
-     "unsure",
-     "hangs, or loses speed, unless what turns comes this much farther than its point nearest to the "
-     "character",
+    {"far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
+    {"unsure",
+     "hangs, or loses speed, unless what turns comes this much farther than its point nearest to the character",
      "m",
      {its_turn, its_turn, its_turn, its_turn}},
-    {Exempt::in_parts,
-     "in_parts",
+    {"in_parts",
      "goes in parts of a step, as what turns near it does: what the motion of the first would meet later is not asked "
      "for",
      "",
      {1, 0, 1, 1}},
-    {Exempt::turning_sensor,
-     "turning_sensor",
+    {"turning_sensor",
      "overlaps a sensor that turns: whether and when it enters and leaves that is not asked for",
      "",
      {1, 1, 1, 1}},
@@ -134,12 +114,11 @@ double ulp_at(const TraceHeader& header, const Vec2d& position) {
 
 std::vector<std::string> exemptions_in_words() {
   std::vector<std::string> lines;
-  for (const Exemption& exemption : all_exemptions) {
+  for (const Exemption& exemption : all_exemptions)
     lines.push_back(std::string(exemption.name) + ": " + std::string(exemption.meaning) + ". octagon_sweep in double " +
                     size_in_words(exemption, Party::promising) + ", Box2D " + size_in_words(exemption, Party::sampled) +
                     ", who searches by units " + size_in_words(exemption, Party::by_units) + ", others " +
                     size_in_words(exemption, Party::computing));
-  }
   return lines;
 }
 

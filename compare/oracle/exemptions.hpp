@@ -40,7 +40,6 @@ enum class Exempt : std::uint8_t {
 };
 
 struct Exemption {
-  Exempt which = Exempt::clipped;
   std::string_view name;          ///< As rows have it in `exempted`.
   std::string_view meaning;       ///< What happened that is not held against it.
   std::string_view unit;          ///< "m" or "steps"; empty where there is no size, and 1 means that it applies.

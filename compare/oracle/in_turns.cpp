@@ -62,8 +62,7 @@ TraceStep InTurns::turn_of(const TraceStep& one, std::span<const TraceStep> step
     turn.contacts.push_back(
         {.collider = body_of(met.other), .normal = met.normal, .fraction = met.fraction, .side = met.side});
   turn.contacts.insert(turn.contacts.end(), one.contacts.begin(), one.contacts.end());
-  std::stable_sort(turn.contacts.begin(), turn.contacts.end(),
-                   [](const Contact& a, const Contact& b) { return a.fraction < b.fraction; });
+  std::ranges::stable_sort(turn.contacts, [](const Contact& a, const Contact& b) { return a.fraction < b.fraction; });
   turn.met.clear();
   if (const Carrier on = carrier_of(one.ride)) {
     const MoverMotion& motion = turn.movers[turn.movers.size() - steps.size() + *on];

@@ -24,29 +24,22 @@ Vec2d way_of(const MoverMotion& motion) { return motion.to - motion.from; }
 
 bool touches_from_above(const TraceStep& step, const Vec2d& up) {
   const auto looks_up = [&up](const auto& contact) { return contact.normal.dot(up) > 0; };
-  return std::any_of(step.contacts.begin(), step.contacts.end(), looks_up) ||
-         std::any_of(step.met.begin(), step.met.end(), looks_up);
+  return std::ranges::any_of(step.contacts, looks_up) || std::ranges::any_of(step.met, looks_up);
 }
 
 bool is_wall_ahead(const TraceHeader& header, const ExactScenery& solids, const Place& at, const Vec2d& up,
                    double move) {
   const Vec2d there = right_of(up) * std::copysign(header.character.wall_reach, move);
   const std::vector<ExactImpact> impacts = solids.impacts(at, there);
-  return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
+  return std::ranges::any_of(impacts, [&](const ExactImpact& impact) {
     return detail::side_along(impact.normal, up) == (move < 0 ? Side::left : Side::right);
   });
 }
 
 void Intent::start_anew(const TraceStep& step) {
-  TraceState state = step.from.value_or(TraceState{});
+  state_ = step.from.value_or(TraceState{});
   const bool is_start = !step.from && step.character < header_->starts.size();
-  if (is_start) state.velocity = header_->starts[step.character].velocity;
-  velocity_ = state.velocity;
-  grounded_ = state.grounded;
-  jumping_ = state.jumping;
-  jump_held_ = state.jump_held;
-  jump_pending_ = state.jump_pending;
-  ride_ = state.ride;
+  if (is_start) state_.velocity = header_->starts[step.character].velocity;
   // A character that is given another velocity where it is remembers the rest.
   if (begun_ && step.path.front().position == end_) return;
   pending_left_ = coyote_left_ = 0;
@@ -56,35 +49,35 @@ void Intent::start_anew(const TraceStep& step) {
 
 void Intent::note_press(bool pressed, double dt) {
   const std::optional<double>& buffer = header_->character.jump_buffer;
-  if (pressed && !jump_held_) {
-    jump_pending_ = true;
+  if (pressed && !state_.jump_held) {
+    state_.jump_pending = true;
     pending_left_ = buffer.value_or(0);
   } else if (buffer) {
     pending_left_ = std::max(pending_left_ - dt, 0.0);
-    jump_pending_ = jump_pending_ && pending_left_ > 0;
+    state_.jump_pending = state_.jump_pending && pending_left_ > 0;
   } else if (!pressed) {
-    jump_pending_ = false;
+    state_.jump_pending = false;
   }
 }
 
 bool Intent::may_jump(const TraceStep& step, const WallAhead& wall_ahead) const {
-  if (crushed_ || jumping_ || !(grounded_ || coyote_left_ > 0)) return false;
+  if (crushed_ || state_.jumping || !(state_.grounded || coyote_left_ > 0)) return false;
   const double move = step.input.move.value_or(0);
   if (!header_->character.no_jump_toward_wall || move == 0) return true;
-  return !(move < 0 ? wall_left_ : wall_right_) && !(grounded_ && wall_ahead && wall_ahead(step, move));
+  return !(move < 0 ? wall_left_ : wall_right_) && !(state_.grounded && wall_ahead && wall_ahead(step, move));
 }
 
 /// The upward speed after the button was pressed or released, or while a press is pending.
 double Intent::use_button(const TraceStep& step, double dt, double rise, const WallAhead& wall_ahead, Wanted& wanted) {
   const CharacterDef& character = header_->character;
   const bool pressed = step.input.jump;
-  if (pressed == jump_held_ && !jump_pending_) return rise;
+  if (pressed == state_.jump_held && !state_.jump_pending) return rise;
   note_press(pressed, dt);
-  if (jump_held_ && !pressed && jumping_ && rise > 0) rise *= character.jump_cut;
-  jump_held_ = pressed;
-  if (!jump_pending_ || !may_jump(step, wall_ahead)) return rise;
-  wanted.jumped = jumping_ = true;
-  grounded_ = jump_pending_ = false;
+  if (state_.jump_held && !pressed && state_.jumping && rise > 0) rise *= character.jump_cut;
+  state_.jump_held = pressed;
+  if (!state_.jump_pending || !may_jump(step, wall_ahead)) return rise;
+  wanted.jumped = state_.jumping = true;
+  state_.grounded = state_.jump_pending = false;
   coyote_left_ = 0;
   return character.jump_speed * (pressed ? 1 : character.jump_cut);
 }
@@ -92,10 +85,10 @@ double Intent::use_button(const TraceStep& step, double dt, double rise, const W
 /// Whether a step in parts jumps after its first part. A character whose jump goes on, or has ended, must have landed
 /// in a part before the last one. A new jump rises faster than the step was to rise.
 bool Intent::jumped_later(const TraceStep& step) const {
-  if (!jump_pending_) return false;
-  if (step.jumping && !jumping_) return true;
+  if (!state_.jump_pending) return false;
+  if (step.jumping && !state_.jumping) return true;
   const Vec2d up = up_in(step, *header_);
-  const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact& contact) {
+  const bool landed = std::ranges::any_of(step.contacts, [&](const Contact& contact) {
     return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
   if (!landed) return false;
@@ -116,35 +109,35 @@ bool Intent::jumped_later(const TraceStep& step) const {
 void Intent::end_later_parts(const TraceStep& step) {
   const double part = length_of(step, *header_) / parts_;
   if (jumped_later(step)) {
-    jumping_ = true;
-    jump_pending_ = false;
+    state_.jumping = true;
+    state_.jump_pending = false;
     coyote_left_ = 0;
   }
   for (int k = 1; k < parts_; ++k) {
-    if (jump_pending_) note_press(jump_held_, part);
-    if (!grounded_) coyote_left_ = std::max(coyote_left_ - part, 0.0);
+    if (state_.jump_pending) note_press(state_.jump_held, part);
+    if (!state_.grounded) coyote_left_ = std::max(coyote_left_ - part, 0.0);
   }
 }
 
 /// Whether the rise comes from walking up ground: then it ends with the walk.
 bool Intent::is_climb_of_walk(double walk, double rise) const {
-  const bool ground_is_gone = !ride_ && !ground_velocity_.isZero(0);
+  const bool ground_is_gone = !state_.ride && !ground_velocity_.isZero(0);
   const double steepest = std::tan(header_->character.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
-  return grounded_ && rise > 0 && !ground_is_gone && rise <= std::abs(walk) * steepest;
+  return state_.grounded && rise > 0 && !ground_is_gone && rise <= std::abs(walk) * steepest;
 }
 
 /// How far the ground takes its rider in the step [m]. A conveyor adds to its mover's way what its surface ran in the
 /// step before. A rider that drops through a one-way carrier goes on as fast as it went.
 Vec2d Intent::carried(const TraceStep& step, double dt) const {
-  if (!ride_) return Vec2d::Zero();
-  const ColliderDef& ground = header_->scenery.colliders[ride_->collider];
-  if (step.input.drop && ground.one_way) return ride_->velocity * dt;
+  if (!state_.ride) return Vec2d::Zero();
+  const ColliderDef& ground = header_->scenery.colliders[state_.ride->collider];
+  if (step.input.drop && ground.one_way) return state_.ride->velocity * dt;
   const bool is_circle = ground.shape == ColliderDef::Shape::circle;
-  if (const VertexWay* way = find_way(step.vertex_ways, ride_->collider))
-    return is_circle ? Vec2d(ride_->velocity * dt) : carried_along(*way);
+  if (const VertexWay* way = find_way(step.vertex_ways, state_.ride->collider))
+    return is_circle ? Vec2d(state_.ride->velocity * dt) : carried_along(*way);
   Vec2d carried = Vec2d::Zero();
   if (ground.mover != no_mover) carried = way_of(step.movers[ground.mover]);
-  if (ground.surface_speed != 0) carried += (ride_->velocity - carrier_velocity_) * dt;
+  if (ground.surface_speed != 0) carried += (state_.ride->velocity - carrier_velocity_) * dt;
   return carried;
 }
 
@@ -157,28 +150,29 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
   wanted.parts = parts_ = parts;
-  wanted.from_ground = grounded_;
-  const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
+  wanted.from_ground = state_.grounded;
+  const Vec2d own = seen(state_.ride ? Vec2d(state_.velocity - state_.ride->velocity) : state_.velocity, up);
   double walk = own.x();
   double rise = own.y();
   if (step.input.move) {
     const double acceleration =
-        grounded_ ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
+        state_.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
     const double target = std::clamp(*step.input.move, -1.0, 1.0) * character.walk_speed;
     walk += std::clamp(target - walk, -acceleration * dt, acceleration * dt);
   }
   const double change = walk - own.x();
   wanted.walk = walk;
-  if (ride_) wanted.ridden = ride_->collider;
-  if (ride_) wanted.rode = ride_->velocity;
+  if (state_.ride) wanted.ridden = state_.ride->collider;
+  if (state_.ride) wanted.rode = state_.ride->velocity;
   if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
   rise = use_button(step, dt, rise, wall_ahead, wanted);
-  if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);
+  if (character.coyote_time > 0)
+    coyote_left_ = state_.grounded ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);
   const Vec2d pull = seen(gravity_in(step, *header_), up) * dt;
   rise += pull.y();
   if (character.max_fall_speed) rise = std::max(rise, -*character.max_fall_speed);
-  wanted.jumping = jumping_;
-  wanted.pending = jump_pending_;
+  wanted.jumping = state_.jumping;
+  wanted.pending = state_.jump_pending;
   const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
   const Vec2d by_ground = carried(step, whole);
   wanted.displacement = velocity * whole + by_ground;
@@ -192,29 +186,28 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
 void Intent::end(const TraceStep& step) {
   if (parts_ > 1) end_later_parts(step);
   end_ = step.path.back().position;
-  velocity_ = step.velocity;
-  grounded_ = step.grounded;
+  state_.velocity = step.velocity;
+  state_.grounded = step.grounded;
   const bool promises = party_of(*header_) == Party::promising;
-  jumping_ = promises ? jumping_ && !step.grounded : step.jumping;
+  state_.jumping = promises ? state_.jumping && !step.grounded : step.jumping;
   crushed_ = !step.crushed.empty() || (crushed_ && step.stuck);
   const auto touches = [&](Side side) {
-    return std::any_of(step.contacts.begin(), step.contacts.end(),
-                       [side](const Contact& contact) { return contact.side == side; });
+    return std::ranges::any_of(step.contacts, [side](const Contact& contact) { return contact.side == side; });
   };
   wall_left_ = touches(Side::left);
   wall_right_ = touches(Side::right);
-  ride_ = step.ride;
+  state_.ride = step.ride;
   ground_velocity_ = step.ground_velocity;
   carrier_velocity_ = Vec2d::Zero();
-  if (!ride_) return;
-  const MoverIndex mover = header_->scenery.colliders[ride_->collider].mover;
+  if (!state_.ride) return;
+  const MoverIndex mover = header_->scenery.colliders[state_.ride->collider].mover;
   if (mover != no_mover) carrier_velocity_ = way_of(step.movers[mover]) / length_of(step, *header_);
 }
 
 double Intent::rounding(const TraceStep& step, const Wanted& wanted) const {
   const double share = header_->scalar == "float" ? share_of_float : share_of_double;
   double size = wanted.displacement.norm() +
-                (velocity_.norm() + (ride_ ? ride_->velocity.norm() : 0)) * length_of(step, *header_);
+                (state_.velocity.norm() + (state_.ride ? state_.ride->velocity.norm() : 0)) * length_of(step, *header_);
   // Where movers are is rounded, too.
   double largest = 0;
   for (const MoverMotion& motion : step.movers)

@@ -75,20 +75,15 @@ class Intent {
 
   const TraceHeader* header_;
   bool begun_ = false;
-  int parts_ = 1;                  ///< Of the step that has begun,
-  double rise_ = 0;                ///< and how fast up it wants to go [m/s].
-  Vec2d end_{Vec2d::Zero()};       ///< Where the step before ended [m].
-  Vec2d velocity_{Vec2d::Zero()};  ///< In the world [m/s].
-  bool grounded_ = false;
-  bool jumping_ = false;
-  bool jump_held_ = false;
-  bool jump_pending_ = false;
-  double pending_left_ = 0;  ///< [s]
-  double coyote_left_ = 0;   ///< [s]
+  int parts_ = 1;             ///< Of the step that has begun,
+  double rise_ = 0;           ///< and how fast up it wants to go [m/s].
+  Vec2d end_{Vec2d::Zero()};  ///< Where the step before ended [m].
+  TraceState state_;          ///< Its velocity is that in the world.
+  double pending_left_ = 0;   ///< [s]
+  double coyote_left_ = 0;    ///< [s]
   bool crushed_ = false;
   bool wall_left_ = false;
   bool wall_right_ = false;
-  std::optional<TraceRide> ride_;
   Vec2d ground_velocity_{Vec2d::Zero()};  ///< [m/s]
   /// How the mover that carries went in the step before [m/s].
   Vec2d carrier_velocity_{Vec2d::Zero()};

@@ -52,24 +52,17 @@ auto value_at(const std::vector<Entry>& entries, double time) -> decltype(Entry:
   return a.at + (time - a.time) / (b.time - a.time) * (b.at - a.at);
 }
 
-/// [m/s]
-double largest_speed(const MoverScript& script) {
-  double most = 0;
-  for (std::size_t i = 1; i < script.path.size(); ++i) {
-    const auto& [before, a] = script.path[i - 1];
-    const auto& [after, b] = script.path[i];
-    most = std::max(most, (b - a).norm() / (after - before));
-  }
-  return most;
-}
+double size_of(const Vec2d& way) { return way.norm(); }
+double size_of(double turn) { return std::abs(turn); }
 
-/// [rad/s]
-double largest_spin(const MoverScript& script) {
+/// Of a path [m/s], or of turns [rad/s].
+template <class Entry>
+double largest_speed(const std::vector<Entry>& entries) {
   double most = 0;
-  for (std::size_t i = 1; i < script.turns.size(); ++i) {
-    const auto& [before, a] = script.turns[i - 1];
-    const auto& [after, b] = script.turns[i];
-    most = std::max(most, std::abs(b - a) / (after - before));
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const auto& [before, a] = entries[i - 1];
+    const auto& [after, b] = entries[i];
+    most = std::max(most, size_of(b - a) / (after - before));
   }
   return most;
 }
@@ -139,12 +132,8 @@ MoverPose MoverWayJudge::Course::at(double fraction) const {
 
 MoverWayJudge::MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts)
     : header_(header), scripts_(std::move(scripts)), is_float_(header.scalar == "float") {
-  Box2 box{header.points.front(), header.points.front()};
-  for (const Vec2d& corner : header.points) {
-    box = box.merged({corner, corner});
-    radius_ = std::max(radius_, corner.norm());
-  }
-  extent_ = (box.upper - box.lower).norm();
+  for (const Vec2d& corner : header.points) radius_ = std::max(radius_, corner.norm());
+  extent_ = Box2::around(header.points).size().norm();
 }
 
 /// Records of several characters share a step.
@@ -180,7 +169,7 @@ bool MoverWayJudge::is_fine(const TraceStep& step, const Near& near) const {
   const double otherwise = (character.jump_speed + acceleration * dt) * dt + character.snap + character.step_height +
                            character.wall_reach + 2 * most_turned_at_once;
   const std::vector<ColliderIndex> beside = near(way + 2 * (extent_ + wanted) + 3 * otherwise);
-  return std::none_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
+  return std::ranges::none_of(beside, [&](ColliderIndex one) {
     const MoverIndex mover = header_.scenery.colliders[one].mover;
     const double turned = std::abs(course_of(mover).turn()) * extent_;
     return scripts_[mover].body || turned >= most_turned_at_once * parts / 2 * (1 - turning_share);
@@ -198,7 +187,7 @@ MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, const Near& near) 
     const MoverIndex mover = header_.scenery.colliders[way.collider].mover;
     const double turn = std::abs(course_of(mover).turn());
     // A circle does not turn: its centre goes straight.
-    const bool is_near = std::any_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
+    const bool is_near = std::ranges::any_of(beside, [&](ColliderIndex one) {
       const ColliderDef& other = header_.scenery.colliders[one];
       return other.mover == mover && !is_circle(other);
     });
@@ -212,7 +201,7 @@ MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, const Near& near) 
 bool MoverWayJudge::is_on_script(const Vec2d& offset, const MoverPose& pose, MoverIndex mover, double slack) const {
   if (offset == pose.offset) return true;
   const double rounded = (is_float_ ? rounding_of_float : rounding) * pose.offset.norm();
-  return slack > 0 && (offset - pose.offset).norm() <= slack * largest_speed(scripts_[mover]) + 2 * rounded;
+  return slack > 0 && (offset - pose.offset).norm() <= slack * largest_speed(scripts_[mover].path) + 2 * rounded;
 }
 
 void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judgement) {
@@ -232,7 +221,7 @@ void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judg
 double MoverWayJudge::allowed(const MoverPose& pose, const Vec2d& v, MoverIndex mover, double slack) const {
   const MoverScript& script = scripts_[mover];
   return roundings_of_vertex * rounding * ((1 + std::abs(pose.angle)) * v.norm() + pose.offset.norm()) +
-         slack * (largest_speed(script) + largest_spin(script) * v.norm());
+         slack * (largest_speed(script.path) + largest_speed(script.turns) * v.norm());
 }
 
 void MoverWayJudge::judge_way(const VertexWay& way, const TraceStep& step, double most, MoverWayJudgement& judgement) {

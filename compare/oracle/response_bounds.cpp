@@ -29,9 +29,9 @@ bool may_enter(const Box2& box, const MetSurface& at) {
   if (!(box.lower.x() <= box.upper.x())) return false;
   const std::array<Vec2d, 4> corners = corners_of(box);
   const std::array<Vec2d, 4> goes = velocities_of(at);
-  return std::any_of(corners.begin(), corners.end(), [&](const Vec2d& v) {
-    return std::any_of(goes.begin(), goes.end(),
-                       [&](const Vec2d& velocity) { return enters(v, {.normal = at.normal, .velocity = velocity}); });
+  return std::ranges::any_of(corners, [&](const Vec2d& v) {
+    return std::ranges::any_of(
+        goes, [&](const Vec2d& velocity) { return enters(v, {.normal = at.normal, .velocity = velocity}); });
   });
 }
 
@@ -145,7 +145,7 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
 bool leave_no_motion(std::span<const MetSurface> surfaces, double most) {
   const auto comes_against = [](const MetSurface& at) { return entering(Vec2d::Zero(), at) < 0; };
   const auto leaves_none = [&](const std::vector<MetSurface>& touched) {
-    if (std::none_of(touched.begin(), touched.end(), comes_against)) return false;
+    if (std::ranges::none_of(touched, comes_against)) return false;
     const std::optional<Vec2d> left = nearest_allowed(Vec2d::Zero(), touched);
     return !left || left->norm() > most;
   };

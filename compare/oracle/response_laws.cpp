@@ -2,6 +2,7 @@
 
 #include "oracle/surface_velocities.hpp"
 #include "oracle/up.hpp"
+#include "words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +45,7 @@ std::optional<Vec2d> walked_to(double x, double y, std::span<const MetSurface> s
     if (at.walkable) y = std::max(y, rise_at(x, at));
   const Vec2d v(x, y);
   const auto is_in = [&](const MetSurface& at) { return !at.walkable && enters(v, at); };
-  if (!std::isfinite(y) || std::any_of(surfaces.begin(), surfaces.end(), is_in)) return std::nullopt;
+  if (!std::isfinite(y) || std::ranges::any_of(surfaces, is_in)) return std::nullopt;
   return v;
 }
 
@@ -60,7 +61,7 @@ std::optional<Vec2d> walked_towards(double x, double y, double begin, double end
       if (const auto held = ground.walkable ? held_by(at, ground) : std::nullopt) places.push_back(held->x());
   }
   std::erase_if(places, [&](double place) { return place < std::min(begin, end) || place > std::max(begin, end); });
-  std::stable_sort(places.begin(), places.end(), [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
+  std::ranges::stable_sort(places, [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
   for (const double place : places)
     if (const std::optional<Vec2d> v = walked_to(place, y, surfaces)) return v;
   return std::nullopt;
@@ -97,8 +98,8 @@ bool slides_along(double steering, const Vec2d& u, std::span<const MetSurface> s
   const auto presses = [&](const MetSurface& at) {
     return !at.walkable && steering * at.normal.x() < 0 && !rises_under(u, at);
   };
-  return std::none_of(surfaces.begin(), surfaces.end(), presses) &&
-         std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& at) { return !at.walkable && enters(w, at); });
+  return std::ranges::none_of(surfaces, presses) &&
+         std::ranges::any_of(surfaces, [&](const auto& at) { return !at.walkable && enters(w, at); });
 }
 
 /// What surfaces make of a velocity that are touched at once; nothing where they leave none.
@@ -117,8 +118,7 @@ std::optional<Steered> respond(const Steered& velocity, double& steering, bool c
   const Vec2d came = u;
   for (const MetSurface& at : surfaces)
     if (!at.walkable) u = after_impact(came, u, at, surfaces, steering);
-  const bool lands =
-      std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return at.walkable && enters(u, at); });
+  const bool lands = std::ranges::any_of(surfaces, [&](const MetSurface& at) { return at.walkable && enters(u, at); });
   if (!lands && slides_along(steering, u, surfaces)) {
     u.x() += steering;
     steering = 0;
@@ -153,8 +153,7 @@ double most_pressed(const Steered& came, std::span<const MetSurface> held) {
   const auto is_other = [&](const MetSurface& at) {
     return std::abs(cross_of(at.normal, held[0].normal)) > one_direction;
   };
-  if (std::none_of(held.begin(), held.end(), pushes) || std::none_of(held.begin(), held.end(), is_other))
-    return infinity;
+  if (std::ranges::none_of(held, pushes) || std::ranges::none_of(held, is_other)) return infinity;
   double most = 0;
   for (const Vec2d& velocity : {came.wanted, came.unsteered}) {
     most = std::max(most, velocity.norm());
@@ -169,18 +168,18 @@ double most_pressed(const Steered& came, std::span<const MetSurface> held) {
 /// Whether surfaces on both sides that nobody walks on, and that go almost alike, leave hardly anything of a fall; or
 /// some beside which the character is.
 bool hold_fall(std::span<const MetSurface> held, const Vec2d& left, double fall) {
-  const MetSurface& first = *std::max_element(held.begin(), held.end(),
-                                              [](const auto& a, const auto& b) { return a.normal.y() < b.normal.y(); });
+  const MetSurface& first =
+      *std::ranges::max_element(held, [](const auto& a, const auto& b) { return a.normal.y() < b.normal.y(); });
   const double hardly = 0.1 * (first.velocity.y() - fall);
   const auto goes_alike = [&](const MetSurface& at) {
     return (!at.walkable || at.is_beside) && (at.velocity - first.velocity).norm() <= hardly;
   };
   const auto is_at = [&](double side) {
-    return std::any_of(held.begin(), held.end(), [&](const auto& at) { return side * at.normal.x() > 0; });
+    return std::ranges::any_of(held, [&](const auto& at) { return side * at.normal.x() > 0; });
   };
-  const bool beside = std::any_of(held.begin(), held.end(), is_ground_beside);
+  const bool beside = std::ranges::any_of(held, is_ground_beside);
   return held.size() > 1 && hardly > 0 && first.normal.y() > 0 && (beside || (is_at(-1) && is_at(1))) &&
-         (left - first.velocity).norm() <= hardly && std::all_of(held.begin(), held.end(), goes_alike);
+         (left - first.velocity).norm() <= hardly && std::ranges::all_of(held, goes_alike);
 }
 
 /// As an upright character sees it. Surfaces that are met at one moment are answered together with all that still hold.
@@ -193,8 +192,8 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     const MetSurface& at = surfaces[k];
     const bool goes_on = k > 0 && surfaces[k - 1].met < at.met;
     std::vector<MetSurface> rims;  // touched here for the last time
-    std::copy_if(held.begin(), held.end(), std::back_inserter(rims),
-                 [&](const MetSurface& one) { return one.past_rim && one.left == at.met; });
+    std::ranges::copy_if(held, std::back_inserter(rims),
+                         [&](const MetSurface& one) { return one.past_rim && one.left == at.met; });
     std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     do {
       if (!is_at_end(surfaces[k]) || unknown.met_at_end) held.push_back(surfaces[k]);
@@ -214,8 +213,8 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     double spent = steering;
     const Steered between = respond(now, spent, at.climbs, rims).value_or(rest);
     now = respond(now, steering, at.climbs, held).value_or(rest);
-    const bool all_left = std::all_of(rims.begin(), rims.end(), [](const MetSurface& one) { return one.left <= 1; });
-    const bool borne = unknown.bears_beside && std::any_of(rims.begin(), rims.end(), is_ground_beside);
+    const bool all_left = std::ranges::all_of(rims, [](const MetSurface& one) { return one.left <= 1; });
+    const bool borne = unknown.bears_beside && std::ranges::any_of(rims, is_ground_beside);
     if (all_left && !borne && hold_fall(rims, between.unsteered, fall)) {
       const Vec2d falls = unknown.falls_along * (unknown.falls_along.y() * fall);
       now = {falls, falls};
@@ -229,18 +228,17 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
 /// What the trace leaves open of these surfaces.
 /// @param sides see `ControlledStep`.
 std::vector<Unknown> ways(std::span<const MetSurface> surfaces, std::span<const Vec2d> sides) {
-  const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
-  const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
-  const bool any_at_once = std::adjacent_find(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) {
-                             return a.met == b.met;
-                           }) != surfaces.end();
+  const bool any_at_end = std::ranges::any_of(surfaces, is_at_end);
+  const bool any_carries = std::ranges::any_of(surfaces, may_carry);
+  const bool any_at_once = std::ranges::adjacent_find(
+                               surfaces, [](const auto& a, const auto& b) { return a.met == b.met; }) != surfaces.end();
   std::vector<Unknown> all;
   for (const bool met_at_end : {false, true})
     for (const bool carried : {false, true})
       for (const bool one_by_one : {false, true})
         if (met_at_end <= any_at_end && carried <= any_carries && one_by_one <= any_at_once)
           all.push_back({met_at_end, carried, one_by_one});
-  if (std::any_of(surfaces.begin(), surfaces.end(), is_ground_beside)) {
+  if (std::ranges::any_of(surfaces, is_ground_beside)) {
     std::vector<Unknown> borne = all;
     for (Unknown& unknown : borne) unknown.bears_beside = true;
     all.insert(all.end(), borne.begin(), borne.end());
@@ -276,8 +274,8 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
     at.normal = seen(at.normal, step.up);
     at.velocity = seen(at.velocity, step.up);
   }
-  const bool ends_rise = step.side_hit_ends_rise &&
-                         std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
+  const bool ends_rise =
+      step.side_hit_ends_rise && std::ranges::any_of(surfaces, [](const MetSurface& at) { return at.is_side; });
   std::vector<Vec2d> sides = step.sides;
   for (Vec2d& side : sides) side = seen(side, step.up);
   std::vector<Vec2d> outcomes =
@@ -305,8 +303,8 @@ std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<
   std::ostringstream fault;
   fault.precision(9);
   fault << "ends with (" << velocity.x() << ", " << velocity.y() << ") m/s; of (" << step.wanted.x() << ", "
-        << step.wanted.y() << ") the law makes (" << made.x() << ", " << made.y() << ") at " << surfaces.size()
-        << (surfaces.size() == 1 ? " surface" : " surfaces");
+        << step.wanted.y() << ") the law makes (" << made.x() << ", " << made.y() << ") at "
+        << counted(surfaces.size(), "surface");
   return fault.str();
 }
 

@@ -1,5 +1,7 @@
 #include "oracle/surface_velocities.hpp"
 
+#include "contains.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -19,7 +21,7 @@ std::optional<Vec2d> nearest_allowed(const Vec2d& wanted, std::span<const MetSur
   std::optional<Vec2d> best;
   const auto consider = [&](const Vec2d& v, std::initializer_list<std::size_t> along) {
     for (std::size_t i = 0; i < surfaces.size(); ++i)
-      if (std::find(along.begin(), along.end(), i) == along.end() && enters(v, surfaces[i])) return;
+      if (!contains(along, i) && enters(v, surfaces[i])) return;
     if (!best || (v - wanted).squaredNorm() < (*best - wanted).squaredNorm()) best = v;
   };
   consider(wanted, {});
