@@ -1,16 +1,13 @@
 /// What a step says of its end: that it stands, and how fast it goes.
 #pragma once
 
-#include "oracle/contacts.hpp"
-#include "oracle/hanging.hpp"
-#include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
-#include "oracle/legs.hpp"
+#include "oracle/later_parts.hpp"
+#include "oracle/step_view.hpp"
 
 namespace paperproof::compare::detail {
 
-/// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
-/// for one step.
+/// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both.
 ///
 /// **Grounded** is right where a solid has a walkable face within `guaranteed_touch` that the velocity does not lead
 /// into by more than that in one step (not asked of what turns), or where the unsteered motion points down and all that
@@ -34,50 +31,11 @@ namespace paperproof::compare::detail {
 ///
 /// **Speed lost.** A step begins free, and its wanted motion comes within 1e-6 m of nothing: it goes exactly as wanted.
 /// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
-/// climb. `LegJudge` bounds how fast and how far it goes.
-class EndJudge {
- public:
-  /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
-  EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
-           const TraceStep& step, const Wanted& wanted, const WhatTurns& turns, const LaterParts& later = {});
-
-  /// @param starts_free the step begins inside nothing.
-  void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
-  void judge_speed(bool starts_free, StepJudgement& judgement) const;
-  /// Whether a walk leaves ground that it follows, and whether a kerb stops what climbs it.
-  void judge_walk(bool starts_free, StepJudgement& judgement) const;
-
- private:
-  [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
-  [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
-    return parts_near(scenery_, step_, turns_, corner, within);
-  }
-  [[nodiscard]] std::vector<NearPart> near_at_end(double within) const;
-  [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
-  [[nodiscard]] bool stands_on_ground() const;
-  [[nodiscard]] bool walks() const;
-  [[nodiscard]] bool goes_freely() const;
-  [[nodiscard]] double flight_error() const;
-  [[nodiscard]] bool may_take_rise(const NearPart& part, const NearFace& face) const;
-  [[nodiscard]] double rise_lost() const;
-  [[nodiscard]] bool is_alone(double beyond = 0) const;
-  [[nodiscard]] std::vector<ExactImpact> first_below(const ExactScenery& scenery, const Vec2d& from, double down) const;
-  [[nodiscard]] bool is_followed(const ExactImpact& impact) const;
-  [[nodiscard]] bool meets_ground_first(const Vec2d& from, double down) const;
-  [[nodiscard]] bool is_free(const Vec2d& from, const Vec2d& to) const;
-  [[nodiscard]] bool touches_riser(const Vec2d& ahead) const;
-  [[nodiscard]] double headroom() const;
-  [[nodiscard]] bool could_climb(double rise, const Vec2d& ahead) const;
-
-  const TraceHeader& header_;
-  const ExactScenery& scenery_;
-  const ExactScenery& grown_scenery_;
-  const TraceStep& step_;
-  const Wanted wanted_;  ///< By all parts of the step, but for what later ones steer.
-  const WhatTurns& turns_;
-  const LaterParts later_;
-  Vec2d up_;
-  double dt_;  ///< [s]
-};
+/// climb. `leg_faults` bounds how fast and how far it goes.
+/// @param whole the same step, where its later parts are requested, too.
+/// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
+/// @param wanted by the first part of the step. @param starts_free the step begins inside nothing.
+void judge_end(const StepView& at, const StepView& whole, const ExactScenery& grown_scenery, const Wanted& wanted,
+               const LaterParts& later, bool starts_free, StepJudgement& judgement);
 
 }  // namespace paperproof::compare::detail

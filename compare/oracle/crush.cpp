@@ -49,18 +49,14 @@ class Departure {
   /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
   /// come out on another side.
   [[nodiscard]] bool reaches(const Place& there) const {
-    const std::vector<ColliderIndex> met = scenery_.met(from_, there);
-    return std::includes(inside_.begin(), inside_.end(), met.begin(), met.end()) && keeps_clear(there) &&
-           std::none_of(sides_.begin(), sides_.end(),
-                        [&](const auto& side) { return scenery_.meets(side.second, there, side.first); });
+    return scenery_.meets_only(from_, there, inside_) && keeps_clear(there) &&
+           std::ranges::none_of(sides_,
+                                [&](const auto& side) { return scenery_.meets(side.second, there, side.first); });
   }
 
   /// Whether the way comes no nearer than `least_clearance` to what is farther away where it begins: what passes a rim
   /// nearer than that may be stopped there.
-  [[nodiscard]] bool keeps_clear(const Place& there) const {
-    const std::vector<ColliderIndex> approached = grown_scenery_.met(from_, there);
-    return std::includes(near_.begin(), near_.end(), approached.begin(), approached.end());
-  }
+  [[nodiscard]] bool keeps_clear(const Place& there) const { return grown_scenery_.meets_only(from_, there, near_); }
 
   /// The whole way of the step, if it goes straight from here.
   [[nodiscard]] std::vector<PathPoint> way_to(const Vec2d& end) const {
@@ -92,10 +88,7 @@ std::optional<Place> touched_on(const ExactScenery& scenery, const Place& from, 
   const Place there(from.position + first * (to.position - from.position), from.movers,
                     from.fraction + first * (to.fraction - from.fraction));
   if (!(there.fraction < 1)) return std::nullopt;
-  const std::vector<ColliderIndex> inside = scenery.overlapped(from);
-  const std::vector<ColliderIndex> met = scenery.met(from, there);
-  if (!std::includes(inside.begin(), inside.end(), met.begin(), met.end())) return std::nullopt;
-  return there;
+  return scenery.meets_only(from, there, scenery.overlapped(from)) ? std::optional(there) : std::nullopt;
 }
 
 }  // namespace
@@ -121,8 +114,7 @@ std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by) {
 }
 
 double pushed_by(const TraceStep& step) {
-  const auto later =
-      std::find_if(step.path.begin(), step.path.end(), [](const PathPoint& corner) { return corner.fraction > 0; });
+  const auto later = std::ranges::find_if(step.path, [](const PathPoint& corner) { return corner.fraction > 0; });
   if (later == step.path.begin() || later == step.path.end()) return 0;
   return std::max(0.0, (step.path.back().position - std::prev(later)->position).norm() - step.requested.norm());
 }

@@ -1,32 +1,9 @@
 /// Whether the octagon had room where a contender says that it was crushed.
 #pragma once
 
-#include "oracle/exact.hpp"
-#include "records/trace.hpp"
+#include "oracle/step_view.hpp"
 
-#include <functional>
 #include <map>
-
-namespace paperproof::compare {
-
-/// What turns near a character: the exact scenery does not have it. It answers what is near, and where there is room.
-/// All empty where nothing turns near by, but for `left_free`, which is empty where nothing turns at all.
-struct WhatTurns {
-  /// The parts within so many metres of a corner of the way, at that moment.
-  std::function<std::vector<NearPart>(const PathPoint& corner, double within)> near{};
-  /// The same where the step ends, `moved` as what turns goes then.
-  std::function<std::vector<NearPart>(double within)> near_at_end{};
-  /// What a displacement from where the step ends meets first, while all stays as it is then.
-  std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
-  /// Whether something that is farther away than `within` at a corner of the way is met in the rest of the step, if the
-  /// character goes on by so much.
-  std::function<bool(const PathPoint& corner, const Vec2d& way, double within)> runs_into{};
-  /// Whether it leaves free a way of the whole step, from fraction 0 to 1, and the place where it ends.
-  std::function<bool(std::span<const PathPoint> way)> left_free{};
-  double longest_way = 0;  ///< That a point of it goes in the step [m].
-};
-
-}  // namespace paperproof::compare
 
 namespace paperproof::compare::detail {
 
@@ -55,7 +32,7 @@ inline constexpr double push_beyond_motion = 0.25;
 /// @param crushed the colliders of movers that are said to crush. @param pushed see `pushed_by`.
 [[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
                                              std::span<const Place> path, std::span<const ColliderIndex> crushed,
-                                             const Meetings& meetings, double pushed, const WhatTurns& turns = {});
+                                             const Meetings& meetings, double pushed, const WhatTurns& turns);
 
 /// How much farther the octagon is from where it began, and was free, than it wanted to go [m].
 [[nodiscard]] double pushed_by(const TraceStep& step);

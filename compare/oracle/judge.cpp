@@ -3,9 +3,12 @@
 #include "contains.hpp"
 #include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/crush.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
 #include "oracle/later_parts.hpp"
+#include "oracle/legs.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/up.hpp"
@@ -23,11 +26,13 @@ constexpr double least_told = 5e-7;
 constexpr double same_normal = 1e-6;
 /// A smaller share of the wanted motion is rounding.
 constexpr double rounding_of_loss = 1e-5;
+/// Who begins inside of what turns is put aside by at most so many times the depth.
+constexpr double most_of_depth = 4;
 
 /// Takes back what another that is near may have brought about.
 void excuse_beside_another(const TraceStep& step, StepJudgement& judgement) {
   std::erase_if(judgement.contacts, [&step](const ExactContact& exact) {
-    return std::none_of(step.contacts.begin(), step.contacts.end(), [&exact](const Contact& contact) {
+    return std::ranges::none_of(step.contacts, [&exact](const Contact& contact) {
       return contact.collider == exact.collider && contact.side == exact.side;
     });
   });
@@ -40,6 +45,80 @@ void excuse_beside_another(const TraceStep& step, StepJudgement& judgement) {
   judgement.motion_lost = judgement.ghost_speed_loss = judgement.speed_lost = judgement.speed_gained = 0;
   judgement.way_gained = judgement.leg_error = judgement.end_error = 0;
   judgement.crept.setZero();
+}
+
+/// What was requested tells of no contact, and no time, after what turns was met, or in a later part than the first.
+void leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) {
+  const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
+  const bool in_parts = std::ranges::any_of(step.vertex_ways, bends);
+  const auto is_reported = [&](const ExactContact& exact) {
+    return std::ranges::any_of(step.contacts,
+                               [&](const Contact& contact) { return contact.collider == exact.collider; });
+  };
+  std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
+    if (!exact.foreseen || is_reported(exact)) return false;
+    const bool later = exact.fraction * parts > 1;
+    judgement.in_parts = judgement.in_parts || later;
+    return later || (judgement.first_impact && exact.fraction > *judgement.first_impact);
+  });
+  if (!in_parts) return;
+  judgement.first_impact_comparable = false;
+  if (!judgement.first_approach || step.contacts.empty()) return;
+  // In each part the character waits at first.
+  const bool is_told =
+      *judgement.first_impact * parts <= 1 && detail::waited_in_part * *judgement.first_approach <= least_told;
+  judgement.in_parts = judgement.in_parts || !is_told;
+  if (!is_told) judgement.first_approach.reset();
+}
+
+/// Adds the reported contacts with the rest that a contact with what turns pushes the octagon against.
+/// @param step the exact part of it.
+void add_deflected(const ExactScenery& scenery, const TraceStep& step, const detail::TurningJudge& turning,
+                   StepJudgement& judgement) {
+  const auto is_known = [&](const Contact& contact) {
+    return detail::is_exact(judgement, contact) ||
+           contains(judgement.deflected, std::pair(contact.collider, contact.side));
+  };
+  const auto is_pushed = [&](const Contact& contact) {
+    return std::ranges::any_of(judgement.contacts, [&](const ExactContact& one) {
+      return turning.turns(one.collider) && one.normal.dot(contact.normal) < 0;
+    });
+  };
+  const auto has_face = [&](const Contact& contact) {
+    return std::ranges::any_of(step.path, [&](const PathPoint& corner) {
+      return detail::any_face(scenery.near_parts({corner, step.movers}, detail::contact_reach),
+                              [&](const NearPart& part, const NearFace& face) {
+                                return part.collider == contact.collider &&
+                                       (face.normal - contact.normal).norm() <= same_normal;
+                              });
+    });
+  };
+  for (const Contact& contact : step.contacts)
+    if (!is_known(contact) && is_pushed(contact) && has_face(contact))
+      judgement.deflected.emplace_back(contact.collider, contact.side);
+}
+
+/// How much too far a step goes that begins inside of what turns [m].
+double turned_out_too_far(const TraceStep& step, const Wanted& wanted, const detail::TurningJudge& turning) {
+  double way = 0;
+  for (std::size_t k = 1; k < step.path.size(); ++k) way += (step.path[k].position - step.path[k - 1].position).norm();
+  double depth = 0;  // in all of it together
+  for (const NearPart& part : turning.near(step, step.path.front(), 0))
+    depth += std::max(0.0, -part.faces.front().separation);
+  const double most =
+      most_of_depth * depth + turning.longest_way(step) + detail::push_beyond_motion + 2 * wanted.displacement.norm();
+  return std::max(0.0, way - most);
+}
+
+/// Whether something is under a step that says it is grounded.
+void judge_ground(const detail::StepView& at, StepJudgement& judgement) {
+  const std::size_t end = at.step.path.size() - 1;
+  const double rounding = party_of(at.header) == Party::promising ? 0 : ulp_at(at.header, at.step.path[end].position);
+  const double within = detail::reach_of(at.header).contact + rounding;
+  if (has_support(at, end, within)) return;
+  for (std::size_t corner = 0; corner < end && allowed(Exempt::late_ground, at.header) > 0; ++corner)
+    judgement.ground_late = judgement.ground_late || has_support(at, corner, within);
+  judgement.ground_refuted = !judgement.ground_late;
 }
 
 }  // namespace
@@ -66,7 +145,7 @@ std::vector<ColliderIndex> Judge::overlapped(const TraceStep& step) const {
   std::vector<ColliderIndex> all = scenery_.overlapped({step.path.front(), step.movers});
   const std::vector<ColliderIndex> turning = turning_->overlapped(step);
   all.insert(all.end(), turning.begin(), turning.end());
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   return all;
 }
 
@@ -113,23 +192,21 @@ StepJudgement Judge::judge_step(const TraceStep& step, const WhatTurns& turns, c
   if (step.stuck && !starts_free)
     judgement.stuck_refuted = is_stuck_refuted(path.front(), turns, turning, begins_in_turning);
   leaving_ = promises_ && !starts_free ? leaving_of(path, turns, begins_in_turning) : Leaving{};
-  const auto contacts = [&] {
-    const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
-    return detail::ContactJudge(header_, scenery_, grown, step);
-  };
+  const detail::StepView at{header_, scenery_, step, turns};
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || turns.runs_into || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, turns, judgement);
     leave_bodies_out(judgement);
-    contacts().judge(starts_free, judgement);
+    const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
+    judge_contacts(at, grown, starts_free, judgement);
   } else {
-    contacts().measure_motion(starts_free, judgement);
+    measure_motion(at, starts_free, judgement);
   }
   if (turning != nullptr) {
     const int parts = wanted != nullptr ? std::max(wanted->parts / header_.substeps, 1) : 1;
     turning_->judge(turning->step, scenery_, parts, judgement);
-    leave_out_what_follows(turning->step, parts, judgement);
-    add_deflected(step, judgement);
+    if (header_.path_exact) leave_out_what_follows(turning->step, parts, judgement);
+    add_deflected(scenery_, step, *turning_, judgement);
     judgement.turning_sensor = turning_->meets_sensor(turning->step);
     // Events of sensors that turn are judged only where the character meets none: there each is invented.
     if (!judgement.turning_sensor)
@@ -137,12 +214,12 @@ StepJudgement Judge::judge_step(const TraceStep& step, const WhatTurns& turns, c
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free) {
-    const bool ends_in_turning = std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(),
-                                             [this](ColliderIndex collider) { return turning_->turns(collider); });
+    const bool ends_in_turning = std::ranges::any_of(
+        judgement.end_overlap, [this](ColliderIndex collider) { return turning_->turns(collider); });
     judgement.stuck_refuted =
         judgement.end_overlap.empty() || is_stuck_refuted(path.back(), turns, turning, ends_in_turning);
   }
-  judge_progress(step, turns, wanted, starts_free, judgement);
+  judge_progress(at, wanted, starts_free, judgement);
   if (beside_another) excuse_beside_another(step, judgement);
   last_end_.emplace(path.back());
   last_.reset();
@@ -150,58 +227,6 @@ StepJudgement Judge::judge_step(const TraceStep& step, const WhatTurns& turns, c
     last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
   remainder_before_ = step.remainder;
   return judgement;
-}
-
-/// What was requested tells of no contact, and no time, after what turns was met, or in a later part than the first.
-void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const {
-  const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
-  const bool in_parts = std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
-  if (!header_.path_exact) return;
-  const auto is_reported = [&](const ExactContact& exact) {
-    return std::any_of(step.contacts.begin(), step.contacts.end(),
-                       [&](const Contact& contact) { return contact.collider == exact.collider; });
-  };
-  std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
-    if (!exact.foreseen || is_reported(exact)) return false;
-    const bool later = exact.fraction * parts > 1;
-    judgement.in_parts = judgement.in_parts || later;
-    return later || (judgement.first_impact && exact.fraction > *judgement.first_impact);
-  });
-  if (!in_parts) return;
-  judgement.first_impact_comparable = false;
-  if (!judgement.first_approach || step.contacts.empty()) return;
-  // In each part the character waits at first.
-  const bool is_told =
-      *judgement.first_impact * parts <= 1 && detail::waited_in_part * *judgement.first_approach <= least_told;
-  judgement.in_parts = judgement.in_parts || !is_told;
-  if (!is_told) judgement.first_approach.reset();
-}
-
-/// Adds the reported contacts with the rest that a contact with what turns pushes the octagon against.
-/// @param step the exact part of it.
-void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const {
-  const auto is_known = [&](const Contact& contact) {
-    return detail::is_exact(judgement, contact) ||
-           contains(judgement.deflected, std::pair(contact.collider, contact.side));
-  };
-  const auto is_pushed = [&](const Contact& contact) {
-    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
-      return turning_->turns(one.collider) && one.normal.dot(contact.normal) < 0;
-    });
-  };
-  const auto has_face = [&](const Contact& contact) {
-    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint& corner) {
-      const std::vector<NearPart> parts = scenery_.near_parts({corner, step.movers}, detail::contact_reach);
-      return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-        return part.collider == contact.collider &&
-               std::any_of(part.faces.begin(), part.faces.end(),
-                           [&](const NearFace& face) { return (face.normal - contact.normal).norm() <= same_normal; });
-      });
-    });
-  };
-  for (const Contact& contact : step.contacts)
-    if (!is_known(contact) && is_pushed(contact) && has_face(contact))
-      judgement.deflected.emplace_back(contact.collider, contact.side);
 }
 
 /// Corners where nothing moves are left out; a way that ends early waits where it is while the movers go on.
@@ -219,11 +244,8 @@ Judge::Path Judge::path_of(const TraceStep& step) const {
 }
 
 bool Judge::alone(const Path& path, const TraceStep& step) const {
-  Box2 reach{path[0].position, path[0].position};
-  for (const Place& corner : path) {
-    const Vec2d wanted = corner.position + step.requested;
-    reach = reach.merged({corner.position, corner.position}).merged({wanted, wanted});
-  }
+  Box2 reach = Box2::nowhere();
+  for (const Place& corner : path) reach = reach.with(corner.position).with(corner.position + step.requested);
   // What is requested is looked at from every corner, for as long as a whole step.
   return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), box2d_skin).empty();
 }
@@ -250,10 +272,9 @@ bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
          step.requested == last.requested && step.steered == last.steered &&
          (wanted == nullptr || *wanted == *last_->wanted) && step.crushed == last.crushed &&
          step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
-         std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
-         std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
-         std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
-                    same_contact);
+         std::ranges::equal(step.movers, last.movers, same_motion) &&
+         std::ranges::equal(step.path, last.path, same_corner) &&
+         std::ranges::equal(step.contacts, last.contacts, same_contact);
 }
 
 bool Judge::continues(const TraceStep& step, const Place& start) const {
@@ -279,27 +300,26 @@ const ExactScenery& Judge::scenery_for(double larger) {
   return *scenery;
 }
 
-void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted, bool starts_free,
+void Judge::judge_progress(const detail::StepView& at, const Wanted* wanted, bool starts_free,
                            StepJudgement& judgement) {
+  const TraceStep& step = at.step;
+  const WhatTurns& turns = at.turns;
   const detail::LaterParts later =
       wanted != nullptr ? detail::later_parts(header_, step, *wanted) : detail::LaterParts{};
   std::optional<TraceStep> whole;
   if (later.any()) whole.emplace(step).requested += later.way;
-  const bool walks = promises_ && wanted != nullptr && begins_as_walk(header_, step, *wanted);
-  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, turns, up_in(step, header_),
-                                     walks ? wanted : nullptr);
-  if (promises_ && wanted != nullptr) {
-    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, turns, later);
-    end.judge_ground(hanging, starts_free, judgement);
-    end.judge_speed(starts_free, judgement);
-    end.judge_walk(starts_free, judgement);
+  const bool promised = promises_ && wanted != nullptr;
+  const Wanted* const walk = promised && begins_as_walk(header_, step, *wanted) ? wanted : nullptr;
+  const detail::StepView all{header_, scenery_, whole ? *whole : step, turns};
+  if (promised) {
+    detail::judge_end(at, all, scenery_for(detail::contact_reach), *wanted, later, starts_free, judgement);
     // What turns is no part of the scenery that was asked.
     const double probed = header_.character.snap + header_.character.step_height + detail::extent_of(header_.points);
     if ((judgement.ground_left || judgement.kerb_missed) && !turning_->is_alone(step, probed))
       judgement.ground_left = judgement.kerb_missed = false;
-    judge_legs(step, turns, *wanted, later, judgement);
+    judge_legs(at, *wanted, later, judgement);
   } else if (step.grounded) {
-    judge_ground(hanging, step, judgement);
+    judge_ground(all, judgement);
   }
   excuse_by_turning(step, later, turns, judgement);
   const bool breaks_crush = !judgement.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush);
@@ -310,43 +330,32 @@ void Judge::judge_progress(const TraceStep& step, const WhatTurns& turns, const 
   Vec2d made = step.path.back().position - step.path.front().position;
   if (!promises_) made += step.remainder - before;  // a grid's
   const detail::Reach own = detail::reach_of(header_);
-  judgement.hangs = hanging.hangs(made, own);
+  judgement.hangs = hangs(all, walk, made, own);
   judgement.unsure =
-      judgement.unsure || (turns.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
+      judgement.unsure || (turns.runs_into && !judgement.hangs && hangs(all, walk, made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
-                                          hanging.hangs(made, detail::exact_reach));
-}
-
-/// How much too far a step goes that begins inside of what turns [m].
-double Judge::turned_out_too_far(const TraceStep& step, const Wanted& wanted) const {
-  double way = 0;
-  for (std::size_t k = 1; k < step.path.size(); ++k) way += (step.path[k].position - step.path[k - 1].position).norm();
-  const double depth = detail::depth_in(turning_->near(step, step.path.front(), 0));
-  const double most = detail::most_of_depth * depth + turning_->longest_way(step) + detail::push_beyond_motion +
-                      2 * wanted.displacement.norm();
-  return std::max(0.0, way - most);
+                                          hangs(all, walk, made, detail::exact_reach));
 }
 
 /// How far and how fast the step goes at most, and whether it leaves what it begins inside of as it must.
-void Judge::judge_legs(const TraceStep& step, const WhatTurns& turns, const Wanted& wanted,
-                       const detail::LaterParts& later, StepJudgement& judgement) const {
+void Judge::judge_legs(const detail::StepView& at, const Wanted& wanted, const detail::LaterParts& later,
+                       StepJudgement& judgement) const {
+  const TraceStep& step = at.step;
   const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
-  const detail::LegJudge legs(header_, scenery_, step, wanted, turns, later, held);
-  const bool is_known = legs.knows_speeds();
-  judgement.unsure = judgement.unsure || !is_known;
-  const double way = is_known ? legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0) : 0;
-  const double speed = is_known ? legs.speed_gained() : 0;
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
+  const bool as_law = !leaving_.inside && !says_so && judgement.end_overlap.empty();
+  const std::size_t begin = leaving_.inside && leaving_.at_once ? 1 : 0;
+  const detail::LegFaults faults = leg_faults(at, wanted, later, held, begin, as_law);
+  judgement.unsure = judgement.unsure || !faults.knows_speeds;
   const bool stays = held && !judgement.end_overlap.empty();
-  judgement.start_mishandled = leaving_.longer || (stays && !says_so) || (held && (way > 0 || speed > 0));
+  judgement.start_mishandled =
+      leaving_.longer || (stays && !says_so) || (held && (faults.way_gained > 0 || faults.speed_gained > 0));
   if (held) return;
-  judgement.way_gained = leaving_.turning ? turned_out_too_far(step, wanted) : way;
-  judgement.speed_gained = speed;
-  const bool as_law = !leaving_.inside && !step.stuck && !says_so && judgement.end_overlap.empty();
-  if (!as_law) return;
-  judgement.leg_error = legs.leg_error();
-  judgement.end_error = legs.end_error();
-  judgement.crept = legs.crept();
+  judgement.way_gained = leaving_.turning ? turned_out_too_far(step, wanted, *turning_) : faults.way_gained;
+  judgement.speed_gained = faults.speed_gained;
+  judgement.leg_error = faults.leg_error;
+  judgement.end_error = faults.end_error;
+  judgement.crept = faults.crept;
 }
 
 /// Takes back what all parts of the step together did not want, or what something that turns may have taken.
@@ -387,16 +396,6 @@ void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& l
   judgement.motion_lost = judgement.ghost_speed_loss = 0;
 }
 
-void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const {
-  const std::size_t end = step.path.size() - 1;
-  const double rounding = promises_ ? 0 : ulp_at(header_, step.path[end].position);
-  const double within = detail::reach_of(header_).contact + rounding;
-  if (hanging.has_support(end, within)) return;
-  for (std::size_t corner = 0; corner < end && allowed(Exempt::late_ground, header_) > 0; ++corner)
-    judgement.ground_late = judgement.ground_late || hanging.has_support(corner, within);
-  judgement.ground_refuted = !judgement.ground_late;
-}
-
 void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {
   judgement.sensor_events = scenery_.sensor_events(path);
   std::erase_if(judgement.sensor_events, [this](const auto& event) { return turning_->turns(event.sensor); });
@@ -418,7 +417,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
     judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }
-  judgement.sensor_events_extra += static_cast<int>(std::count(taken.begin(), taken.end(), false));
+  judgement.sensor_events_extra += static_cast<int>(std::ranges::count(taken, false));
 }
 
 }  // namespace paperproof::compare

@@ -11,7 +11,6 @@
 namespace paperproof::compare {
 
 namespace detail {
-class HangingJudge;
 class TurningJudge;
 struct LaterParts;
 }  // namespace detail
@@ -91,7 +90,7 @@ struct StepJudgement {
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
   double way_gained = 0;        ///< The same of the way [m].
-  Vec2d crept{Vec2d::Zero()};   ///< Way that no velocity made [m]: see `detail::LegJudge`.
+  Vec2d crept{Vec2d::Zero()};   ///< Way that no velocity made [m]: see `detail::leg_faults`.
   double leg_error = 0;         ///< So far from where the law of response leads it a leg ends [m].
   double end_error = 0;         ///< So far from where the velocity at the end leads it the last leg ends [m].
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
@@ -240,7 +239,7 @@ struct StepJudgement {
 /// straight way out is shorter by more than 1e-6 m, ends with a gap of 1e-6 m to everything, passes no rim of what it
 /// leaves nearer than 2e-7 m, and keeps to the side of the last free place. Else the step is held: it ends free of
 /// them, or says that it is stuck or crushed, and neither its way nor its velocity at the end is more than what moves
-/// near by gives it (`detail::LegJudge`). Of what turns only the latter is asked of a step that says it is stuck.
+/// near by gives it (`detail::leg_faults`). Of what turns only the latter is asked of a step that says it is stuck.
 ///
 /// **Stuck, refuted.** A step that says it is stuck is refuted if it begins and ends free, or if the shortest straight
 /// way out (`ExactScenery::way_out`) ends on the side of the last place that was free of what it is inside of. The way
@@ -323,12 +322,9 @@ class Judge {
   /// @param step without contacts with what turns, events of it, and crushes by it. @param turns what turns near by.
   [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted,
                                          bool beside_another, const AmongTurning* turning = nullptr);
-  [[nodiscard]] double turned_out_too_far(const TraceStep& step, const Wanted& wanted) const;
   [[nodiscard]] WhatTurns what_turns(const TraceStep& step) const;
   [[nodiscard]] bool is_stuck_refuted(const Place& at, const WhatTurns& turns, const AmongTurning* turning,
                                       bool in_turning);
-  void leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const;
-  void add_deflected(const TraceStep& step, StepJudgement& judgement) const;
   void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const WhatTurns& turns,
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
@@ -352,11 +348,9 @@ class Judge {
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const WhatTurns& turns,
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_progress(const TraceStep& step, const WhatTurns& turns, const Wanted* wanted, bool starts_free,
-                      StepJudgement& judgement);
+  void judge_progress(const detail::StepView& at, const Wanted* wanted, bool starts_free, StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
-  void judge_legs(const TraceStep& step, const WhatTurns& turns, const Wanted& wanted, const detail::LaterParts& later,
+  void judge_legs(const detail::StepView& at, const Wanted& wanted, const detail::LaterParts& later,
                   StepJudgement& judgement) const;
   /// How a step that begins inside of solids leaves them.
   struct Leaving {

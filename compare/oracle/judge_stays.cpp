@@ -99,8 +99,8 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     const ColliderIndex collider = stay.first;  // clang 14 captures no structured binding
     const Episode& episode = stay.second;
     if (contains(judgement.end_overlap, collider)) return false;
-    const auto left = std::find_if(path.begin(), path.end(),
-                                   [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
+    const auto left =
+        std::ranges::find_if(path, [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
     const auto again = std::adjacent_find(
         left, path.end(), [&](const Place& from, const Place& to) { return scenery_.meets(from, to, collider); });
     touched.erase(collider);
@@ -229,12 +229,12 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
   // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
   const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
   const auto touches = [&](ColliderIndex collider) {
-    return touched.contains(collider) || std::any_of(path.begin(), path.end(), [&](const Place& corner) {
+    return touched.contains(collider) || std::ranges::any_of(path, [&](const Place& corner) {
              return scenery_.separation(corner, collider) <= within;
            });
   };
   const auto presses = [&](ColliderIndex collider) { return comes_closer(collider) && touches(collider); };
-  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), presses);
+  const bool pressed = std::ranges::any_of(step.crushed, presses);
   for (const ColliderIndex collider : step.crushed) {
     const bool moves = pressed && goes(collider) && touches(collider);
     judgement.excused_crush = judgement.excused_crush || (moves && judgement.room && judgement.beside_another);

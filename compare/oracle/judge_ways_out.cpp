@@ -41,19 +41,16 @@ Judge::Leaving Judge::leaving_of(const Path& path, const WhatTurns& turns, bool 
     if (episode.free_from) sides.emplace_back(collider, episode.free_from->place());
   }
   const auto is_left = [&](ColliderIndex collider) { return !scenery_.overlaps(out, collider); };
-  leaving.at_once = std::any_of(inside.begin(), inside.end(), is_left);
-  leaving.free = std::all_of(inside.begin(), inside.end(), is_left);
+  leaving.at_once = std::ranges::any_of(inside, is_left);
+  leaving.free = std::ranges::all_of(inside, is_left);
   const Vec2d way = out.position - start.position;
   leaving.longer = leaving.free && way.norm() > farthest_out(start) + around_way_out;
   if (leaving.longer || !leaving.free || !(way.norm() > around_way_out)) return leaving;
-  const auto open = [&](const Vec2d& end) {
-    const std::vector<ColliderIndex> met = scenery_.met(start, Place(end, start.movers, 0));
-    return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
-  };
+  const auto open = [&](const Vec2d& end) { return scenery_.meets_only(start, Place(end, start.movers, 0), inside); };
   // Far beyond a rim that it passes the clearance is much.
   const ExactScenery& wider = scenery_for(beside_rim);
   const auto keeps_side = [&](const Vec2d& end) {
-    return std::none_of(sides.begin(), sides.end(), [&](const auto& side) {
+    return std::ranges::none_of(sides, [&](const auto& side) {
       const ExactScenery& asked = wider.overlaps(side.second, side.first) ? scenery_ : wider;
       return asked.meets(side.second, Place(end, start.movers, start.fraction), side.first);
     });
@@ -71,7 +68,7 @@ Judge::Leaving Judge::leaving_of(const Path& path, const WhatTurns& turns, bool 
 
 /// Whether a way out of what the octagon is inside of leads past some of it.
 bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
-  return std::any_of(inside_.begin(), inside_.end(), [&](const auto& stay) {
+  return std::ranges::any_of(inside_, [&](const auto& stay) {
     const std::optional<Kept>& free = stay.second.free_from;
     return free && scenery_.meets(free->place(), Place(out, at.movers, at.fraction), stay.first);
   });
@@ -92,9 +89,8 @@ double Judge::farthest_out(const Place& at) const {
 bool Judge::has_way_out(const Place& at, const WhatTurns& turns) {
   if (asked_way_out_) {
     const Kept& asked = asked_way_out_->first;
-    const bool same =
-        asked.position == at.position && asked.fraction == at.fraction && !turns.left_free &&
-        std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
+    const bool same = asked.position == at.position && asked.fraction == at.fraction && !turns.left_free &&
+                      std::ranges::equal(asked.movers, at.movers, same_motion);
     if (same) return asked_way_out_->second;
   }
   const double farthest = farthest_out(at);

@@ -50,8 +50,7 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
     const bool is_wall = std::abs(contact.normal.dot(up)) <= upright;
     return met.mover == no_mover && met.surface_speed == 0 && (is_wall || is_walked_on(contact.normal, header, up));
   };
-  const bool any_speed =
-      first.ridden || pull.x() != 0 || !std::all_of(step.contacts.begin(), step.contacts.end(), keeps_speed);
+  const bool any_speed = first.ridden || pull.x() != 0 || !std::ranges::all_of(step.contacts, keeps_speed);
   // A wall may have stopped it.
   const double slowest_walk = step.contacts.empty() ? first.walk : std::min(first.walk, 0.0);
   const double fastest_walk = step.contacts.empty() ? first.walk : std::max(first.walk, 0.0);

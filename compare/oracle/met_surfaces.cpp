@@ -5,7 +5,6 @@
 #include "oracle/stairs.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/turning_room.hpp"
-#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,23 +33,19 @@ struct Touching {
   /// Whether the surface is touched there. A character past its rim does not touch it.
   /// @param turned the normal may differ there: that of a circle turns.
   [[nodiscard]] bool is_at(const PathPoint& at, bool turned) const {
-    const std::vector<NearPart> parts = near(at);
-    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return detail::any_face(near(at), [&](const NearPart& part, const NearFace& face) {
       return part.collider == contact.collider &&
              ((turned && is_round()) || part.faces.front().separation < 0 ||
-              std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
-                return face.separation <= touched && face.normal.dot(contact.normal) >= same_face;
-              }));
+              (face.separation <= touched && face.normal.dot(contact.normal) >= same_face));
     });
   }
   /// Whether it is touched there corner to corner: another face of it is as near.
   [[nodiscard]] bool is_beside(const PathPoint& at) const {
-    const std::vector<NearPart> parts = near(at);
-    return !is_round() && std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-      const auto is_it = [&](const NearFace& face) { return face.normal.dot(contact.normal) >= same_face; };
-      return part.collider == contact.collider && std::any_of(part.faces.begin(), part.faces.end(), is_it) &&
-             std::any_of(part.faces.begin(), part.faces.end(),
-                         [&](const NearFace& face) { return face.separation >= 0 && !is_it(face); });
+    const auto is_it = [&](const NearFace& face) { return face.normal.dot(contact.normal) >= same_face; };
+    return !is_round() && std::ranges::any_of(near(at), [&](const NearPart& part) {
+      return part.collider == contact.collider && std::ranges::any_of(part.faces, is_it) &&
+             std::ranges::any_of(part.faces,
+                                 [&](const NearFace& face) { return face.separation >= 0 && !is_it(face); });
     });
   }
   /// Whether a leg between two places where it is touched goes along it, or away.
@@ -66,12 +61,8 @@ struct Touching {
   [[nodiscard]] bool leaves_past_rim(const PathPoint& from, const PathPoint& to) const {
     if (!enters(from, to)) return false;
     const Vec2d way = relative(from, to);
-    const std::vector<NearPart> parts = near(from);
-    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-      return part.collider == contact.collider &&
-             std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
-               return face.separation >= 0 && way.dot(face.normal) >= -touched;
-             });
+    return detail::any_face(near(from), [&](const NearPart& part, const NearFace& face) {
+      return part.collider == contact.collider && face.separation >= 0 && way.dot(face.normal) >= -touched;
     });
   }
 
@@ -92,7 +83,7 @@ struct Touching {
 bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
-  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+  return std::ranges::any_of(parts, [&](const NearPart& part) {
     return part.faces.front().separation <= touched && is_walked_on(part.faces.front().normal, solids.header(), up);
   });
 }
@@ -104,7 +95,8 @@ std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const Vec2d& ca
   const Place place(at, solids.step().movers);
   std::vector<ColliderIndex> stairs;
   for (const NearPart& part : there.near_parts(place, touched))
-    if (detail::is_stair(solids.header(), there, solids.step(), carried, place, part)) stairs.push_back(part.collider);
+    if (is_stair(detail::StepView{solids.header(), there, solids.step()}, carried, place, part))
+      stairs.push_back(part.collider);
   return stairs;
 }
 
@@ -228,12 +220,11 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     const auto is_touched = [&](const PathPoint& at) { return touching.is_at(at, true); };
     // A contact has the time at which the surface would be touched, and a corner of the path the time at which the
     // motion stops before it. A surface that is grazed would be touched long after the path has turned along it.
-    const bool is_anywhere = std::any_of(path.begin(), path.end(), is_touched);
+    const bool is_anywhere = std::ranges::any_of(path, is_touched);
     const auto off = [&](const PathPoint& at) {
       return is_anywhere && !is_touched(at) ? 2 : std::abs(at.fraction - touch.fraction);
     };
-    auto corner =
-        std::min_element(path.begin(), path.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+    auto corner = std::ranges::min_element(path, [&](const auto& a, const auto& b) { return off(a) < off(b); });
     while (touch.fraction < 1 && corner != path.begin() && touching.goes_along(*std::prev(corner), *corner)) --corner;
     MetSurface one{.normal = touch.normal, .collider = touch.collider};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
@@ -273,7 +264,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
       surfaces.push_back(level(collider));
       surfaces.back().met = 1;
     }
-  std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.met < b.met; });
+  std::ranges::stable_sort(surfaces, [](const auto& a, const auto& b) { return a.met < b.met; });
   for (MetSurface& one : surfaces) {
     one.climbs = one.climbs && walks;
     walks = walks || one.walkable;

@@ -1,8 +1,7 @@
 /// What a walker rests on that is too steep to walk on, and stands on: a stair.
 #pragma once
 
-#include "oracle/exact.hpp"
-#include "records/trace.hpp"
+#include "oracle/step_view.hpp"
 
 namespace paperproof::compare::detail {
 
@@ -19,7 +18,6 @@ namespace paperproof::compare::detail {
 /// Where the step began goes along with what is ridden. A walker stands there as on level ground. Of what turns this is
 /// not asked.
 /// @param carried how far the ground that it rode when the step began takes it in the step [m].
-[[nodiscard]] bool is_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                            const Vec2d& carried, const Place& at, const NearPart& part);
+[[nodiscard]] bool is_stair(const StepView& step, const Vec2d& carried, const Place& at, const NearPart& part);
 
 }  // namespace paperproof::compare::detail

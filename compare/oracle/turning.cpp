@@ -2,6 +2,7 @@
 
 #include "contains.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/second_meeting.hpp"
 #include "oracle/turning_room.hpp"
@@ -46,7 +47,7 @@ std::vector<std::vector<std::size_t>> numbered_parts(const ColliderDef& def) {
   for (const ConvexPart& part : convex_parts(def)) {
     parts.emplace_back();
     for (const Vec2d& point : part.points)
-      parts.back().push_back(static_cast<std::size_t>(std::find(all.begin(), all.end(), point) - all.begin()));
+      parts.back().push_back(static_cast<std::size_t>(std::ranges::find(all, point) - all.begin()));
   }
   return parts;
 }
@@ -62,7 +63,7 @@ double extent_of(std::span<const Vec2d> points) {
 
 TurningJudge::TurningJudge(const TraceHeader& header)
     : header_(header), octagon_(header.points), promises_(party_of(header) == Party::promising) {
-  if (std::find(header.turning.begin(), header.turning.end(), true) == header.turning.end()) return;
+  if (!contains(header.turning, true)) return;
   octagon_ = normalised(std::move(octagon_));
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
     const ColliderDef& def = header.scenery.colliders[i];
@@ -91,7 +92,7 @@ Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::spa
                               Asked asked) const {
   Meeting first;
   bool by_second = false;
-  for (const std::vector<std::size_t>& part : solid.parts) {
+  for (const Numbers& part : solid.parts) {
     Meeting found = first_meeting(octagon_, path, way, part, asked, solid.radius);
     if (found.kind == Meeting::Kind::undecided) {
       found = second_meeting(octagon_, path, way, part, solid.radius);
@@ -108,7 +109,7 @@ Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::spa
 /// Whether both methods say the same of the way of a step.
 bool TurningJudge::methods_agree(const Solid& solid, const TraceStep& step) const {
   const VertexWay& way = way_of(step, solid.collider);
-  return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
+  return std::ranges::all_of(solid.parts, [&](const Numbers& part) {
     const Meeting one = first_meeting(octagon_, step.path, way, part, Asked::whether, solid.radius);
     return one.kind == Meeting::Kind::undecided ||
            one.kind == second_meeting(octagon_, step.path, way, part, solid.radius).kind;
@@ -119,8 +120,7 @@ bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const Path
   return meeting(solid, way, {&at, 1}).kind == Meeting::Kind::meets;
 }
 
-ConvexPart TurningJudge::part_at(const Solid& solid, const std::vector<std::size_t>& numbers,
-                                 std::span<const Vec2d> vertices) {
+ConvexPart TurningJudge::part_at(const Solid& solid, const Numbers& numbers, std::span<const Vec2d> vertices) {
   ConvexPart part;
   for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
   part.radius = solid.radius;
@@ -130,7 +130,7 @@ ConvexPart TurningJudge::part_at(const Solid& solid, const std::vector<std::size
 Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint& at) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   Axis nearest{std::numeric_limits<double>::infinity(), Vec2d::Zero()};
-  for (const std::vector<std::size_t>& numbers : solid.parts) {
+  for (const Numbers& numbers : solid.parts) {
     const Axis axis = best_axis(part_at(solid, numbers, vertices), octagon_, FramePlace{at.position});
     if (axis.separation < nearest.separation) nearest = axis;
   }
@@ -141,7 +141,7 @@ Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const 
 Vec2d TurningJudge::nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const {
   Vec2d most_alike = -normal;
   for (const PathPoint& corner : step.path)
-    for (const std::vector<std::size_t>& numbers : solid.parts) {
+    for (const Numbers& numbers : solid.parts) {
       const ConvexPart part = part_at(solid, numbers, vertices_at(way_of(step, solid.collider), corner.fraction));
       for (const Axis& axis : separating_axes(part, octagon_, FramePlace{corner.position}, contact_reach))
         if (axis.normal.dot(normal) > most_alike.dot(normal)) most_alike = axis.normal;
@@ -172,20 +172,14 @@ std::vector<ColliderIndex> TurningJudge::near_at_begin(const TraceStep& step, do
 }
 
 bool TurningJudge::is_alone(const TraceStep& step, double within) const {
-  const auto covered = [](std::span<const Vec2d> points) {
-    Box2 box{points[0], points[0]};
-    for (const Vec2d& point : points) box = box.merged({point, point});
-    return box;
-  };
-  const Box2 extent = covered(octagon_);
-  Box2 places{step.path.front().position, step.path.front().position};
+  Box2 places = Box2::nowhere();
   for (const PathPoint& corner : step.path)
-    for (const Vec2d& at : {corner.position, Vec2d(corner.position + step.requested)}) places = places.merged({at, at});
-  const Box2 reach = Box2{places.lower + extent.lower, places.upper + extent.upper}.inflated(within);
-  return std::none_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    places = places.with(corner.position).with(corner.position + step.requested);
+  const Box2 reach = (places + Box2::around(octagon_)).inflated(within);
+  return std::ranges::none_of(solids_, [&](const Solid& solid) {
     const VertexWay& way = way_of(step, solid.collider);
-    return std::any_of(way.vertices.begin(), way.vertices.end(), [&](const std::vector<Vec2d>& vertices) {
-      return covered(vertices).inflated(solid.radius + longest_way(step)).overlaps(reach);
+    return std::ranges::any_of(way.vertices, [&](const std::vector<Vec2d>& vertices) {
+      return Box2::around(vertices).inflated(solid.radius + longest_way(step)).overlaps(reach);
     });
   });
 }
@@ -207,21 +201,19 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, int pa
     const VertexWay& way = way_of(step, collider);
     side = RigidMotion(way.vertices.front(), way.vertices.back())(side);
   }
-  const bool touches = std::any_of(step.contacts.begin(), step.contacts.end(),
-                                   [this](const Contact& contact) { return turns(contact.collider); });
+  std::set<ColliderIndex> touched;
+  for (const Contact& contact : step.contacts)
+    if (turns(contact.collider)) touched.insert(contact.collider);
   for (const Solid& solid : solids_) {
     judge_way(solid, step, rest, judgement);
     judge_contacts(solid, step, parts, judgement);
-    if ((touches || step.step % judged_twice == 0) && !methods_agree(solid, step))
+    if ((!touched.empty() || step.step % judged_twice == 0) && !methods_agree(solid, step))
       judgement.methods_disagree.push_back(solid.collider);
   }
   for (const Solid& solid : solids_)
     if (contains(judgement.end_overlap, solid.collider) && !contains(inside_, solid.collider)) note_side(solid, step);
-  std::set<ColliderIndex> touched;
-  for (const Contact& contact : step.contacts)
-    if (turns(contact.collider)) touched.insert(contact.collider);
   touched_ = std::move(touched);
-  std::sort(judgement.end_overlap.begin(), judgement.end_overlap.end());
+  std::ranges::sort(judgement.end_overlap);
 }
 
 /// Where the octagon was last free of what it ends inside of, as that is then.

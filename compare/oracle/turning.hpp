@@ -111,10 +111,11 @@ class TurningJudge {
   void judge(const TraceStep& step, const ExactScenery& rest, int parts, StepJudgement& judgement);
 
  private:
+  using Numbers = std::vector<std::size_t>;  ///< Of the vertices of a part.
   struct Solid {
     ColliderIndex collider = 0;
-    std::vector<std::vector<std::size_t>> parts;  ///< By the numbers of their vertices.
-    double radius = 0;                            ///< Of a disc.
+    std::vector<Numbers> parts;
+    double radius = 0;  ///< Of a disc.
   };
 
   /// The first touch of all parts on a way.
@@ -129,18 +130,20 @@ class TurningJudge {
     double turn = 0;       ///< Of a disc: see `VertexWay::turn`.
     double requested = 0;  ///< [m]
   };
-  [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const VertexWay& way,
+  [[nodiscard]] Standing standing(const Solid& solid, const Numbers& numbers, const VertexWay& way,
                                   const Vec2d& requested, const PathPoint& corner, double within) const;
   [[nodiscard]] std::optional<NearPart> near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
                                                   double within) const;
+  /// Adds the parts of a solid that are near. @param way that it goes in the last share of the step, or in all of it.
+  void add_near(const Solid& solid, const VertexWay& way, const TraceStep& step, const PathPoint& corner, double within,
+                double share, std::vector<NearPart>& found) const;
   /// @param across up, as long as the motion goes that way [m].
   [[nodiscard]] bool is_against(const Solid& solid, const VertexWay& way, const PathPoint& at, const Vec2d& across,
                                 double within) const;
   [[nodiscard]] bool methods_agree(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint& at) const;
   /// @param vertices all of the solid, at one instant.
-  [[nodiscard]] static ConvexPart part_at(const Solid& solid, const std::vector<std::size_t>& numbers,
-                                          std::span<const Vec2d> vertices);
+  [[nodiscard]] static ConvexPart part_at(const Solid& solid, const Numbers& numbers, std::span<const Vec2d> vertices);
   [[nodiscard]] Vec2d nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const;
   [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint& at) const;
   /// Over the corners of the way [m].

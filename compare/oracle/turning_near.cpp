@@ -73,9 +73,8 @@ double TurningJudge::longest_way(const TraceStep& step) const {
   return most;
 }
 
-TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vector<std::size_t>& numbers,
-                                              const VertexWay& way, const Vec2d& requested, const PathPoint& corner,
-                                              double within) const {
+TurningJudge::Standing TurningJudge::standing(const Solid& solid, const Numbers& numbers, const VertexWay& way,
+                                              const Vec2d& requested, const PathPoint& corner, double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
   Standing found{.part = part_at(solid, numbers, now), .turn = way.turn, .requested = requested.norm()};
   const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
@@ -113,36 +112,35 @@ std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standi
   return near;
 }
 
+void TurningJudge::add_near(const Solid& solid, const VertexWay& way, const TraceStep& step, const PathPoint& corner,
+                            double within, double share, std::vector<NearPart>& found) const {
+  for (const Numbers& numbers : solid.parts) {
+    Standing here = standing(solid, numbers, way, step.requested * share, corner, within);
+    here.moved /= share;
+    here.unsure /= share;
+    here.unsure_along /= share;
+    if (std::optional<NearPart> part = near_part(solid, here, corner.position, within))
+      found.push_back(*std::move(part));
+  }
+}
+
 std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint& corner, double within) const {
   std::vector<NearPart> found;
-  for (const Solid& solid : solids_)
-    for (const std::vector<std::size_t>& numbers : solid.parts) {
-      const VertexWay& way = way_of(step, solid.collider);
-      const Standing here = standing(solid, numbers, way, step.requested, corner, within);
-      if (std::optional<NearPart> part = near_part(solid, here, corner.position, within))
-        found.push_back(*std::move(part));
-    }
+  for (const Solid& solid : solids_) add_near(solid, way_of(step, solid.collider), step, corner, within, 1, found);
   return found;
 }
 
 std::vector<NearPart> TurningJudge::near_at_end(const TraceStep& step, double within) const {
   std::vector<NearPart> found;
-  for (const Solid& solid : solids_)
-    for (const std::vector<std::size_t>& numbers : solid.parts) {
-      const VertexWay& way = way_of(step, solid.collider);
-      const std::size_t last = way.instants.size() - 1;
-      const double share = 1 - way.instants[last - 1];
-      const VertexWay stretch{.collider = way.collider,
-                              .instants = {0, 1},
-                              .vertices = {way.vertices[last - 1], way.vertices[last]},
-                              .turn = way.turn};
-      Standing here = standing(solid, numbers, stretch, step.requested * share, {step.path.back().position, 1}, within);
-      here.moved /= share;
-      here.unsure /= share;
-      here.unsure_along /= share;
-      if (std::optional<NearPart> part = near_part(solid, here, step.path.back().position, within))
-        found.push_back(*std::move(part));
-    }
+  for (const Solid& solid : solids_) {
+    const VertexWay& way = way_of(step, solid.collider);
+    const std::size_t last = way.instants.size() - 1;
+    const VertexWay stretch{.collider = way.collider,
+                            .instants = {0, 1},
+                            .vertices = {way.vertices[last - 1], way.vertices[last]},
+                            .turn = way.turn};
+    add_near(solid, stretch, step, {step.path.back().position, 1}, within, 1 - way.instants[last - 1], found);
+  }
   return found;
 }
 
@@ -166,10 +164,10 @@ std::vector<ExactImpact> TurningJudge::impacts_at_end(const TraceStep& step, con
 bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const PathPoint& at, const Vec2d& across,
                               double within) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
-  return std::any_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& numbers) {
+  return std::ranges::any_of(solid.parts, [&](const Numbers& numbers) {
     const std::vector<Axis> axes =
         separating_axes(part_at(solid, numbers, vertices), octagon_, FramePlace{at.position}, within);
-    return std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.normal.dot(across) < 0; });
+    return std::ranges::any_of(axes, [&](const Axis& axis) { return axis.normal.dot(across) < 0; });
   });
 }
 
@@ -183,10 +181,10 @@ TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const Path
     const VertexWay& its = way_of(step, solid.collider);
     const VertexWay way = gone_on(its, 2);
     double unsure = 0;
-    for (const std::vector<std::size_t>& numbers : solid.parts)
+    for (const Numbers& numbers : solid.parts)
       unsure = std::max(unsure, standing(solid, numbers, its, step.requested, corner, motion.norm()).unsure);
     const std::vector<Vec2d> wider = grown(octagon_, unsure);
-    for (const std::vector<std::size_t>& numbers : solid.parts) {
+    for (const Numbers& numbers : solid.parts) {
       const auto opposes_body = [&](std::span<const Vec2d> body, double within) {
         const Meeting met = first_meeting(body, path, way, numbers, Asked::when, solid.radius);
         if (met.kind == Meeting::Kind::apart) return false;
@@ -204,7 +202,7 @@ TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const Path
 bool TurningJudge::runs_into(const TraceStep& step, const PathPoint& corner, const Vec2d& way, double within) const {
   const std::array<PathPoint, 2> path{{corner, {corner.position + way, 1}}};
   if (corner.fraction == 1) return false;
-  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+  return std::ranges::any_of(solids_, [&](const Solid& solid) {
     const VertexWay& its = way_of(step, solid.collider);
     return nearest_axis(solid, its, corner).separation > within &&
            meeting(solid, its, path).kind != Meeting::Kind::apart;
@@ -212,7 +210,7 @@ bool TurningJudge::runs_into(const TraceStep& step, const PathPoint& corner, con
 }
 
 bool TurningJudge::meets_sensor(const TraceStep& step) const {
-  return std::any_of(sensors_.begin(), sensors_.end(), [&](const Solid& sensor) {
+  return std::ranges::any_of(sensors_, [&](const Solid& sensor) {
     return meeting(sensor, way_of(step, sensor.collider), step.path).kind != Meeting::Kind::apart;
   });
 }
@@ -236,10 +234,10 @@ bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(
 
 bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint> way) const {
   const std::vector<Vec2d> wider = grown(octagon_, least_clearance);
-  return std::all_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+  return std::ranges::all_of(solids_, [&](const Solid& solid) {
     const VertexWay& its = way_of(step, solid.collider);
     const auto is_apart = [&](std::span<const Vec2d> body, std::span<const PathPoint> path) {
-      return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
+      return std::ranges::all_of(solid.parts, [&](const Numbers& part) {
         return first_meeting(body, path, its, part, Asked::whether, solid.radius).kind == Meeting::Kind::apart;
       });
     };

@@ -7,17 +7,6 @@
 #include <stdexcept>
 
 namespace paperproof::compare::detail {
-namespace {
-
-/// Whether a straight way meets only colliders that are overlapped where it begins.
-bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
-  const std::vector<ColliderIndex> inside = rest.overlapped(from);
-  const std::vector<ColliderIndex> met = rest.met(from, to);
-  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
-}
-
-}  // namespace
-
 double largest_motion(const VertexWay& way) {
   double largest = 0;
   for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
@@ -55,7 +44,7 @@ SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double 
 RigidMotion::RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after)
     : from_(before[0]), to_(after[0]) {
   const auto farther = [&](const Vec2d& a, const Vec2d& b) { return (a - from_).norm() < (b - from_).norm(); };
-  const auto far = static_cast<std::size_t>(std::max_element(before.begin(), before.end(), farther) - before.begin());
+  const auto far = static_cast<std::size_t>(std::ranges::max_element(before, farther) - before.begin());
   if (before[far] != from_) turn_ = number(after[far] - to_) / number(before[far] - from_);
 }
 
@@ -71,7 +60,7 @@ const VertexWay& way_of(const TraceStep& step, ColliderIndex collider) {
 }
 
 std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction) {
-  const auto after = std::upper_bound(way.instants.begin(), way.instants.end(), fraction);
+  const auto after = std::ranges::upper_bound(way.instants, fraction);
   const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - way.instants.begin(), 1)) - 1;
   if (way.instants[k] == fraction || k + 1 == way.instants.size()) return way.vertices[k];
   const double share = (fraction - way.instants[k]) / (way.instants[k + 1] - way.instants[k]);
@@ -81,13 +70,13 @@ std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction) {
 }
 
 bool goes(const VertexWay& way) {
-  return std::any_of(way.vertices.begin(), way.vertices.end(),
-                     [&](const std::vector<Vec2d>& vertices) { return vertices != way.vertices.front(); });
+  return std::ranges::any_of(way.vertices,
+                             [&](const std::vector<Vec2d>& vertices) { return vertices != way.vertices.front(); });
 }
 
 /// Whether a place lies on the right side of all that is given with where the octagon was when it was last free of it.
 bool on_their_sides(const ExactScenery& standing, const Sides& sides, const Place& there) {
-  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
+  return std::ranges::all_of(sides, [&](const auto& side) {
     return !standing.meets(Place(side.second, there.movers, there.fraction), there, side.first);
   });
 }
@@ -106,7 +95,7 @@ bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& 
   for (const VertexWay& way : step.vertex_ways)
     if (way.instants.size() > 2) turned = way.instants[1];
   const std::array<double, 2> moments{0, turned};
-  return std::all_of(moments.begin(), moments.end(), [&](double moment) {
+  return std::ranges::all_of(moments, [&](double moment) {
     Sides then = sides;
     for (auto& [collider, side] : then) {
       const VertexWay& way = way_of(step, collider);
@@ -132,7 +121,8 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
       std::vector<PathPoint> whole = way;
       whole.push_back({position, 1});
       return (position - step.path.back().position).norm() <= reach && on_their_sides(end, sides, there) &&
-             meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(whole);
+             rest.meets_only(from, there, rest.overlapped(from)) &&
+             wider.meets_only(from, there, wider.overlapped(from)) && left_free(whole);
     };
     std::vector<ColliderIndex> may_pass = rest.overlapped(from);
     for (const VertexWay& turning : step.vertex_ways) may_pass.push_back(turning.collider);

@@ -101,7 +101,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
                        record.dropped || header_.substeps > 1 || wanted.parts > 1 || judged.beside_another;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
-  if (detail::stairs_climbed(header_, scenery(), record, {}, wanted) > 0) {
+  if (stairs_climbed(detail::StepView{header_, scenery(), record}, wanted) > 0) {
     const double changed = (record.velocity - wanted.velocity).dot(right_of(up));
     if (stands(record) && std::abs(changed) > same_speed * (1 + wanted.velocity.norm()))
       note(Clause::velocity, record, fmt::format("climbs a stair, which changes its speed by {:.3g} m/s", changed));
