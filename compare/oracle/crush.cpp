@@ -7,24 +7,26 @@ namespace paperproof::compare::detail {
 namespace {
 
 /// The straight ways from one place of the travelled way to the end of the step.
-class Departure {
- public:
-  /// @param way to the place where they begin, which is its last.
-  /// @param corner the last corner of the travelled way that belongs to it.
-  Departure(const ExactScenery& scenery, const ExactScenery& grown_scenery, std::span<const Place> way,
-            std::size_t corner, const Meetings& meetings)
-      : scenery_(scenery),
-        grown_scenery_(grown_scenery),
-        from_(way.back()),
-        inside_(scenery.overlapped(from_)),
-        near_(grown_scenery.overlapped(from_)) {
-    for (const Place& place : way) way_.push_back({place.position, place.fraction});
-    for (const auto& [collider, free] : meetings.before) {
-      if (free) sides_.emplace_back(collider, *free);
-    }
-    for (const auto& [collider, first] : meetings.within_step) {
-      if (first < corner && !meetings.before.contains(collider)) sides_.emplace_back(collider, way[first]);
-    }
+struct Departure {
+  const ExactScenery& scenery;
+  const ExactScenery& grown_scenery;
+  std::span<const Place> way;  ///< To the place where they begin, which is its last.
+  std::size_t corner;          ///< The last corner of the travelled way that belongs to it.
+  const Meetings& meetings;
+  const Place& from = way.back();
+  std::vector<ColliderIndex> inside = scenery.overlapped(from);
+  std::vector<ColliderIndex> near = grown_scenery.overlapped(from);  ///< Nearer than `least_clearance`.
+  using Sides = std::vector<std::pair<ColliderIndex, Place>>;
+  Sides sides = met_before();
+
+  /// What was met, with the last place free of it.
+  [[nodiscard]] Sides met_before() const {
+    Sides met;
+    for (const auto& [collider, free] : meetings.before)
+      if (free) met.emplace_back(collider, *free);
+    for (const auto& [collider, first] : meetings.within_step)
+      if (first < corner && !meetings.before.contains(collider)) met.emplace_back(collider, way[first]);
+    return met;
   }
 
   /// @param movers that press. A character above a one-way chain may go along with the mover of that chain: such a
@@ -37,41 +39,29 @@ class Departure {
              (!turns.left_free || turns.left_free(way_to(position)));
     };
     for (const MoverIndex mover : movers) {
-      const Vec2d along = from_.position + end.offset(mover) - from_.offset(mover);
-      if (grown_scenery_.overlapped({along, end.movers, end.fraction}).empty() && can_go_there(along)) return along;
+      const Vec2d along = from.position + end.offset(mover) - from.offset(mover);
+      if (grown_scenery.overlapped({along, end.movers, end.fraction}).empty() && can_go_there(along)) return along;
     }
     const WayQuestion question{
-        .from = from_, .end = end, .may_pass = inside_, .sides = sides_, .wider = grown_scenery_.points()};
-    return scenery_.find_free(question, reach, least_clearance, can_go_there);
+        .from = from, .end = end, .may_pass = inside, .sides = sides, .wider = grown_scenery.points()};
+    return scenery.find_free(question, reach, least_clearance, can_go_there);
   }
 
- private:
   /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
-  /// come out on another side.
+  /// come out on another side. It comes no nearer than `least_clearance` to what is farther away where it begins: what
+  /// passes a rim nearer than that may be stopped there.
   [[nodiscard]] bool reaches(const Place& there) const {
-    return scenery_.meets_only(from_, there, inside_) && keeps_clear(there) &&
-           std::ranges::none_of(sides_,
-                                [&](const auto& side) { return scenery_.meets(side.second, there, side.first); });
+    return scenery.meets_only(from, there, inside) && grown_scenery.meets_only(from, there, near) &&
+           std::ranges::none_of(sides, [&](const auto& side) { return scenery.meets(side.second, there, side.first); });
   }
-
-  /// Whether the way comes no nearer than `least_clearance` to what is farther away where it begins: what passes a rim
-  /// nearer than that may be stopped there.
-  [[nodiscard]] bool keeps_clear(const Place& there) const { return grown_scenery_.meets_only(from_, there, near_); }
 
   /// The whole way of the step, if it goes straight from here.
   [[nodiscard]] std::vector<PathPoint> way_to(const Vec2d& end) const {
-    std::vector<PathPoint> way = way_;
-    way.push_back({end, 1});
-    return way;
+    std::vector<PathPoint> whole;
+    for (const Place& place : way) whole.push_back({place.position, place.fraction});
+    whole.push_back({end, 1});
+    return whole;
   }
-
-  const ExactScenery& scenery_;
-  const ExactScenery& grown_scenery_;
-  Place from_;
-  std::vector<PathPoint> way_;  ///< Up to there.
-  std::vector<ColliderIndex> inside_;
-  std::vector<ColliderIndex> near_;                     ///< Nearer than `least_clearance`.
-  std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
 };
 
 /// Where on a leg the first of some colliders is touched, as late as that is known to be before; or none.
@@ -95,10 +85,7 @@ std::optional<Place> touched_on(const ExactScenery& scenery, const Place& from, 
 
 std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by) {
   double twice_area = 0;
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2d& next = hull[(k + 1) % hull.size()];
-    twice_area += hull[k].x() * next.y() - hull[k].y() * next.x();
-  }
+  for (std::size_t k = 0; k < hull.size(); ++k) twice_area += cross_of(hull[k], hull[(k + 1) % hull.size()]);
   const auto outward = [&](std::size_t k) -> Vec2d {
     const Vec2d edge = hull[(k + 1) % hull.size()] - hull[k];
     return Vec2d(edge.y(), -edge.x()).normalized() * std::copysign(1.0, twice_area);
@@ -140,14 +127,14 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
   std::vector<Place> way;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
     way.push_back(path[corner]);
-    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, movers, turns))
+    if (const auto room = Departure{scenery, grown_scenery, way, corner, meetings}.room(end, reach, movers, turns))
       return room;
   }
   if (way.size() != last + 1 || last + 1 >= path.size()) return std::nullopt;
   const std::optional<Place> touched = touched_on(scenery, path[last], path[last + 1], crushed);
   if (!touched) return std::nullopt;
   way.push_back(*touched);
-  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, movers, turns);
+  return Departure{scenery, grown_scenery, way, last, meetings}.room(end, reach, movers, turns);
 }
 
 }  // namespace paperproof::compare::detail

@@ -5,6 +5,7 @@
 #include "oracle/stairs.hpp"
 #include "oracle/turning.hpp"
 #include "oracle/turning_room.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,11 @@ constexpr double same_face = 1 - 1e-9;
 constexpr double along_face = 1e-9;
 constexpr double along_face_in_metres = 1e-13;
 
+/// What is touched at a place of the way, as all stands then.
+std::vector<NearPart> touched_at(const SolidsInStep& solids, const PathPoint& at) {
+  return solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
+}
+
 /// How a way touches the surface of one contact.
 struct Touching {
   const SolidsInStep& solids;
@@ -33,7 +39,7 @@ struct Touching {
   /// Whether the surface is touched there. A character past its rim does not touch it.
   /// @param turned the normal may differ there: that of a circle turns.
   [[nodiscard]] bool is_at(const PathPoint& at, bool turned) const {
-    return detail::any_face(near(at), [&](const NearPart& part, const NearFace& face) {
+    return detail::any_face(touched_at(solids, at), [&](const NearPart& part, const NearFace& face) {
       return part.collider == contact.collider &&
              ((turned && is_round()) || part.faces.front().separation < 0 ||
               (face.separation <= touched && face.normal.dot(contact.normal) >= same_face));
@@ -42,7 +48,7 @@ struct Touching {
   /// Whether it is touched there corner to corner: another face of it is as near.
   [[nodiscard]] bool is_beside(const PathPoint& at) const {
     const auto is_it = [&](const NearFace& face) { return face.normal.dot(contact.normal) >= same_face; };
-    return !is_round() && std::ranges::any_of(near(at), [&](const NearPart& part) {
+    return !is_round() && std::ranges::any_of(touched_at(solids, at), [&](const NearPart& part) {
       return part.collider == contact.collider && std::ranges::any_of(part.faces, is_it) &&
              std::ranges::any_of(part.faces,
                                  [&](const NearFace& face) { return face.separation >= 0 && !is_it(face); });
@@ -61,7 +67,7 @@ struct Touching {
   [[nodiscard]] bool leaves_past_rim(const PathPoint& from, const PathPoint& to) const {
     if (!enters(from, to)) return false;
     const Vec2d way = relative(from, to);
-    return detail::any_face(near(from), [&](const NearPart& part, const NearFace& face) {
+    return detail::any_face(touched_at(solids, from), [&](const NearPart& part, const NearFace& face) {
       return part.collider == contact.collider && face.separation >= 0 && way.dot(face.normal) >= -touched;
     });
   }
@@ -69,9 +75,6 @@ struct Touching {
  private:
   [[nodiscard]] bool is_round() const {
     return solids.header().scenery.colliders[contact.collider].shape == ColliderDef::Shape::circle;
-  }
-  [[nodiscard]] std::vector<NearPart> near(const PathPoint& at) const {
-    return solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
   }
   /// The displacement of a leg relative to the surface.
   [[nodiscard]] Vec2d relative(const PathPoint& from, const PathPoint& to) const {
@@ -82,8 +85,7 @@ struct Touching {
 
 bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
-  const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
-  return std::ranges::any_of(parts, [&](const NearPart& part) {
+  return std::ranges::any_of(touched_at(solids, at), [&](const NearPart& part) {
     return part.faces.front().separation <= touched && is_walked_on(part.faces.front().normal, solids.header(), up);
   });
 }
@@ -91,12 +93,10 @@ bool touches_ground(const SolidsInStep& solids, const PathPoint& at) {
 /// The colliders that are a stair there. Who touches ground stands on that.
 std::vector<ColliderIndex> stairs_at(const SolidsInStep& solids, const Vec2d& carried, const PathPoint& at) {
   if (touches_ground(solids, at)) return {};
-  const ExactScenery& there = solids.at(at.fraction);
-  const Place place(at, solids.step().movers);
+  const detail::StepView step{solids.header(), solids.at(at.fraction), solids.step()};
   std::vector<ColliderIndex> stairs;
-  for (const NearPart& part : there.near_parts(place, touched))
-    if (is_stair(detail::StepView{solids.header(), there, solids.step()}, carried, place, part))
-      stairs.push_back(part.collider);
+  for (const NearPart& part : touched_at(solids, at))
+    if (is_stair(step, carried, Place(at, solids.step().movers), part)) stairs.push_back(part.collider);
   return stairs;
 }
 

@@ -97,7 +97,8 @@ Row law_point(const Motion& motion, double dt) {
   const ContinuousCourses courses(scene, scene.input, scene.steps);
   const Courses& both = *courses.of("octagon_sweep").front();
   ContinuousError error({&both});
-  for (int step = 0; step < scene.steps; ++step) error.add(both.steps.value().place_at(courses.end(step)), courses.end(step));
+  for (int step = 0; step < scene.steps; ++step)
+    error.add(both.steps.value().place_at(courses.end(step)), courses.end(step));
   Row row;
   row.scene = motion.name;
   row.contender = law_of_steps;
