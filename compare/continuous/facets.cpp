@@ -76,8 +76,7 @@ class Tracing {
     const Real length = (end - begin).norm();
     const Point along = (end - begin) * (1 / length);
     const Point normal{along.y(), -along.x()};
-    facets_.push_back({begin, along, normal, length, normal.y() >= least_up_});
-    facets_.back().mover = mover_;
+    facets_.push_back({begin, along, normal, length, normal.y() >= least_up_, mover_});
     if (linked) link(facets_.size() - 2, facets_.size() - 1);
   }
 

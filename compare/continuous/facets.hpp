@@ -23,9 +23,9 @@ struct Facet {
   Point normal;    ///< Unit vector to the free side.
   Real length{0};  ///< [m]
   bool walkable = false;
+  MoverIndex mover = no_mover;
   std::size_t before = none;  ///< The facet that ends where this one begins, at a convex corner of the outline.
   std::size_t after = none;   ///< The facet that begins where this one ends, at a convex corner of the outline.
-  MoverIndex mover = no_mover;
 };
 
 /// Of all colliders that block, in their order. Sensors have none.

@@ -1,7 +1,5 @@
 #include "oracle/engine_laws.hpp"
 
-#include "oracle/surface_velocities.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -163,11 +163,11 @@ struct ExactScenery::Impl {
   /// Everything that may bar a straight way of the question that is no longer than `reach`.
   [[nodiscard]] std::vector<detail::Barrier> barriers(const WayQuestion& question, double reach) const {
     std::vector<detail::Barrier> all;
+    const Place ends(question.from.position, question.end.movers, question.end.fraction);
     for (const detail::Group& group : world.groups()) {
       if (group.sensor) continue;
       const detail::FramePlace from = seen_from(group, question.from);
-      const detail::FramePlace end =
-          seen_from(group, Place(question.from.position, question.end.movers, question.end.fraction));
+      const detail::FramePlace end = seen_from(group, ends);
       const Box2 within = world.box_of(Way::to(from, end)).inflated(reach);
       for (const ColliderIndex collider : group.solid_tree.meeting(within)) {
         const bool one_way = world.solids()[collider].kind == detail::Kind::one_way;
@@ -184,8 +184,7 @@ struct ExactScenery::Impl {
       }
     }
     for (const auto& [collider, free] : question.sides) {
-      const detail::FramePlace end =
-          seen_from(collider, Place(question.from.position, question.end.movers, question.end.fraction));
+      const detail::FramePlace end = seen_from(collider, ends);
       for (const detail::ConvexPart& part : parts[collider])
         all.push_back({outline(part), &part, end, false, seen_from(collider, free), world.points()});
     }

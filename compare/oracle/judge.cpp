@@ -181,10 +181,8 @@ StepJudgement Judge::judge_step(const TraceStep& step, const WhatTurns& turns, c
   judgement.beside_another = beside_another;
   const Path path = path_of(step);
   if (path.empty()) return judgement;
-  if (!continues(step, path.front()))
-    begin_episodes(path.front());
-  else if (header_.bodies > 0)
-    begin_with_bodies(path.front());
+  const bool goes_on = continues(step, path.front());
+  if (!goes_on || header_.bodies > 0) begin_episodes(path.front(), goes_on);
   const bool begins_in_turning = turning != nullptr && turning->begins_inside;
   const bool starts_free = inside_.empty() && !begins_in_turning;
   if (!step.respawn && !promises_) judgement.remainder_made = step.remainder.x() - remainder_before_.x();

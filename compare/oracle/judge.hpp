@@ -332,15 +332,13 @@ class Judge {
   [[nodiscard]] bool repeats(const TraceStep& step, const Wanted* wanted) const;
   /// Whether the step begins where the last one ended, movers included.
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
-  void begin_episodes(const Place& start);
-  void begin_with_bodies(const Place& start);
+  void begin_episodes(const Place& start, bool goes_on);
   void leave_bodies_out(StepJudgement& judgement) const;
   /// Whether no solid is near enough to matter.
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
   void judge_way(const Path& path, const TraceStep& step, const WhatTurns& turns, StepJudgement& judgement);
   void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
   [[nodiscard]] bool is_said_as_crush(const Place& end, ColliderIndex collider, const StepJudgement& judgement) const;
-  [[nodiscard]] bool went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const;
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
@@ -349,7 +347,6 @@ class Judge {
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
   void judge_progress(const detail::StepView& at, const Wanted* wanted, bool starts_free, StepJudgement& judgement);
-  [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
   void judge_legs(const detail::StepView& at, const Wanted& wanted, const detail::LaterParts& later,
                   StepJudgement& judgement) const;
   /// How a step that begins inside of solids leaves them.

@@ -21,22 +21,20 @@ Place between(const Place& from, const Place& to, double share) {
           from.fraction + share * (to.fraction - from.fraction)};
 }
 
-}  // namespace
-
-/// From turn to turn other characters are elsewhere.
-void Judge::begin_with_bodies(const Place& start) {
-  std::erase_if(inside_, [this](const auto& stay) { return header_.is_body(stay.first); });
-  for (const ColliderIndex collider : scenery_.overlapped(start))
-    if (header_.is_body(collider))
-      inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
+/// Whether the octagon itself went through what crushed it, rather than that through the octagon.
+bool went_through(const ExactScenery& scenery, const Vec2d& from, const Place& end, ColliderIndex collider) {
+  return scenery.meets(Place(from, end.movers, end.fraction), end, collider);
 }
 
-void Judge::begin_episodes(const Place& start) {
-  inside_.clear();
-  asked_way_out_.reset();
-  for (const ColliderIndex collider : scenery_.overlapped(start)) {
-    inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
-  }
+}  // namespace
+
+void Judge::begin_episodes(const Place& start, bool goes_on) {
+  // From turn to turn other characters are elsewhere.
+  const auto begins = [&](ColliderIndex collider) { return !goes_on || header_.is_body(collider); };
+  std::erase_if(inside_, [&](const auto& stay) { return begins(stay.first); });
+  if (!goes_on) asked_way_out_.reset();
+  for (const ColliderIndex collider : scenery_.overlapped(start))
+    if (begins(collider)) inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
 }
 
 void Judge::judge_way(const Path& path, const TraceStep& step, const WhatTurns& turns, StepJudgement& judgement) {
@@ -48,7 +46,7 @@ void Judge::judge_way(const Path& path, const TraceStep& step, const WhatTurns& 
   judge_end(path, touched, judgement);
   for (const auto& [collider, corner] : touched) {
     if (is_said_as_crush(path.back(), collider, judgement) &&
-        !went_through(path[corner].position, path.back(), collider))
+        !went_through(scenery_, path[corner].position, path.back(), collider))
       continue;
     if (scenery_.scenery().colliders[collider].one_way) {
       if (!contains(step.dropped_through, collider)) judgement.one_way_broken.push_back(collider);
@@ -110,7 +108,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     };
     if (!episode.free_from || std::any_of(left, path.end(), in_sight)) return true;
     const bool excused = episode.pressed || is_said_as_crush(path.back(), collider, judgement);
-    if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
+    if (!excused || went_through(scenery_, episode.free_from->position, path.back(), collider)) {
       judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
     }
     return true;
@@ -124,11 +122,6 @@ bool Judge::is_said_as_crush(const Place& end, ColliderIndex collider, const Ste
   const MoverIndex mover = header_.scenery.colliders[collider].mover;
   return contains(header_.guarantees, Clause::crush) && contains(judgement.crushed_with_room, collider) &&
          mover != no_mover && end.movers[mover].from != end.movers[mover].to;
-}
-
-/// Whether the octagon itself went through what crushed it, rather than that through the octagon.
-bool Judge::went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const {
-  return scenery_.meets(Place(from, end.movers, end.fraction), end, collider);
 }
 
 /// @param from, to both free of the collider; the straight way between them meets it.
@@ -186,13 +179,6 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
-/// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
-std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) const {
-  std::vector<ColliderIndex> entered = judgement.end_overlap;
-  std::erase_if(entered, [this](ColliderIndex collider) { return inside_.contains(collider); });
-  return entered;
-}
-
 void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const WhatTurns& turns,
                           StepJudgement& judgement) {
   const auto goes = [&](ColliderIndex collider) {
@@ -211,7 +197,9 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     return goes(collider) && (comes_closer_to(path.front(), collider) || comes_closer_to(path[held], collider));
   };
   std::vector<ColliderIndex> pressing = step.crushed;
-  const std::vector<ColliderIndex> entered = promises_ ? std::vector<ColliderIndex>{} : newly_inside(judgement);
+  std::vector<ColliderIndex> entered;  // and overlapped in no earlier step
+  if (!promises_) entered = judgement.end_overlap;
+  std::erase_if(entered, [this](ColliderIndex collider) { return inside_.contains(collider); });
   if (!entered.empty()) {
     // Who promises nothing has no word for it, or not for all: what comes closer and is in reach is asked for.
     for (const ColliderIndex collider : scenery_.near(path.front(), path.back(), own_reach(header_)))

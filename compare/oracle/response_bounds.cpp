@@ -1,5 +1,4 @@
 #include "oracle/response_laws.hpp"
-#include "oracle/surface_velocities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +18,6 @@ std::array<Vec2d, 4> corners_of(const Box2& box) {
 std::array<Vec2d, 4> velocities_of(const MetSurface& at) { return corners_of(at.velocities()); }
 
 double fastest(const MetSurface& at) { return at.velocity.norm() + std::hypot(at.spread, at.spread_along); }
-
-/// Holds nothing.
-const Box2 no_box{Vec2d::Constant(std::numeric_limits<double>::infinity()),
-                  Vec2d::Constant(-std::numeric_limits<double>::infinity())};
 
 /// Whether some velocity in a box enters a surface.
 bool may_enter(const Box2& box, const MetSurface& at) {
@@ -47,7 +42,7 @@ constexpr std::size_t most_rounds = 2;
 /// takes what leads across up into it, or a part of that: it turns none of that upwards.
 void add_responses(const Vec2d& v, const MetSurface& at, Box2& box) {
   const Vec2d& n = at.normal;
-  const auto add = [&box](const Vec2d& made) { box = box.merged({made, made}); };
+  const auto add = [&box](const Vec2d& made) { box = box.with(made); };
   const auto slide = [&](const Vec2d& w) { add(w - std::min(w.dot(n), 0.0) * n); };
   if (at.walkable) return add(follow(v.x(), n));
   if (v.dot(n) >= 0) return;
@@ -80,15 +75,15 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
   const Vec2d faster(range.most_steering, 0);
   Box2 unsteered = range.unsteered;
   Box2 wanted{unsteered.lower + slower, unsteered.upper + faster};
-  std::vector<Box2> made_by(surfaces.size(), no_box);
+  std::vector<Box2> made_by(surfaces.size(), Box2::nowhere());
   // What impulses along the normal leave.
   const auto slides = [&wanted](const MetSurface& at) {
-    Box2 left = no_box;
+    Box2 left = Box2::nowhere();
     for (const Vec2d& goes : velocities_of(at))
       for (const Vec2d& v : corners_of(wanted)) {
         const MetSurface moving{.normal = at.normal, .velocity = goes};
         const Vec2d made = slid(v, moving);
-        if (enters(v, moving)) left = left.merged({made, made});
+        if (enters(v, moving)) left = left.with(made);
       }
     return left;
   };
@@ -97,14 +92,14 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
     const std::size_t i = turn % surfaces.size();
     const MetSurface& at = surfaces[i];
     const auto responses = [&at](const Box2& box) {
-      Box2 all = no_box;
+      Box2 all = Box2::nowhere();
       // Ground may carry the character.
       if (at.walkable || at.is_overlapped) all = at.velocities();
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
-          Box2 made = no_box;
+          Box2 made = Box2::nowhere();
           add_responses(v - goes, at, made);
-          all = all.merged({made.lower + goes, made.upper + goes});
+          all = all.merged(made + goes);
         }
       return all;
     };
@@ -134,7 +129,7 @@ Box2 controlled_bounds(const ControlledRange& range, std::span<const MetSurface>
           const double limited = 2 * std::max(fastest(at), fastest(with));
           for (const double speed : {most, limited}) {
             const Vec2d slow = held->norm() > speed ? Vec2d(*held * (speed / held->norm())) : *held;
-            unsteered = unsteered.merged({slow, slow});
+            unsteered = unsteered.with(slow);
           }
         }
     }

@@ -1,6 +1,5 @@
 #include "oracle/response_laws.hpp"
 
-#include "oracle/surface_velocities.hpp"
 #include "oracle/up.hpp"
 #include "words.hpp"
 

@@ -1,4 +1,4 @@
-#include "oracle/second_meeting.hpp"
+#include "oracle/first_meeting.hpp"
 
 #include "oracle/predicates.hpp"
 

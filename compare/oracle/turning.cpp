@@ -4,7 +4,6 @@
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/passing.hpp"
-#include "oracle/second_meeting.hpp"
 #include "oracle/turning_room.hpp"
 #include "oracle/up.hpp"
 #include "oracle/world.hpp"

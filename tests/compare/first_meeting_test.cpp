@@ -1,7 +1,6 @@
 /// The first overlap with what turns: two methods, which share the signs of numbers alone, give the same answers, also
 /// where a touch is no overlap. Answers that are fractions are in ../judge/exact/turning.json.
 #include "oracle/first_meeting.hpp"
-#include "oracle/second_meeting.hpp"
 
 #include "compare/turning_planks.hpp"
 #include "support/steps_wanted.hpp"

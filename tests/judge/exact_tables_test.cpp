@@ -2,7 +2,6 @@
 #include "judge/row.hpp"
 #include "oracle/exact.hpp"
 #include "oracle/first_meeting.hpp"
-#include "oracle/second_meeting.hpp"
 #include "records/collider_json.hpp"
 #include "support/expected.hpp"
 

@@ -1,4 +1,4 @@
-#include "oracle/surface_velocities.hpp"
+#include "oracle/met_surface.hpp"
 
 #include "contains.hpp"
 
