@@ -21,23 +21,21 @@ constexpr double half_of_a_character = 20.0 / 32;
 ColliderDef rectangle(double left, double bottom, double width, double height) {
   return {.points = {{left, bottom}, {left + width, bottom}, {left + width, bottom + height}, {left, bottom + height}}};
 }
-ColliderDef rising_slope(double left, double bottom) {
-  return {.points = {{left, bottom}, {left + 1, bottom}, {left + 1, bottom + 1}}};
-}
-ColliderDef falling_slope(double left, double bottom) {
-  return {.points = {{left, bottom}, {left + 1, bottom}, {left, bottom + 1}}};
+/// @param top where it is a metre high: at its right end or at its left.
+ColliderDef slope(double left, double bottom, double top) {
+  return {.points = {{left, bottom}, {left + 1, bottom}, {top, bottom + 1}}};
 }
 
 /// The surface of the ground is at `y`.
 void add_section(double x, double y, std::vector<ColliderDef>& colliders) {
   for (int row = 1; row <= tile_rows; ++row)
     for (int column = 0; column < section_width; ++column) colliders.push_back(rectangle(x + column, y - row, 1, 1));
-  colliders.push_back(rising_slope(x + 2, y));
+  colliders.push_back(slope(x + 2, y, x + 3));
   colliders.push_back(rectangle(x + 3, y, 1, 1));
   colliders.push_back(rectangle(x + 4, y, 1, 1));
-  colliders.push_back(falling_slope(x + 5, y));
-  colliders.push_back(rising_slope(x + 10, y));
-  colliders.push_back(falling_slope(x + 11, y));
+  colliders.push_back(slope(x + 5, y, x + 5));
+  colliders.push_back(slope(x + 10, y, x + 11));
+  colliders.push_back(slope(x + 11, y, x + 11));
   for (int i = 0; i < 6; ++i) colliders.push_back(rectangle(x + 5 * (i % 3), y + 3 + 2.5 * (i / 3) + i % 3, 3, 0.25));
 }
 

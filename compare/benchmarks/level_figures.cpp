@@ -30,30 +30,24 @@ std::pair<double, double> made(const Make& make) {
   double bytes = 0;
   for (int round = 0; round < rounds; ++round) {
     const double before = allocated();
-    const auto begin = std::chrono::steady_clock::now();
-    const auto result = make();
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    milliseconds = std::min(milliseconds, took.count());
+    decltype(make()) result;
+    milliseconds = std::min(milliseconds, nanoseconds_of([&] { result = make(); }) / 1e6);
     bytes = (allocated() - before) / static_cast<double>(pieces);
   }
   return {milliseconds, bytes};
 }
 
 struct Game {
-  std::unique_ptr<Scenery> scenery;
-  std::unique_ptr<Controller> controller;
-  Scratch scratch;
+  explicit Game(const Level& level) : scenery(level.scenery) {}
+  Scenery scenery;
+  Controller controller{scenery, CharacterDef{}};
+  Scratch scratch = controller.make_scratch();
 };
 
 /// Of Box2D the tree of the fixtures included, which the first step would build.
 Figures set_up() {
   const Level level = make_level(pieces);
-  const auto [ours, our_bytes] = made([&] {
-    auto scenery = std::make_unique<Scenery>(level.scenery);
-    auto controller = std::make_unique<Controller>(*scenery, CharacterDef{});
-    Scratch scratch = controller->make_scratch();
-    return Game{std::move(scenery), std::move(controller), std::move(scratch)};
-  });
+  const auto [ours, our_bytes] = made([&] { return std::make_unique<Game>(level); });
   const auto [theirs, their_bytes] = made([&] { return make_box2d_level(level); });
   return {{"paperproof_ms", ours}, {"box2d_ms", theirs}, {"paperproof_bytes", our_bytes}, {"box2d_bytes", their_bytes}};
 }

@@ -25,68 +25,38 @@ constexpr int frames_to_land = 20;
 constexpr std::int64_t pieces_of_many = 10'000;
 constexpr std::int64_t pieces_of_large = 1'000'000;
 
-/// One character with the controller alone.
-class Walk {
- public:
-  Walk(const Level& level, const std::vector<Input>& inputs)
-      : inputs_(inputs), start_(level.start()), scenery_(level.scenery) {}
-
-  /// @param look called after each step with its report.
-  template <class Look>
-  void run(const Look& look) {
-    CharacterState character;
-    character.position = start_;
-    for (const Input& input : inputs_) {
-      controller_.step(character, input, {{0, gravity_y}, frame}, scratch_, report_);
-      look(report_);
-    }
-  }
-  void run() {
-    run([](const StepReport&) {});
-  }
-
- private:
-  const std::vector<Input>& inputs_;
-  Vec2d start_;
-  Scenery scenery_;
-  Controller controller_{scenery_, CharacterDef{}};
-  Scratch scratch_ = controller_.make_scratch();
-  StepReport report_;
-};
-
-/// One character with Box2D alone, given the velocities that the controller wanted.
-class Box2dWalk {
- public:
-  Box2dWalk(const Level& level, Walk& walk)
-      : start_(box2d::rounded(level.start())),
-        world_(make_box2d_level(level)),
-        body_(add_box2d_character(*world_, CharacterDef{}, level.start())) {
-    walk.run([&](const StepReport& step) { velocities_.push_back(box2d::rounded(step.requested / frame)); });
-  }
-  void run() {
-    body_.SetEnabled(false);  // drops its contacts
-    body_.SetTransform(start_, 0);
-    body_.SetEnabled(true);
-    for (const b2Vec2& velocity : velocities_) {
-      body_.SetLinearVelocity(velocity);
-      advance(*world_);
-    }
-  }
-
- private:
-  b2Vec2 start_;
-  std::unique_ptr<b2World> world_;
-  b2Body& body_;
-  std::vector<b2Vec2> velocities_;
-};
-
+/// One character, and with Box2D alone a body that is given the velocities that the controller wanted.
 Figures one_character(const Level& level) {
   constexpr int passes = 50;
   const std::vector<Input> inputs = random_walk(1, walked_steps);
-  Walk walk(level, inputs);
-  Box2dWalk box2d_walk(level, walk);
-  return fastest_in_turns(
-      passes, walked_steps, [&] { walk.run(); }, [&] { box2d_walk.run(); });
+  const Scenery scenery(level.scenery);
+  const Controller controller(scenery, CharacterDef{});
+  Scratch scratch = controller.make_scratch();
+  StepReport report;
+  const auto walk = [&](const auto& look) {
+    CharacterState character;
+    character.position = level.start();
+    for (const Input& input : inputs) {
+      controller.step(character, input, {{0, gravity_y}, frame}, scratch, report);
+      look();
+    }
+  };
+  std::vector<b2Vec2> velocities;
+  walk([&] { velocities.push_back(box2d::rounded(report.requested / frame)); });
+
+  const std::unique_ptr<b2World> world = make_box2d_level(level);
+  b2Body& body = add_box2d_character(*world, CharacterDef{}, level.start());
+  const auto run_box2d = [&] {
+    body.SetEnabled(false);  // drops its contacts
+    body.SetTransform(box2d::rounded(level.start()), 0);
+    body.SetEnabled(true);
+    for (const b2Vec2& velocity : velocities) {
+      body.SetLinearVelocity(velocity);
+      advance(*world);
+    }
+  };
+  const auto run = [&] { walk([] {}); };
+  return fastest_in_turns(passes, walked_steps, run, run_box2d);
 }
 
 /// Where so many characters begin, above the ground of the sections and below their platforms.
@@ -103,16 +73,29 @@ std::vector<Vec2d> places(const Level& level, std::size_t count, bool spaced) {
   return found;
 }
 
-/// Characters that all walk and jump, each in its own rhythm.
+/// Characters that all walk and jump, each in its own rhythm, and as many bodies, which are given their velocities.
 class Characters {
  public:
-  Characters(const Level& level, const std::vector<Vec2d>& starts) : scenery(level.scenery), states(starts.size()) {
-    for (std::size_t i = 0; i < starts.size(); ++i) states[i].position = starts[i];
+  /// @param meet whether the bodies collide with each other.
+  Characters(const Level& level, const std::vector<Vec2d>& starts, bool meet)
+      : scenery(level.scenery), states(starts.size()), world_(make_box2d_level(level)), velocities_(starts.size()) {
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      states[i].position = starts[i];
+      bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, starts[i]));
+      if (meet) bodies_.back()->GetFixtureList()->SetFilterData({});
+    }
   }
   /// What each wants in the next frame.
   void press() {
-    for (std::size_t i = 0; i < states.size(); ++i) inputs[i] = walk_[(7 * i + frame_) % walk_.size()];
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      inputs[i] = walk_[(7 * i + frame_) % walk_.size()];
+      velocities_[i] = box2d::rounded(Vec2d(states[i].velocity + Vec2d(0, gravity_y * frame)));
+    }
     ++frame_;
+  }
+  void step_bodies() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->SetLinearVelocity(velocities_[i]);
+    advance(*world_);
   }
 
   Scenery scenery;
@@ -122,29 +105,6 @@ class Characters {
  private:
   std::vector<Input> walk_ = random_walk(1, walked_steps);
   std::size_t frame_ = 0;
-};
-
-/// As many bodies, which are given the velocities of the characters.
-class Box2dCharacters {
- public:
-  /// @param meet whether they collide with each other.
-  Box2dCharacters(const Level& level, const std::vector<Vec2d>& starts, bool meet)
-      : world_(make_box2d_level(level)), velocities_(starts.size()) {
-    for (const Vec2d& start : starts) {
-      bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, start));
-      if (meet) bodies_.back()->GetFixtureList()->SetFilterData({});
-    }
-  }
-  void follow(const Characters& characters) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      velocities_[i] = box2d::rounded(Vec2d(characters.states[i].velocity + Vec2d(0, gravity_y * frame)));
-  }
-  void step() {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->SetLinearVelocity(velocities_[i]);
-    advance(*world_);
-  }
-
- private:
   std::unique_ptr<b2World> world_;
   std::vector<b2Body*> bodies_;
   std::vector<b2Vec2> velocities_;
@@ -152,12 +112,11 @@ class Box2dCharacters {
 
 /// @param step of all characters. @return for each of them.
 template <class Step>
-Figures fastest_frames(Characters& characters, Box2dCharacters& bodies, const Step& step) {
+Figures fastest_frames(Characters& characters, const Step& step) {
   constexpr int passes = 40;
   const auto turn = [&] {
     characters.press();
-    bodies.follow(characters);
-    return fastest_in_turns(1, static_cast<double>(characters.states.size()), step, [&] { bodies.step(); });
+    return fastest_in_turns(1, static_cast<double>(characters.states.size()), step, [&] { characters.step_bodies(); });
   };
   for (int i = 0; i < frames_to_land; ++i) turn();
   Figures least = turn();
@@ -169,14 +128,12 @@ Figures fastest_frames(Characters& characters, Box2dCharacters& bodies, const St
 /// Many that do not see each other, one after the other.
 Figures many_characters(std::size_t scratches_made) {
   const Level level = make_level(pieces_of_many);
-  const std::vector<Vec2d> starts = places(level, many, false);
-  Characters characters(level, starts);
-  Box2dCharacters bodies(level, starts, false);
+  Characters characters(level, places(level, many, false), false);
   const Controller controller(characters.scenery, CharacterDef{});
   std::vector<Scratch> scratches;
   for (std::size_t i = 0; i < scratches_made; ++i) scratches.push_back(controller.make_scratch());
   StepReport report;
-  return fastest_frames(characters, bodies, [&] {
+  return fastest_frames(characters, [&] {
     for (std::size_t i = 0; i < many; ++i)
       controller.step(characters.states[i], characters.inputs[i], {{0, gravity_y}, frame},
                       scratches[i % scratches.size()], report);
@@ -186,20 +143,18 @@ Figures many_characters(std::size_t scratches_made) {
 /// Those that block, carry and push each other: each with the others, and each alone.
 Figures characters_that_meet(bool together) {
   const Level level = make_level(pieces_of_many);
-  const std::vector<Vec2d> starts = places(level, those_that_meet, true);
-  Characters characters(level, starts);
-  Box2dCharacters bodies(level, starts, together);
-  std::vector<ColliderIndex> own(starts.size(), no_collider);
+  Characters characters(level, places(level, those_that_meet, true), together);
+  std::vector<ColliderIndex> own(those_that_meet, no_collider);
   if (together)
     for (ColliderIndex& body : own) body = characters.scenery.add(body_of(CharacterDef{}));
   const Controller controller(characters.scenery, CharacterDef{});
   Scratch scratch = controller.make_scratch();
   TogetherScratch together_scratch;
-  std::vector<StepReport> reports(starts.size());
-  std::vector<Companion> companions(starts.size());
+  std::vector<StepReport> reports(those_that_meet);
+  std::vector<Companion> companions(those_that_meet);
   const StepContext context{{0, gravity_y}, frame};
-  return fastest_frames(characters, bodies, [&] {
-    for (std::size_t i = 0; i < starts.size(); ++i) {
+  return fastest_frames(characters, [&] {
+    for (std::size_t i = 0; i < those_that_meet; ++i) {
       if (together)
         companions[i] = {&controller, &characters.states[i], characters.inputs[i], own[i], &scratch, &reports[i]};
       else
@@ -235,11 +190,11 @@ Figures plank(double aside) {
   const Vec2d start =
       is_on_it ? Vec2d(middle + Vec2d(0, 0.8)) : Vec2d(level.start() + Vec2d(where_nothing_is_above + aside, 0));
   Scenery scenery(level.scenery);
-  ColliderDef def{.points = {{-half_of_plank, -half_thickness},
-                             {half_of_plank, -half_thickness},
-                             {half_of_plank, half_thickness},
-                             {-half_of_plank, half_thickness}}};
-  def.mover = 0;
+  const ColliderDef def{.points = {{-half_of_plank, -half_thickness},
+                                   {half_of_plank, -half_thickness},
+                                   {half_of_plank, half_thickness},
+                                   {-half_of_plank, half_thickness}},
+                        .mover = 0};
   scenery.add(def);
   const Controller controller(scenery, CharacterDef{});
   Scratch scratch = controller.make_scratch();
