@@ -31,12 +31,10 @@ std::optional<std::vector<std::string>> words_of_shell(std::string_view text) {
     in_word = true;
     if (text[i] == '\'') {
       quoted = !quoted;
-    } else if (!quoted && text[i] == '\\') {
-      if (++i == text.size()) return std::nullopt;
-      words.back() += text[i];
-    } else {
-      words.back() += text[i];
+      continue;
     }
+    if (!quoted && text[i] == '\\' && ++i == text.size()) return std::nullopt;
+    words.back() += text[i];
   }
   return quoted ? std::nullopt : std::optional(words);
 }

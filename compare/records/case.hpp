@@ -12,7 +12,7 @@
 namespace paperproof::compare {
 
 struct Case {
-  /// A number or word that is set, by the name under which it is typed.
+  /// A number or word that is set, or a knob that is turned, by the name under which it is typed.
   struct Setting {
     std::string key;
     std::string value;  ///< As it was typed, or the shortest text that reads back to the same number.

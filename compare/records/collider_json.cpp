@@ -24,17 +24,10 @@ ordered_json points_json(const std::vector<Vec2d>& points) {
 
 ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
   ordered_json object{{"id", id}};
-  switch (collider.shape) {
-    case ColliderDef::Shape::polygon:
-      object["polygon"] = points_json(collider.points);
-      break;
-    case ColliderDef::Shape::chain:
-      object["chain"] = points_json(collider.points);
-      break;
-    case ColliderDef::Shape::circle:
-      object["circle"] = {collider.points.front().x(), collider.points.front().y(), collider.radius};
-      break;
-  }
+  if (collider.shape == ColliderDef::Shape::circle)
+    object["circle"] = {collider.points.front().x(), collider.points.front().y(), collider.radius};
+  else
+    object[collider.shape == ColliderDef::Shape::chain ? "chain" : "polygon"] = points_json(collider.points);
   for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(points_json(hole));
   if (collider.one_way) object["one_way"] = point_json(*collider.one_way);
   if (collider.sensor) object["sensor"] = true;

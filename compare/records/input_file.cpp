@@ -8,14 +8,6 @@
 #include <stdexcept>
 
 namespace paperproof::compare {
-namespace {
-
-std::string_view kind_of(std::filesystem::file_type type) {
-  if (type == std::filesystem::file_type::fifo) return "a pipe";
-  return type == std::filesystem::file_type::socket ? "a socket" : "a device";
-}
-
-}  // namespace
 
 std::string why_not_regular(const std::string& path) {
   std::error_code error;
@@ -23,7 +15,9 @@ std::string why_not_regular(const std::string& path) {
   if (!std::filesystem::exists(status)) return "expected a file that exists; there is none";
   if (std::filesystem::is_directory(status)) return "expected a file; this is a directory";
   if (std::filesystem::is_regular_file(status)) return "";
-  return fmt::format("expected a regular file; this is {}", kind_of(status.type()));
+  return fmt::format("expected a regular file; this is {}", std::filesystem::is_fifo(status)     ? "a pipe"
+                                                            : std::filesystem::is_socket(status) ? "a socket"
+                                                                                                 : "a device");
 }
 
 std::ifstream open_input(const std::string& path, std::uintmax_t most) {
@@ -48,7 +42,7 @@ std::string read_input(const std::string& path, std::uintmax_t most) {
 
 std::size_t line_of(std::string_view text, std::size_t offset) noexcept {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
 }
 
 }  // namespace paperproof::compare

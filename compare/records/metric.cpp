@@ -32,8 +32,7 @@ std::string_view name_of(Metric::Kind kind) noexcept {
 std::span<const Metric> metrics() noexcept { return all_metrics; }
 
 const Metric* find_metric(std::string_view key) noexcept {
-  const auto found =
-      std::find_if(all_metrics.begin(), all_metrics.end(), [&](const Metric& each) { return each.key == key; });
+  const auto found = std::ranges::find(all_metrics, key, &Metric::key);
   return found == all_metrics.end() ? nullptr : &*found;
 }
 

@@ -39,7 +39,7 @@ void flatten(const ordered_json& object, const std::string& prefix, Cells& cells
 void add_columns(const Cells& cells, std::vector<std::string>& columns) {
   auto next = columns.begin();
   for (const auto& [key, text] : cells) {
-    const auto found = std::find(columns.begin(), columns.end(), key);
+    const auto found = std::ranges::find(columns, key);
     next = 1 + (found != columns.end() ? found : columns.insert(next, key));
   }
 }
@@ -117,20 +117,19 @@ std::string rows_csv(const ordered_json& rows, const ordered_json& header) {
     add_columns(lines.back(), columns);
   }
   std::string text = comments_of(header);
-  for (const std::string& column : columns) {
-    if (column != columns.front()) text += ',';
-    text += csv_quoted(column);
-  }
-  text += "\r\n";
-  for (const Cells& cells : lines) {
+  const auto add_line = [&](const auto& cell_in) {
     for (const std::string& column : columns) {
-      const auto cell =
-          std::find_if(cells.begin(), cells.end(), [&](const auto& each) { return each.first == column; });
       if (column != columns.front()) text += ',';
-      if (cell != cells.end()) text += csv_quoted(cell->second);
+      text += csv_quoted(cell_in(column));
     }
     text += "\r\n";
-  }
+  };
+  add_line([](const std::string& column) { return column; });
+  for (const Cells& cells : lines)
+    add_line([&](const std::string& column) {
+      const auto cell = std::ranges::find(cells, column, &Cells::value_type::first);
+      return cell == cells.end() ? std::string() : cell->second;
+    });
   return text;
 }
 

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 2> bad_names{"does_not_hold", "tunnels"};
 
 template <std::size_t count>
 std::size_t place_in(const std::array<std::string_view, count>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 template <class Value>
@@ -43,13 +43,12 @@ ordered_json json_of(const std::map<std::string, Disagreements>& all) {
   return object;
 }
 ordered_json json_of(const std::optional<FirstTunnel>& first) {
-  ordered_json object{{"step", first->step}};
-  if (first->collider.empty()) return object;
-  object["collider"] = first->collider;
-  object["speed_m_s"] = first->speed_m_s;
-  object["thickness_m"] = first->thickness_m;
-  object["angle_deg"] = first->angle_deg;
-  return object;
+  if (first->collider.empty()) return {{"step", first->step}};
+  return {{"step", first->step},
+          {"collider", first->collider},
+          {"speed_m_s", first->speed_m_s},
+          {"thickness_m", first->thickness_m},
+          {"angle_deg", first->angle_deg}};
 }
 
 template <class Value>

@@ -30,8 +30,7 @@ bool is_whole(const Json& value) {
 }
 
 bool is_of_type(const Json& value, const Json& type) {
-  if (type.is_array())
-    return std::any_of(type.begin(), type.end(), [&](const Json& one) { return is_of_type(value, one); });
+  if (type.is_array()) return std::ranges::any_of(type, [&](const Json& one) { return is_of_type(value, one); });
   const auto& word = type.get_ref<const std::string&>();  // comparing JSON with a text would copy the text
   if (word == "object") return value.is_object();
   if (word == "array") return value.is_array();
@@ -85,17 +84,6 @@ std::string range_missed(const Json& number, const Json& least, const Json& abov
   return least == most ? least.dump() : fmt::format("{} to {}", least.dump(), most.dump());
 }
 
-bool has_all(const Json& object, const Json& keys) {
-  return std::all_of(keys.begin(), keys.end(),
-                     [&](const Json& key) { return object.contains(key.get<std::string>()); });
-}
-
-std::vector<std::string> keys_of(const Json& object) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;
-}
-
 }  // namespace
 
 Schema::Schema(std::string_view text) : root_(Json::parse(text)) { prepare(root_); }
@@ -140,8 +128,7 @@ std::optional<std::string> Schema::fault_of(const Json& value, const Json& refer
   const auto limit = [&](const char* keyword) -> const Json& { return part_of(schema, keyword, unlimited); };
   if (schema.contains("type") && !is_of_type(value, schema["type"])) return expected(words_of_type(schema["type"]));
   if (schema.contains("const") && value != schema["const"]) return expected(schema["const"].dump());
-  if (schema.contains("enum") &&
-      std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) {
+  if (schema.contains("enum") && std::ranges::find(schema["enum"], value) == schema["enum"].end()) {
     std::vector<std::string> allowed;
     for (const Json& one : schema["enum"]) allowed.push_back(one == "" ? one.dump() : one.get<std::string>());
     return expected(one_of_words(allowed));
@@ -188,14 +175,16 @@ std::optional<std::string> Schema::fault_of_object(const Json& value, const Json
   for (auto member = value.begin(); closed && member != value.end(); ++member) {
     const std::string& key = member.key();
     if (properties.contains(key)) continue;
-    const std::vector<std::string> keys = keys_of(properties);
+    std::vector<std::string> keys;
+    for (const auto& [name, asks] : properties.items()) keys.push_back(name);
     const std::string near = did_you_mean(key, keys);
     return at(key, ": unknown key" + (near.empty() ? "; expected one of " + one_of_words(keys) : near));
   }
   for (const Json& key : part_of(schema, "required", nothing))
     if (!value.contains(key.get_ref<const std::string&>())) return at(key, ": expected this key, which is missing");
   for (const auto& [key, needed] : part_of(schema, "dependentRequired", nothing).items())
-    if (value.contains(key) && !has_all(value, needed))
+    if (value.contains(key) &&
+        !std::ranges::all_of(needed, [&](const Json& other) { return value.contains(other.get<std::string>()); }))
       return at(key, fmt::format(": expected only beside {}", needed[0].get<std::string>()));
   for (auto member = value.begin(); member != value.end(); ++member) {
     const auto known = properties.find(member.key());

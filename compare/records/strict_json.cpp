@@ -31,8 +31,8 @@ std::string pointer_to(const std::vector<Open>& open) {
 /// The library's words without its prefix of id and position. They quote the file, and its bytes may be no text.
 std::string reason_of(const std::string& what) {
   std::string reason = what.substr(what.find(": ") + 2);
-  std::replace_if(
-      reason.begin(), reason.end(), [](unsigned char c) { return c >= 0x80; }, '?');
+  std::ranges::replace_if(
+      reason, [](unsigned char c) { return c >= 0x80; }, '?');
   return reason;
 }
 

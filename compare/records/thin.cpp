@@ -10,8 +10,7 @@ namespace {
 /// Steps that must stay whatever the stride is, the most telling first.
 std::vector<int> telling_steps(const ReportRun& run) {
   std::vector<int> steps;
-  const auto contact =
-      std::find_if(run.steps.begin(), run.steps.end(), [](const TraceStep& step) { return !step.contacts.empty(); });
+  const auto contact = std::ranges::find_if(run.steps, [](const TraceStep& step) { return !step.contacts.empty(); });
   if (contact != run.steps.end()) steps.push_back(contact->step);
   for (const ReportEvent& event : run.events) steps.push_back(event.step);
   return steps;
@@ -44,11 +43,15 @@ std::set<int> steps_to_keep(const ReportRun& run, std::size_t room) {
   return keep;
 }
 
-void keep_only(const std::vector<std::size_t>& kept, std::vector<TraceStep>& steps) {
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i] != i) steps[i] = std::move(steps[kept[i]]);
-  }
-  steps.resize(kept.size());
+/// Of all characters.
+void keep_only(const std::vector<std::size_t>& kept, ReportRun& run) {
+  const auto keep = [&](std::vector<TraceStep>& steps) {
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i] != i) steps[i] = std::move(steps[kept[i]]);
+    steps.resize(kept.size());
+  };
+  keep(run.steps);
+  std::ranges::for_each(run.others, keep);
 }
 
 }  // namespace
@@ -63,8 +66,7 @@ void thin_for_replay(ReportRun& run, int max_steps) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < run.steps.size(); ++i)
     if (i % stride == 0 || keep.contains(run.steps[i].step)) kept.push_back(i);
-  keep_only(kept, run.steps);
-  for (std::vector<TraceStep>& steps : run.others) keep_only(kept, steps);
+  keep_only(kept, run);
   run.every *= static_cast<int>(stride);
 }
 
@@ -75,8 +77,7 @@ void cut_to_excerpt(ReportRun& run, int around, std::optional<int> middle) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < run.steps.size(); ++i)
     if (is_near(run.steps[i].step)) kept.push_back(i);
-  keep_only(kept, run.steps);
-  for (std::vector<TraceStep>& steps : run.others) keep_only(kept, steps);
+  keep_only(kept, run);
   std::erase_if(run.events, [&](const ReportEvent& event) { return !is_near(event.step); });
 }
 

@@ -11,27 +11,18 @@
 #include <paperproof/step_context.hpp>
 #include <paperproof/together.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace paperproof::compare {
 
 /// As a trace has it: `bottom`.
 [[nodiscard]] constexpr std::string_view name_of(Side side) noexcept {
-  switch (side) {
-    case Side::top:
-      return "top";
-    case Side::bottom:
-      return "bottom";
-    case Side::left:
-      return "left";
-    case Side::right:
-      return "right";
-  }
-  return "bottom";
+  constexpr std::array<std::string_view, 4> names{"top", "bottom", "left", "right"};
+  return names[static_cast<std::size_t>(side)];
 }
 
 [[nodiscard]] constexpr std::string_view name_of(SensorEvent::Change change) noexcept {
@@ -68,15 +59,8 @@ struct TraceState {
 };
 
 [[nodiscard]] constexpr std::string_view name_of(PieceSearch search) noexcept {
-  switch (search) {
-    case PieceSearch::one_by_one:
-      return "one_by_one";
-    case PieceSearch::none:
-      return "none";
-    case PieceSearch::grid:
-      break;
-  }
-  return "grid";
+  constexpr std::array<std::string_view, 3> names{"grid", "one_by_one", "none"};
+  return names[static_cast<std::size_t>(search)];
 }
 
 /// Something that a level has no need of, and what follows from that. Both texts are static.

@@ -1,7 +1,8 @@
 /// What a trace has of each thing, key by key. The writer and the reader go through the same lists.
 ///
 /// `io.must(key, value)` is always written, `io.may(key, value)` where it says something, and `io.when(so, key, value)`
-/// where that is so. A reader takes what is there: the schema has said what must be.
+/// where that is so. A reader takes what is there: the schema has said what must be. `io.colliders` and `io.movers` are
+/// what there is, in a header, and how everything goes that moves, in a step.
 #pragma once
 
 #include "records/trace.hpp"
@@ -30,22 +31,6 @@ struct Characters {
 };
 template <class T>
 Characters(T&) -> Characters<T>;
-
-/// How everything goes that moves, in a step.
-template <class T>
-struct Movers {
-  T& of;
-};
-template <class T>
-Movers(T&) -> Movers<T>;
-
-/// What there is, in a header.
-template <class T>
-struct Scenery {
-  T& of;
-};
-template <class T>
-Scenery(T&) -> Scenery<T>;
 
 void fields(auto& io, A<Contact> auto& contact) {
   io.must("collider", Colliders{contact.collider});
@@ -114,7 +99,7 @@ void fields(auto& io, A<TraceStep> auto& step, A<std::optional<bool>> auto& exac
   io.may("ground_velocity", step.ground_velocity);
   io.must("start_overlap", Colliders{step.start_overlap});
   io.may("start_overlap_characters", Characters{step.start_overlap_characters});
-  io.must("movers", Movers{step});
+  io.movers(step);
   io.must("contacts", step.contacts);
   io.may("met", step.met);
   io.may("crush", Colliders{step.crushed});
@@ -194,7 +179,7 @@ void fields(auto& io, A<TraceHeader> auto& header) {
   io.must("character", header.character);
   io.must("starts", header.starts);
   io.may("respawn_box", header.respawn_box);
-  io.must("colliders", Scenery{header});
+  io.colliders(header);
   io.may("movers", header.scripts);
   io.when(header.substeps > 1, "substeps", header.substeps);
   io.must("guarantees", header.guarantees);

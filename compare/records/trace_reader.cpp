@@ -1,5 +1,6 @@
 #include "records/trace_reader.hpp"
 
+#include "contains.hpp"
 #include "records/collider_json.hpp"
 #include "records/input_file.hpp"
 #include "records/schema.hpp"
@@ -27,7 +28,10 @@ struct Unexpected {
   [[nodiscard]] std::string what() const { return fmt::format("{}: {}", where.empty() ? "/" : where, words); }
 };
 
-[[noreturn]] void refuse(const std::string& expected) { throw Unexpected{"expected " + expected}; }
+/// @param where from the value that is read, as a JSON pointer; empty: that value.
+[[noreturn]] void refuse(const std::string& expected, const std::string& where = "") {
+  throw Unexpected{"expected " + expected, where};
+}
 
 /// What `look` refuses stands behind a key, or is the entry of a list.
 template <class Key, class Look>
@@ -59,6 +63,12 @@ class FieldReader {
   template <class T>
   void when(bool /*so*/, const char* key, T&& value) const {
     must(key, value);
+  }
+  /// They are read before the rest, which names them.
+  static void colliders(TraceHeader& /*header*/) {}
+  void movers(TraceStep& step) const {
+    if (const auto found = object_.find("movers"); found != object_.end())
+      behind("movers", [&] { take_movers(*found, step); });
   }
 
  private:
@@ -104,7 +114,7 @@ class FieldReader {
   }
 
   void take(const ordered_json& json, Colliders<ColliderIndex> collider) const {
-    const auto found = std::find(header_.ids.begin(), header_.ids.end(), json.get_ref<const std::string&>());
+    const auto found = std::ranges::find(header_.ids, json.get_ref<const std::string&>());
     if (found == header_.ids.end()) refuse("the id of a collider");
     collider.of = static_cast<ColliderIndex>(found - header_.ids.begin());
   }
@@ -121,9 +131,7 @@ class FieldReader {
     for (std::size_t i = 0; i < json.size(); ++i) behind(i, [&] { take(json[i], Kind{some.of.emplace_back()}); });
   }
 
-  /// It is read before the rest, which names colliders.
-  static void take(const ordered_json& /*json*/, Scenery<TraceHeader> /*scenery*/) {}
-  void take(const ordered_json& json, Movers<TraceStep> all) const;
+  void take_movers(const ordered_json& json, TraceStep& step) const;
   void take_way(const ordered_json& json, ColliderIndex collider, TraceStep& step) const;
 
   template <class T>
@@ -143,26 +151,22 @@ void FieldReader::take_way(const ordered_json& json, ColliderIndex collider, Tra
   for (const std::vector<Vec2d>& hole : def.holes) count += hole.size();
   VertexWay way{.collider = collider, .instants = json["k"], .vertices = {}};
   take(json["vertices"], way.vertices);
-  if (way.instants.front() != 0 || way.instants.back() != 1 ||
-      !std::is_sorted(way.instants.begin(), way.instants.end()))
-    behind("k", [] { refuse("fractions that ascend from 0 to 1"); });
-  if (way.vertices.size() != way.instants.size())
-    behind("vertices", [&] { refuse(fmt::format("a list of {}", way.instants.size())); });
+  if (way.instants.front() != 0 || way.instants.back() != 1 || !std::ranges::is_sorted(way.instants))
+    refuse("fractions that ascend from 0 to 1", "/k");
+  if (way.vertices.size() != way.instants.size()) refuse(fmt::format("a list of {}", way.instants.size()), "/vertices");
   for (std::size_t i = 0; i < way.vertices.size(); ++i)
-    if (way.vertices[i].size() != count)
-      behind("vertices", [&] { behind(i, [&] { refuse(fmt::format("{} points", count)); }); });
+    if (way.vertices[i].size() != count) refuse(fmt::format("{} points", count), fmt::format("/vertices/{}", i));
   step.vertex_ways.push_back(std::move(way));
 }
 
 /// What goes along with one mover goes as far.
-void FieldReader::take(const ordered_json& json, Movers<TraceStep> all) const {
-  TraceStep& step = all.of;
+void FieldReader::take_movers(const ordered_json& json, TraceStep& step) const {
   step.movers.resize(header_.scripts.size());
   std::set<ColliderIndex> seen;
   std::set<MoverIndex> known;
   for (const auto& [id, motion] : json.items())
     behind(id, [&, &id = id, &motion = motion] {
-      const auto found = std::find(header_.ids.begin(), header_.ids.end(), id);
+      const auto found = std::ranges::find(header_.ids, id);
       const auto collider = static_cast<ColliderIndex>(found - header_.ids.begin());
       const MoverIndex mover = found == header_.ids.end() ? no_mover : header_.scenery.colliders[collider].mover;
       if (mover == no_mover) refuse("a collider that moves");
@@ -179,26 +183,23 @@ void FieldReader::take(const ordered_json& json, Movers<TraceStep> all) const {
       if (!known.insert(mover).second && !same_motion(other, own)) refuse("the offset of what goes along with it");
       step.movers[mover] = own;
     });
-  std::sort(step.vertex_ways.begin(), step.vertex_ways.end(),
-            [](const VertexWay& a, const VertexWay& b) { return a.collider < b.collider; });
+  std::ranges::sort(step.vertex_ways, {}, &VertexWay::collider);
   for (ColliderIndex i = 0; i < header_.ids.size(); ++i)
     if (header_.scenery.colliders[i].mover != no_mover && !seen.contains(i))
       refuse("the motion of \"" + header_.ids[i] + "\"");
 }
 
 void check_up(const Vec2d& up) {
-  if (!(std::abs(up.norm() - 1) <= 1e-9)) behind("up", [] { refuse("a vector of length 1"); });
+  if (!(std::abs(up.norm() - 1) <= 1e-9)) refuse("a vector of length 1", "/up");
 }
 
 void read_colliders(const ordered_json& colliders, TraceHeader& header) {
   for (const ordered_json& collider : colliders) {
     const std::string id = collider["id"];
-    const auto there = [&](const auto& look) { behind("colliders", [&] { behind(header.ids.size(), look); }); };
-    if (std::find(header.ids.begin(), header.ids.end(), id) != header.ids.end())
-      there([] { behind("id", [] { refuse("an id of its own"); }); });
+    const std::string there = fmt::format("/colliders/{}", header.ids.size());
+    if (contains(header.ids, id)) refuse("an id of its own", there + "/id");
     header.scenery.colliders.push_back(collider_of(collider));
-    if (header.scenery.colliders.back().radius < 0)
-      there([] { behind("circle", [] { refuse("a radius from 0 on"); }); });
+    if (header.scenery.colliders.back().radius < 0) refuse("a radius from 0 on", there + "/circle");
     header.ids.push_back(id);
   }
 }
@@ -206,24 +207,22 @@ void read_colliders(const ordered_json& colliders, TraceHeader& header) {
 /// Which mover each collider goes with, and whether scripts are in order.
 void settle_movers(TraceHeader& header) {
   const auto ascend = [](const auto& entries) {
-    return std::adjacent_find(entries.begin(), entries.end(),
-                              [](const auto& a, const auto& b) { return !(a.time < b.time); }) == entries.end();
+    return std::ranges::adjacent_find(entries, [](const auto& a, const auto& b) { return !(a.time < b.time); }) ==
+           entries.end();
   };
-  for (MoverIndex mover = 0; mover < header.scripts.size(); ++mover)
-    behind("movers", [&] {
-      behind(mover, [&] {
-        const MoverScript& script = header.scripts[mover];
-        if (!ascend(script.path)) behind("path", [] { refuse("times that ascend"); });
-        if (!ascend(script.turns)) behind("turns", [] { refuse("times that ascend"); });
-        for (const ColliderIndex collider : script.colliders) {
-          MoverIndex& own = header.scenery.colliders[collider].mover;
-          if (own != no_mover) refuse("colliders that no other mover has");
-          own = mover;
-        }
-        header.turning.push_back(!script.turns.empty());
-      });
-    });
-  if (std::find(header.turning.begin(), header.turning.end(), true) == header.turning.end()) header.turning.clear();
+  for (MoverIndex mover = 0; mover < header.scripts.size(); ++mover) {
+    const MoverScript& script = header.scripts[mover];
+    const std::string there = fmt::format("/movers/{}", mover);
+    if (!ascend(script.path)) refuse("times that ascend", there + "/path");
+    if (!ascend(script.turns)) refuse("times that ascend", there + "/turns");
+    for (const ColliderIndex collider : script.colliders) {
+      MoverIndex& own = header.scenery.colliders[collider].mover;
+      if (own != no_mover) refuse("colliders that no other mover has", there);
+      own = mover;
+    }
+    header.turning.push_back(!script.turns.empty());
+  }
+  if (!contains(header.turning, true)) header.turning.clear();
 }
 
 /// What does not hold to the schema is refused. @param definition in it.
@@ -241,8 +240,7 @@ TraceHeader header_of(const ordered_json& object) {
   read_colliders(object["colliders"], header);
   FieldReader io(object, header);
   detail::fields(io, header);
-  if (header.starts.size() != header.characters)
-    behind("starts", [] { refuse("one start for each of the `characters`"); });
+  if (header.starts.size() != header.characters) refuse("one start for each of the `characters`", "/starts");
   check_up(header.up);
   settle_movers(header);
   return header;
@@ -256,8 +254,8 @@ TraceStep step_of(const ordered_json& object, const TraceHeader& header, bool& p
   detail::fields(io, step, exact);
   path_exact = exact.value_or(true);
   if (step.up) check_up(*step.up);
-  std::sort(step.start_overlap.begin(), step.start_overlap.end());
-  std::sort(step.start_overlap_characters.begin(), step.start_overlap_characters.end());
+  std::ranges::sort(step.start_overlap);
+  std::ranges::sort(step.start_overlap_characters);
   return step;
 }
 

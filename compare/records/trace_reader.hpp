@@ -3,8 +3,6 @@
 
 #include "records/trace.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <fstream>
 #include <string>
 

@@ -20,24 +20,17 @@ std::string dumped(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-bool says_something(bool value) { return value; }
-bool says_something(const Vec2d& value) { return !value.isZero(0); }
+/// Whether a field is written that may be left out.
 template <class T>
-bool says_something(const std::optional<T>& value) {
-  return value.has_value();
-}
-template <class T>
-bool says_something(const std::vector<T>& list) {
-  return !list.empty();
-}
-bool says_something(const std::string& text) { return !text.empty(); }
-template <class T>
-bool says_something(const Colliders<T>& colliders) {
-  return says_something(colliders.of);
-}
-template <class T>
-bool says_something(const Characters<T>& characters) {
-  return says_something(characters.of);
+bool says_something(const T& value) {
+  if constexpr (requires { value.of; })
+    return says_something(value.of);
+  else if constexpr (requires { value.isZero(0); })
+    return !value.isZero(0);
+  else if constexpr (requires { value.empty(); })
+    return !value.empty();
+  else
+    return static_cast<bool>(value);
 }
 
 using Buffer = fmt::memory_buffer;
@@ -45,16 +38,20 @@ using Buffer = fmt::memory_buffer;
 /// Writes fields behind each other: see trace_fields.hpp.
 class FieldWriter {
  public:
-  /// @param colliders of the header, as JSON.
-  FieldWriter(Buffer& out, const TraceLines& lines, std::string_view colliders = {})
-      : out_(out), lines_(lines), colliders_(colliders) {}
+  /// An object with its fields in a line. @param colliders of the header, as JSON.
+  template <class Put>
+  static std::string line(const Put& put_fields, const TraceLines& lines, std::string_view colliders = {}) {
+    Buffer out;
+    FieldWriter(out, lines, colliders).put_object(put_fields);
+    out.push_back('\n');
+    return fmt::to_string(out);
+  }
 
   [[nodiscard]] std::size_t characters() const { return lines_.characters(); }
 
   template <class T>
   void must(std::string_view key, const T& value) {
-    next();
-    fmt::format_to(std::back_inserter(out_), "\"{}\":", key);
+    must_text(key, "");
     put(value);
   }
   template <class T>
@@ -65,8 +62,23 @@ class FieldWriter {
   void when(bool so, std::string_view key, const T& value) {
     if (so) must(key, value);
   }
+  void colliders(const TraceHeader& /*header*/) { must_text("colliders", colliders_); }
+  void movers(const TraceStep& step) {
+    must_text("movers", "");
+    put_object([&](FieldWriter& io) {
+      for (const TraceLines::Moving& moving : lines_.moving())
+        io.put_motion(moving, find_way(step.vertex_ways, moving.collider), step.movers[moving.mover]);
+    });
+  }
 
  private:
+  FieldWriter(Buffer& out, const TraceLines& lines, std::string_view colliders)
+      : out_(out), lines_(lines), colliders_(colliders) {}
+
+  void must_text(std::string_view key, std::string_view json) {
+    next();
+    fmt::format_to(std::back_inserter(out_), "\"{}\":{}", key, json);
+  }
   void next() {
     if (!is_first_) out_.push_back(',');
     is_first_ = false;
@@ -126,12 +138,6 @@ class FieldWriter {
     put(characters.of);
   }
 
-  void put(Movers<const TraceStep> all) {
-    put_object([&](FieldWriter& io) {
-      for (const TraceLines::Moving& moving : lines_.moving())
-        io.put_motion(moving, find_way(all.of.vertex_ways, moving.collider), all.of.movers[moving.mover]);
-    });
-  }
   /// @param way null where it does not turn.
   void put_motion(const TraceLines::Moving& moving, const VertexWay* way, const MoverMotion& motion) {
     next();
@@ -145,8 +151,6 @@ class FieldWriter {
     });
   }
 
-  void put(Scenery<const TraceHeader> /*scenery*/) { put_text(colliders_); }
-
   template <class T>
   requires std::is_class_v<T>
   void put(const T& object) {
@@ -155,7 +159,7 @@ class FieldWriter {
   template <class Put>
   void put_object(const Put& put_fields) {
     out_.push_back('{');
-    FieldWriter inner(out_, lines_);
+    FieldWriter inner(out_, lines_, colliders_);
     put_fields(inner);
     out_.push_back('}');
   }
@@ -165,16 +169,6 @@ class FieldWriter {
   std::string_view colliders_;
   bool is_first_ = true;
 };
-
-template <class Put>
-std::string in_line(const Put& put_fields) {
-  Buffer out;
-  out.push_back('{');
-  put_fields(out);
-  out.push_back('}');
-  out.push_back('\n');
-  return fmt::to_string(out);
-}
 
 }  // namespace
 
@@ -209,17 +203,11 @@ TraceLines::TraceLines(const TraceHeader& header) : characters_(header.character
 }
 
 std::string TraceLines::header_line(const TraceHeader& header, std::string_view colliders) const {
-  return in_line([&](Buffer& out) {
-    FieldWriter io(out, *this, colliders);
-    detail::fields(io, header);
-  });
+  return FieldWriter::line([&](FieldWriter& io) { detail::fields(io, header); }, *this, colliders);
 }
 
 std::string TraceLines::line_of(const TraceStep& step) const {
-  return in_line([&](Buffer& out) {
-    FieldWriter io(out, *this);
-    detail::fields(io, step, exact_);
-  });
+  return FieldWriter::line([&](FieldWriter& io) { detail::fields(io, step, exact_); }, *this);
 }
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header) : file_(path), lines_(header) {

@@ -9,11 +9,6 @@ namespace {
 constexpr std::array worst_first{Verdict::failed,  Verdict::not_applicable, Verdict::violates,
                                  Verdict::tunnels, Verdict::flagged,        Verdict::holds};
 
-bool is_worse(Verdict one, Verdict other) {
-  return std::find(worst_first.begin(), worst_first.end(), one) <
-         std::find(worst_first.begin(), worst_first.end(), other);
-}
-
 }  // namespace
 
 void add_fault(Row& row, Axis axis, Verdict verdict, std::string words) {
@@ -28,7 +23,7 @@ void settle(Row& row) {
     bool named = false;
     for (const AxisFault& fault : row.faults) {
       if (fault.axis != axis) continue;
-      if (is_worse(fault.verdict, row.verdict)) row.verdict = fault.verdict;
+      row.verdict = *std::ranges::find_first_of(worst_first, std::array{fault.verdict, row.verdict});
       if (!named && !row.reason.empty()) row.reason += "; ";
       row.reason += named ? ", " : std::string(name_of(axis)) + ": ";
       row.reason += fault.words;

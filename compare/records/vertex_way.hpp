@@ -26,8 +26,7 @@ struct VertexWay {
 
 /// That of a collider; null if there is none.
 [[nodiscard]] inline const VertexWay* find_way(std::span<const VertexWay> ways, ColliderIndex collider) {
-  const auto found =
-      std::find_if(ways.begin(), ways.end(), [&](const VertexWay& way) { return way.collider == collider; });
+  const auto found = std::ranges::find(ways, collider, &VertexWay::collider);
   return found == ways.end() ? nullptr : &*found;
 }
 
