@@ -3,34 +3,31 @@
 #include "metrics/rest.hpp"
 #include "oracle/contacts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
 
 /// The sides on which every contact is with a collider that is a don't-care, and neither exact nor a ghost.
-std::uint8_t only_excused(const std::vector<Contact>& contacts, const StepJudgement& judged) {
-  std::uint8_t other = 0;
-  for (const Contact& contact : contacts) {
-    if (!detail::is_ghost(judged, contact) && !detail::is_exact(judged, contact) &&
-        contains(judged.dont_care, contact.collider))
-      continue;
-    other |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(contact.side));
-  }
-  return static_cast<std::uint8_t>(sides_of(contacts) & ~other);
+unsigned only_excused(const std::vector<Contact>& contacts, const StepJudgement& judged) {
+  unsigned other = 0;
+  for (const Contact& contact : contacts)
+    if (detail::is_ghost(judged, contact) || detail::is_exact(judged, contact) ||
+        !contains(judged.dont_care, contact.collider))
+      other |= 1U << static_cast<unsigned>(contact.side);
+  return sides_of(contacts) & ~other;
 }
 
-std::string named(std::uint8_t sides) {
-  std::string text;
+std::string named(unsigned sides) {
+  std::vector<std::string_view> names;
   for (const Side side : {Side::bottom, Side::top, Side::left, Side::right})
-    if ((sides >> static_cast<unsigned>(side) & 1U) != 0)
-      text += (text.empty() ? "" : " and ") + std::string(name_of(side));
-  return text.empty() ? "no contact" : text;
+    if ((sides >> static_cast<unsigned>(side) & 1U) != 0) names.push_back(name_of(side));
+  return names.empty() ? "no contact" : fmt::format("{}", fmt::join(names, " and "));
 }
-
-unsigned size_of(unsigned sides) { return static_cast<unsigned>(std::popcount(sides)); }
 
 }  // namespace
 
@@ -47,9 +44,8 @@ void Agreement::match(const View& view, Matches& matches) {
     excused |= moment.excused;
   }
   const auto count = [&](unsigned sides, unsigned others, int& counted, int& matched) {
-    const unsigned found = sides & others;
-    matched += static_cast<int>(size_of(found));
-    counted += static_cast<int>(size_of(found | (sides & ~excused)));
+    matched += std::popcount(sides & others);
+    counted += std::popcount(sides & (others | ~excused));
   };
   count(view.now().mine.reported, reference, matches.mine, matches.mine_matched);
   count(view.now().reference.reported, mine, matches.reference, matches.reference_matched);
@@ -63,9 +59,7 @@ bool Agreement::is_right(const View& view, Party Moment::*party) {
     reported |= (moment.*party).reported;
   }
   const Party& now = view.now().*party;
-  const unsigned wrong = now.reported & ~exact & ~unsigned{now.excused};
-  const unsigned missed = now.exact & ~reported;
-  return wrong == 0 && missed == 0;
+  return (now.reported & ~exact & ~now.excused) == 0 && (now.exact & ~reported) == 0;
 }
 
 SideDisagreement::Right Agreement::who(const View& view) {
@@ -81,9 +75,7 @@ void Agreement::settle_last(const View& view) {
   if (!last_) return;
   const SideDisagreement::Right right = who(view);
   --counts_[static_cast<std::size_t>(last_->right)];
-  ++counts_[static_cast<std::size_t>(right)];
-  last_->right = right;
-  last_->who_is_right = words(*last_);
+  judge_last(right);
   if (last_is_kept_) disagreements_.back() = *last_;
   if (!first_wrong_ && right != SideDisagreement::Right::both) first_wrong_ = last_;
 }
@@ -94,8 +86,7 @@ void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, con
   moment.mine = {sides_of(mine.contacts), sides_of(mine_judged.contacts), only_excused(mine.contacts, mine_judged)};
   moment.reference = {sides_of(reference.contacts), sides_of(reference_judged.contacts),
                       only_excused(reference.contacts, reference_judged)};
-  moment.excused = static_cast<Sides>(only_excused(mine.contacts, reference_judged) | moment.reference.excused |
-                                      moment.mine.excused);
+  moment.excused = only_excused(mine.contacts, reference_judged) | moment.reference.excused | moment.mine.excused;
   window_.add(moment, [this](const View& view) {
     match(view, matches_);
     settle_last(view);
@@ -104,22 +95,31 @@ void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, con
   last_is_kept_ = false;
   ++steps_;
   note_positions(mine, mine_judged, reference, reference_judged);
-  const unsigned only_mine = unsigned{moment.mine.reported} & ~unsigned{moment.reference.reported};
-  const unsigned only_reference = unsigned{moment.reference.reported} & ~unsigned{moment.mine.reported};
+  const unsigned only_mine = moment.mine.reported & ~moment.reference.reported;
+  const unsigned only_reference = moment.reference.reported & ~moment.mine.reported;
   // A missing contact can be excused; another side in its place cannot.
   const bool other_sides = only_mine != 0 && only_reference != 0;
-  const unsigned differ = (only_mine | only_reference) & ~unsigned{moment.excused};
-  if (differ == 0 && !other_sides) {
+  if (((only_mine | only_reference) & ~moment.excused) == 0 && !other_sides) {
     ++same_;
     return;
   }
-  last_ = {mine.step, mine, reference, mine_judged.contacts, reference_judged.contacts, {}, {}};
-  window_.last([this](const View& view) { last_->right = who(view); });
-  last_->who_is_right = words(*last_);
-  ++counts_[static_cast<std::size_t>(last_->right)];
+  last_ = {mine.step, mine, reference, {}, {}, {}};
+  last_->facts = fmt::format(
+      "{} reports {} where exact arithmetic has {}, {} reports {} where exact arithmetic has {}: ", mine_name_,
+      named(moment.mine.reported), named(moment.mine.exact), reference_name_, named(moment.reference.reported),
+      named(moment.reference.exact));
+  window_.last([this](const View& view) { judge_last(who(view)); });
   if (disagreements_.size() == most_) return;
   last_is_kept_ = true;
   disagreements_.push_back(*last_);
+}
+
+void Agreement::judge_last(SideDisagreement::Right right) {
+  const std::array<std::string, 4> words{mine_name_ + " is right", reference_name_ + " is right",
+                                         "both are right about their own motion", "neither is right"};
+  last_->right = right;
+  last_->who_is_right = last_->facts + words.at(static_cast<std::size_t>(right));
+  ++counts_[static_cast<std::size_t>(right)];
 }
 
 void Agreement::note_positions(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
@@ -137,18 +137,16 @@ void Agreement::note_positions(const TraceStep& mine, const StepJudgement& mine_
 
 std::string Agreement::words_about_positions() const {
   const auto right = [](const std::string& one, const std::string& other, int step) {
-    return one + " is right, as " + other + " passed or entered a solid on step " + std::to_string(step);
+    return fmt::format("{} is right, as {} passed or entered a solid on step {}", one, other, step);
   };
-  char distance[32];
-  std::snprintf(distance, sizeof distance, "%.3g", apart_->by);
-  const std::string fact = mine_name_ + " and " + reference_name_ + " are " + distance + " m apart: ";
+  const std::string fact = fmt::format("{} and {} are {:.3g} m apart: ", mine_name_, reference_name_, apart_->by);
   if (mine_broke_ && reference_broke_) return fact + "neither is right, as both passed or entered a solid";
   if (mine_broke_) return fact + right(reference_name_, mine_name_, *mine_broke_);
   if (reference_broke_) return fact + right(mine_name_, reference_name_, *reference_broke_);
   if (apart_->mine_inside != apart_->reference_inside) {
-    const auto [one, other] =
+    const auto [inside, outside] =
         apart_->mine_inside ? std::pair(mine_name_, reference_name_) : std::pair(reference_name_, mine_name_);
-    return fact + other + " is right, as " + one + " is still inside a solid";
+    return fmt::format("{}{} is right, as {} is still inside a solid", fact, outside, inside);
   }
   if (reference_capped_) return fact + reference_name_ + " moves at most 2 m per step";
   return fact + "neither passed or entered a solid, they respond differently";
@@ -163,30 +161,10 @@ std::optional<std::pair<int, std::string>> Agreement::first_difference() const {
   const std::optional<SideDisagreement>& wrong = first_wrong_ ? first_wrong_ : last_;
   if (sides->right != SideDisagreement::Right::both) return std::pair(sides->step, text);
   if (wrong && wrong->right != SideDisagreement::Right::both)
-    text += "; step " + std::to_string(wrong->step) + " is the first on which one is not: " + wrong->who_is_right;
+    text += fmt::format("; step {} is the first on which one is not: {}", wrong->step, wrong->who_is_right);
   else if (apart_)
-    text += "; from step " + std::to_string(apart_->step) + " on " + words_about_positions();
+    text += fmt::format("; from step {} on {}", apart_->step, words_about_positions());
   return std::pair(sides->step, text);
-}
-
-std::string Agreement::words(const SideDisagreement& one) const {
-  const auto claim = [](const std::string& name, std::uint8_t says, std::uint8_t exact) {
-    return name + " reports " + named(says) + " where exact arithmetic has " + named(exact);
-  };
-  const std::string facts = claim(mine_name_, sides_of(one.mine.contacts), sides_of(one.mine_exact)) + ", " +
-                            claim(reference_name_, sides_of(one.reference.contacts), sides_of(one.reference_exact)) +
-                            ": ";
-  switch (one.right) {
-    case SideDisagreement::Right::mine:
-      return facts + mine_name_ + " is right";
-    case SideDisagreement::Right::reference:
-      return facts + reference_name_ + " is right";
-    case SideDisagreement::Right::both:
-      return facts + "both are right about their own motion";
-    case SideDisagreement::Right::neither:
-      return facts + "neither is right";
-  }
-  return facts;
 }
 
 void Agreement::write(Row& row) const {
@@ -195,14 +173,13 @@ void Agreement::write(Row& row) const {
   row.max_position_difference_box2d_m = farthest_;
   if (auto first = first_difference()) {
     row.first_difference_box2d_step = first->first;
-    row.first_difference_box2d = "step " + std::to_string(first->first) + ": " + first->second;
+    row.first_difference_box2d = fmt::format("step {}: {}", first->first, first->second);
   }
   Matches matches = matches_;
   window_.last([&](const View& view) { match(view, matches); });
   if (matches.mine > 0) row.contact_precision_box2d = static_cast<double>(matches.mine_matched) / matches.mine;
-  if (matches.reference > 0) {
+  if (matches.reference > 0)
     row.contact_recall_box2d = static_cast<double>(matches.reference_matched) / matches.reference;
-  }
 }
 
 void write_agreement(const std::vector<Agreement>& of_characters, Row& row) {
@@ -218,7 +195,7 @@ void write_agreement(const std::vector<Agreement>& of_characters, Row& row) {
     const std::optional<int>& step = one.first_difference_box2d_step;
     if (!step || (row.first_difference_box2d_step && *row.first_difference_box2d_step <= *step)) continue;
     row.first_difference_box2d_step = step;
-    row.first_difference_box2d = "character " + std::to_string(k) + ", " + one.first_difference_box2d;
+    row.first_difference_box2d = fmt::format("character {}, {}", k, one.first_difference_box2d);
   }
   row.contact_agreement_box2d = shares / static_cast<double>(of_characters.size());
 }

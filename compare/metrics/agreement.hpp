@@ -20,10 +20,9 @@ struct SideDisagreement {
   int step = 0;
   TraceStep mine;
   TraceStep reference;
-  std::vector<ExactContact> mine_exact;  ///< What exact arithmetic says about each motion.
-  std::vector<ExactContact> reference_exact;
+  std::string facts;  ///< What each says, and exact arithmetic of each motion.
   Right right = Right::both;
-  std::string who_is_right;  ///< The same in words, with what each says.
+  std::string who_is_right;  ///< The same in words, behind the facts.
 };
 
 /// Positions that are nearer agree [m]: Box2D keeps bodies up to its skin apart by design.
@@ -65,16 +64,16 @@ class Agreement {
   }
 
  private:
-  using Sides = std::uint8_t;  ///< One bit for each side.
+  /// Sets of sides.
   struct Party {
-    Sides reported = 0;
-    Sides exact = 0;
-    Sides excused = 0;  ///< Reported, but only for colliders in its own skin.
+    unsigned reported = 0;
+    unsigned exact = 0;
+    unsigned excused = 0;  ///< Reported, but only for colliders in its own skin.
   };
   struct Moment {
     Party mine;
     Party reference;
-    Sides excused = 0;  ///< A difference about these sides is none.
+    unsigned excused = 0;  ///< A difference about these sides is none.
   };
   struct Matches {
     int mine = 0;
@@ -94,7 +93,7 @@ class Agreement {
   [[nodiscard]] static bool is_right(const View& view, Party Moment::*party);
   [[nodiscard]] static SideDisagreement::Right who(const View& view);
   void settle_last(const View& view);
-  [[nodiscard]] std::string words(const SideDisagreement& disagreement) const;
+  void judge_last(SideDisagreement::Right right);
   void note_positions(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
                       const StepJudgement& reference_judged);
   [[nodiscard]] std::string words_about_positions() const;

@@ -1,13 +1,14 @@
 #include "metrics/answers.hpp"
 
+#include "contains.hpp"
 #include "oracle/hanging.hpp"
 
-#include <paperproof/techniques.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -25,40 +26,35 @@ double reach_of_answers(const TraceHeader& header) {
 
 bool is_time(Of of) { return of == Of::contact || of == Of::enter || of == Of::leave; }
 
+/// What each answer says, by `Of`. `with` is the id of a collider within quotes and behind a blank, or empty; `any` is
+/// " something" then.
+constexpr auto sentences = std::to_array<const char*>({
+    "stands at {axis} = {number} m {from}{when}",
+    "has the speed {number} m/s along {axis} {when}",
+    "comes to {number} m along {axis}",
+    "drifts by {number} m on{with}",
+    "meets{any} after {number} steps",
+    "touches{any} on {number} steps",
+    "is not grounded on {number} steps",
+    "comes to rest after {number} steps",
+    "is crushed{by} in step {number}",
+    "is crushed by {number} colliders",
+    "enters{with} after {number} steps",
+    "leaves{with} after {number} steps",
+});
+
 /// In words, with `number` as its value.
 std::string told(const Answer& answer, const std::string& number) {
-  const std::string to = answer.with.empty() ? "" : " `" + answer.with + "`";
-  std::ostringstream along;
-  along << "(" << answer.along.x() << ", " << answer.along.y() << ")";
-  const std::string axis = answer.along == Vec2d(1, 0) ? "x" : answer.along == Vec2d(0, 1) ? "y" : along.str();
-  const std::string when = answer.step == Answer::end ? "at the end" : "after step " + std::to_string(answer.step - 1);
-  switch (answer.of) {
-    case Of::place:
-      return "stands at " + axis + " = " + number + " m " + (to.empty() ? "" : "from" + to + " ") + when;
-    case Of::speed:
-      return "has the speed " + number + " m/s along " + axis + " " + when;
-    case Of::farthest:
-      return "comes to " + number + " m along " + axis;
-    case Of::drift:
-      return "drifts by " + number + " m on" + to;
-    case Of::contact:
-      return "meets" + (to.empty() ? " something" : to) + " after " + number + " steps";
-    case Of::contacts:
-      return "touches" + (to.empty() ? " something" : to) + " on " + number + " steps";
-    case Of::in_the_air:
-      return "is not grounded on " + number + " steps";
-    case Of::settled:
-      return "comes to rest after " + number + " steps";
-    case Of::crush:
-      return "is crushed" + (to.empty() ? "" : " by" + to) + " in step " + number;
-    case Of::crushers:
-      return "is crushed by " + number + " colliders";
-    case Of::enter:
-      return "enters" + to + " after " + number + " steps";
-    case Of::leave:
-      return "leaves" + to + " after " + number + " steps";
-  }
-  return number;
+  const Vec2d& along = answer.along;
+  const std::string axis = along == Vec2d(1, 0)   ? "x"
+                           : along == Vec2d(0, 1) ? "y"
+                                                  : fmt::format("({:g}, {:g})", along.x(), along.y());
+  const std::string with = answer.with.empty() ? "" : " `" + answer.with + "`";
+  return fmt::format(
+      fmt::runtime(sentences.at(static_cast<std::size_t>(answer.of))), fmt::arg("number", number),
+      fmt::arg("axis", axis), fmt::arg("with", with), fmt::arg("any", with.empty() ? " something" : with),
+      fmt::arg("from", with.empty() ? "" : "from" + with + " "), fmt::arg("by", with.empty() ? "" : " by" + with),
+      fmt::arg("when", answer.step == Answer::end ? "at the end" : fmt::format("after step {}", answer.step - 1)));
 }
 
 }  // namespace
@@ -71,7 +67,7 @@ AnswerCheck::AnswerCheck(const std::vector<Answer>& answers, const TraceHeader& 
     if (answer.clearance > 0 && reach_ > answer.clearance) continue;
     Watch watch{.answer = answer};
     if (!answer.with.empty()) {
-      const auto found = std::find(header.ids.begin(), header.ids.end(), answer.with);
+      const auto found = std::ranges::find(header.ids, answer.with);
       if (found == header.ids.end()) throw std::invalid_argument("no collider has the id `" + answer.with + "`");
       watch.collider = static_cast<ColliderIndex>(found - header.ids.begin());
       watch.mover = header.scenery.colliders[watch.collider].mover;
@@ -96,12 +92,6 @@ std::optional<double> AnswerCheck::first_contact(const Watch& watch, const Trace
   return earliest;
 }
 
-bool AnswerCheck::crushed_by(const Watch& watch, const TraceStep& step) {
-  const std::vector<ColliderIndex>& crushed = step.crushed;
-  if (watch.collider == no_collider) return !crushed.empty();
-  return std::find(crushed.begin(), crushed.end(), watch.collider) != crushed.end();
-}
-
 void AnswerCheck::Watch::first(double when) {
   if (seen) return;
   seen = true;
@@ -124,13 +114,10 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
   const bool always = answer.step == Answer::end;
   const bool until = always || step.step < answer.step;   // the steps asked for are not over
   const bool since = always || step.step >= answer.step;  // they are
-  using Change = SensorEvent::Change;
   switch (answer.of) {
     case Of::place:
-      if (until) watch.value = place_of(watch, step).dot(answer.along);
-      break;
     case Of::speed:
-      if (until) watch.value = step.velocity.dot(answer.along);
+      if (until) watch.value = (answer.of == Of::place ? place_of(watch, step) : step.velocity).dot(answer.along);
       break;
     case Of::farthest:
       for (const PathPoint& corner : step.path) watch.largest(corner.position.dot(answer.along));
@@ -153,17 +140,16 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
       watch.settle(step, reach_);
       break;
     case Of::crush:
-      if (crushed_by(watch, step)) watch.first(step.step);
+      if (watch.collider == no_collider ? !step.crushed.empty() : contains(step.crushed, watch.collider))
+        watch.first(step.step);
       break;
     case Of::crushers:
       watch.named.insert(step.crushed.begin(), step.crushed.end());
       watch.value = static_cast<double>(watch.named.size());
       break;
     case Of::enter:
-      watch.change(step, Change::enter);
-      break;
     case Of::leave:
-      watch.change(step, Change::exit);
+      watch.change(step, answer.of == Of::enter ? SensorEvent::Change::enter : SensorEvent::Change::exit);
       break;
   }
 }
@@ -199,12 +185,7 @@ double AnswerCheck::allowed(const Answer& answer) const {
 
 std::string AnswerCheck::words(const Watch& watch) const {
   const Answer& answer = watch.answer;
-  const auto number = [](double value) {
-    std::ostringstream text;
-    text.precision(9);
-    text << value;
-    return text.str();
-  };
+  const auto number = [](double value) { return fmt::format("{:.9g}", value); };
   std::string wanted = number(answer.at_least);
   if (!std::isfinite(answer.at_least))
     wanted = "at most " + number(answer.at_most);

@@ -52,7 +52,6 @@ class AnswerCheck {
   void see(Watch& watch, const TraceStep& step) const;
   [[nodiscard]] static Vec2d place_of(const Watch& watch, const TraceStep& step);
   [[nodiscard]] static std::optional<double> first_contact(const Watch& watch, const TraceStep& step);
-  [[nodiscard]] static bool crushed_by(const Watch& watch, const TraceStep& step);
   [[nodiscard]] double value_of(const Watch& watch) const;
   [[nodiscard]] double off(const Watch& watch) const;
   [[nodiscard]] double allowed(const Answer& answer) const;

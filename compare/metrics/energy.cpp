@@ -26,7 +26,7 @@ Energy::Energy(const TraceHeader& header, const Vec2d& gravity)
       reach_(own_reach(header)),
       characters_(header.characters) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
-  applies_ = std::all_of(colliders.begin(), colliders.end(), stands_still);
+  applies_ = std::ranges::all_of(colliders, stands_still);
   epsilon_ = header.scalar == "float" ? static_cast<double>(std::numeric_limits<float>::epsilon())
                                       : std::numeric_limits<double>::epsilon();
 }
@@ -43,8 +43,7 @@ bool Energy::is_pushed(const Character& who, const TraceStep& step, double dt) c
 
 bool Energy::is_on_foot(const Character& who, const TraceStep& step) const {
   return who.grounded || step.grounded ||
-         std::any_of(step.contacts.begin(), step.contacts.end(),
-                     [this](const Contact& contact) { return contact.normal.y() >= least_up_; });
+         std::ranges::any_of(step.contacts, [this](const Contact& contact) { return contact.normal.y() >= least_up_; });
 }
 
 void Energy::add(const TraceStep& step, double dt) {

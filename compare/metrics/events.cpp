@@ -1,7 +1,8 @@
 #include "metrics/events.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
@@ -24,7 +25,7 @@ std::vector<std::uint64_t> marks_of(const TraceStep& step) {
   for (const ColliderIndex collider : step.crushed) marks.push_back(mark(Kind::crushed, collider));
   for (const SensorEvent& event : step.sensors)
     marks.push_back(mark(event.change == SensorEvent::Change::enter ? Kind::entered : Kind::left, event.sensor));
-  std::sort(marks.begin(), marks.end());
+  std::ranges::sort(marks);
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
   return marks;
 }
@@ -44,10 +45,8 @@ void Events::add(const TraceStep& step) {
 }
 
 void Events::write(Row& row) const {
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
   row.events = count_;
-  row.event_sequence = digits;
+  row.event_sequence = fmt::format("{:016x}", hash_);
 }
 
 }  // namespace paperproof::compare

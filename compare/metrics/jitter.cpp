@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -99,17 +100,16 @@ void Smoothness::add(const TraceStep& step, double dt) {
   if (step.path.empty()) return;
   if (step.respawn) {
     positions_.clear();
-    next_ = 0;
     last_.reset();
   }
   dt_ = dt;
   const Vec2d end = step.path.back().position;
-  if (positions_.size() < most_positions)
-    positions_.push_back(end);
-  else
-    positions_[next_] = end;
-  next_ = (next_ + 1) % most_positions;
-  if (!walks_on_level_ground(step)) {
+  positions_.push_back(end);
+  if (positions_.size() > most_positions) positions_.pop_front();
+  const bool is_on_level_ground = std::ranges::any_of(step.contacts, [&](const Contact& contact) {
+    return contact.normal == Vec2d(0, 1) && stands_[contact.collider];
+  });
+  if (!step.grounded || step.requested.x() == 0 || !is_on_level_ground) {
     last_.reset();
     return;
   }
@@ -124,25 +124,14 @@ void Smoothness::add(const TraceStep& step, double dt) {
   last_ = now;
 }
 
-bool Smoothness::walks_on_level_ground(const TraceStep& step) const {
-  return step.grounded && step.requested.x() != 0 &&
-         std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact& contact) {
-           return contact.normal == Vec2d(0, 1) && stands_[contact.collider];
-         });
-}
-
 void Smoothness::write(Row& row) const {
-  std::vector<Vec2d> in_order;
-  const std::size_t begin = positions_.size() == most_positions ? next_ : 0;
-  for (std::size_t k = 0; k < positions_.size(); ++k) in_order.push_back(positions_[(begin + k) % positions_.size()]);
-  const auto keep_the_worst = [](std::optional<double>& of_all, const std::optional<double>& mine, auto worse) {
-    if (mine) of_all = of_all ? worse(*of_all, *mine) : *mine;
+  const std::vector<Vec2d> in_order(positions_.begin(), positions_.end());
+  const auto keep_the_worst = [](std::optional<double>& of_all, const std::optional<double>& mine, auto is_worse) {
+    if (mine && (!of_all || is_worse(*mine, *of_all))) of_all = mine;
   };
-  const auto larger = [](double a, double b) { return std::max(a, b); };
-  const auto smaller = [](double a, double b) { return std::min(a, b); };
-  keep_the_worst(row.log_dimensionless_jerk, log_dimensionless_jerk(in_order, dt_), smaller);
-  keep_the_worst(row.seam_hop_share, hop_share_, larger);
-  keep_the_worst(row.seam_hop_m, hop_, larger);
+  keep_the_worst(row.log_dimensionless_jerk, log_dimensionless_jerk(in_order, dt_), std::less<>());
+  keep_the_worst(row.seam_hop_share, hop_share_, std::greater<>());
+  keep_the_worst(row.seam_hop_m, hop_, std::greater<>());
 }
 
 }  // namespace paperproof::compare

@@ -4,6 +4,7 @@
 #include "records/row.hpp"
 #include "records/trace.hpp"
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -45,11 +46,9 @@ class Smoothness {
     double way = 0;
     double height = 0;
   };
-  [[nodiscard]] bool walks_on_level_ground(const TraceStep& step) const;
 
   std::vector<bool> stands_;  ///< By collider.
-  std::vector<Vec2d> positions_;
-  std::size_t next_ = 0;  ///< Of the ring, once it is full.
+  std::deque<Vec2d> positions_;
   double dt_ = 0;
   std::optional<Walk> last_;
   std::optional<double> hop_share_;

@@ -9,25 +9,6 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr std::array<std::string_view, cause_count> cause_names{"skin",
-                                                                "travel_cap",
-                                                                "event_latency",
-                                                                "response_law",
-                                                                "solver_iterations",
-                                                                "outline",
-                                                                "sampled_time",
-                                                                "intent",
-                                                                "ghost_collision",
-                                                                "float",
-                                                                "start_inside",
-                                                                "crush",
-                                                                "company",
-                                                                "error_of_box2d",
-                                                                "error_of_ours",
-                                                                "remaining_lockstep",
-                                                                "after_divergence",
-                                                                "unexplained"};
-
 /// Whether a step wants no sideways motion, ends on the ground, and nothing else acts on the character.
 bool rests(const TraceStep& step, const StepJudgement& judged) {
   return step.grounded && step.requested.x() == 0 && step.met.empty() && judged.crushed.empty() &&
@@ -43,7 +24,14 @@ std::string_view name_of(EventKind kind) noexcept {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(Cause cause) noexcept { return cause_names[static_cast<std::size_t>(cause)]; }
+std::string_view name_of(Cause cause) noexcept {
+  constexpr auto names = std::to_array<std::string_view>(
+      {"skin", "travel_cap", "event_latency", "response_law", "solver_iterations", "outline", "sampled_time", "intent",
+       "ghost_collision", "float", "start_inside", "crush", "company", "error_of_box2d", "error_of_ours",
+       "remaining_lockstep", "after_divergence", "unexplained"});
+  static_assert(names.size() == static_cast<std::size_t>(Cause::unexplained) + 1);
+  return names[static_cast<std::size_t>(cause)];
+}
 
 Ledger::Ledger(const LedgerParty& mine, const LedgerParty& reference, bool lockstep)
     : mine_(mine), reference_(reference), lockstep_(lockstep) {
@@ -67,49 +55,41 @@ void Ledger::finish() {
   window_.last([this](const View& view) { judge(view); });
 }
 
-void Ledger::begin(const View& view, double apart, double rounding) {
-  const bool together = apart <= rounding;
+void Ledger::judge(const View& view) {
+  detail::StepLedger step(mine_, reference_, view,
+                          {.lockstep = lockstep_, .close_vertices = has_close_vertices_, .entered = entered_});
+  const int number = view.now().mine.step.step;
+  const bool together = step.apart() <= step.rounding();
   if (together) {
     divergence_.reset();
     apart_for_ = 0;
   }
   ++apart_for_;
   // Rounding adds up, at most by as much in every step.
-  if (!together && !divergence_ && !lockstep_ && apart <= apart_for_ * rounding)
-    divergence_ = Divergence{view.now().mine.step.step, Cause::float_rounding};
+  if (!together && !divergence_ && !lockstep_ && step.apart() <= apart_for_ * step.rounding())
+    divergence_ = Divergence{number, Cause::float_rounding};
   entered_ = entered_ && !view.now().reference.step.start_overlap.empty();
-}
-
-void Ledger::judge(const View& view) {
-  detail::StepLedger step(mine_, reference_, view,
-                          {.lockstep = lockstep_, .close_vertices = has_close_vertices_, .entered = entered_});
-  const int number = view.now().mine.step.step;
-  begin(view, step.apart(), step.rounding());
   const std::optional<Divergence> before = divergence_;
   for (detail::StepLedger::Event& event : step.events()) {
-    LedgerEntry entry{event.kind, event.cause.value_or(Cause::unexplained), number, std::move(event.words)};
+    Cause cause = event.cause.value_or(Cause::unexplained);
     if (!event.cause && event.both_right && before) {
-      entry.cause = Cause::after_divergence;
-      entry.words += fmt::format("; apart since step {} ({})", before->step, name_of(before->cause));
+      cause = Cause::after_divergence;
+      event.words += fmt::format("; apart since step {} ({})", before->step, name_of(before->cause));
     }
-    const bool crosses = event.kind == EventKind::crossing && entry.cause == Cause::error_of_box2d;
+    const bool crosses = event.kind == EventKind::crossing && cause == Cause::error_of_box2d;
     entered_ = entered_ || crosses;
     if (!lockstep_ && !divergence_ && event.cause && (crosses || event.kind == EventKind::stop))
       divergence_ = Divergence{number, *event.cause};
-    Sum& sum = sums_[{entry.cause, entry.kind}];
-    if (sum.count++ == 0) sum.first = std::move(entry);
+    const auto sum = sums_.try_emplace({cause, event.kind}, Disagreements{0, number, event.words}).first;
+    ++sum->second.count;
   }
 }
 
 void Ledger::write(Row& row) const {
   for (const auto& [key, sum] : sums_) {
-    const LedgerEntry& first = sum.first;
-    const std::string name = fmt::format("{}.{}", name_of(first.cause), name_of(first.kind));
-    auto [at, is_new] = row.disagreements.try_emplace(name, Disagreements{0, first.step, first.words});
-    at->second.count += sum.count;
-    if (is_new || first.step >= at->second.first_step) continue;
-    at->second.first_step = first.step;
-    at->second.first = first.words;
+    Disagreements& all = row.disagreements[fmt::format("{}.{}", name_of(key.first), name_of(key.second))];
+    if (all.count == 0 || sum.first_step < all.first_step) all = {all.count, sum.first_step, sum.first};
+    all.count += sum.count;
   }
 }
 

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace paperproof::compare {
 
@@ -88,13 +87,6 @@ enum class Cause : std::uint8_t {
 inline constexpr std::size_t cause_count = static_cast<std::size_t>(Cause::unexplained) + 1;
 [[nodiscard]] std::string_view name_of(Cause cause) noexcept;
 
-struct LedgerEntry {
-  EventKind kind = EventKind::contact;
-  Cause cause = Cause::unexplained;
-  int step = 0;
-  std::string words;  ///< What each side says, with the numbers that show the cause.
-};
-
 /// One side of a run. The header and the scenery must outlive the ledger.
 struct LedgerParty {
   const TraceHeader* header = nullptr;
@@ -122,12 +114,9 @@ class Ledger {
   /// Adds what was found to the row.
   void write(Row& row) const;
 
-  struct Sum {
-    int count = 0;
-    LedgerEntry first;
-  };
   using Key = std::pair<Cause, EventKind>;
-  [[nodiscard]] const std::map<Key, Sum>& sums() const noexcept { return sums_; }
+  /// The words of each first event are what each side says, with the numbers that show the cause.
+  [[nodiscard]] const std::map<Key, Disagreements>& sums() const noexcept { return sums_; }
 
   struct Says {
     TraceStep step;
@@ -150,7 +139,6 @@ class Ledger {
     Cause cause = Cause::unexplained;
   };
   void judge(const View& view);
-  void begin(const View& view, double apart, double rounding);
 
   LedgerParty mine_;
   LedgerParty reference_;
@@ -162,7 +150,7 @@ class Ledger {
   int apart_for_ = 0;  ///< Steps since the two were together.
   int rests_mine_ = 0;
   int rests_reference_ = 0;
-  std::map<Key, Sum> sums_;
+  std::map<Key, Disagreements> sums_;
 };
 
 }  // namespace paperproof::compare

@@ -15,14 +15,12 @@ namespace {
 /// Cosine of the angle between two normals of one face, as far as Box2D's rounded corners know it.
 constexpr double same_face = 0.9;
 constexpr double ulp_of_float = 0x1p-23;
-bool is_touch(const ExactContact& exact, const Contact& touch) {
-  return exact.collider == touch.collider && exact.side == touch.side;
-}
 
 /// Met by the motion from the start alone, which something else may have turned before.
 bool is_only_foreseen(const StepJudgement& judged, const Contact& touch) {
-  return std::all_of(judged.contacts.begin(), judged.contacts.end(),
-                     [&](const ExactContact& exact) { return !is_touch(exact, touch) || exact.foreseen; });
+  return std::ranges::all_of(judged.contacts, [&](const ExactContact& exact) {
+    return exact.collider != touch.collider || exact.side != touch.side || exact.foreseen;
+  });
 }
 
 std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
@@ -108,9 +106,8 @@ std::optional<Cause> StepLedger::within_skin(double gap) const {
 bool StepLedger::is_missed_by_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.mine.judged;
   if (m_.stuck || !is_exact(judged, touch) || is_only_foreseen(judged, touch)) return false;
-  return std::none_of(m_.contacts.begin(), m_.contacts.end(), [&](const Contact& reported) {
-    return reported.side == touch.side && is_exact(judged, reported);
-  });
+  return std::ranges::none_of(
+      m_.contacts, [&](const Contact& reported) { return reported.side == touch.side && is_exact(judged, reported); });
 }
 
 bool StepLedger::is_right_of_mine(const Contact& touch) const {
@@ -122,7 +119,7 @@ bool StepLedger::is_right_of_mine(const Contact& touch) const {
 bool StepLedger::reports_next(const Contact& touch) const {
   if (after_ == nullptr) return false;
   const std::vector<Contact>& next = after_->reference.step.contacts;
-  return std::any_of(next.begin(), next.end(), [&](const Contact& later) { return same_surface(touch, later); });
+  return std::ranges::any_of(next, [&](const Contact& later) { return same_surface(touch, later); });
 }
 
 /// Whether Box2D's cap ends its way before it comes to what exact arithmetic says it would meet.
@@ -137,12 +134,10 @@ StepLedger::Event StepLedger::of_reference(const Contact& touch, EventKind kind)
   const StepJudgement& judged = now_.reference.judged;
   const double gap = reference_solids_.gap_on_way(touch.collider);
   const double mine = mine_solids_.gap_on_way(touch.collider);
-  Event event{kind,
-              {},
-              false,
-              fmt::format("only Box2D reports {}; it is {:.3g} m away, {} {:.3g} m", named(touch), gap,
-                          mine_.header->contender, mine),
-              gap};
+  Event event{.kind = kind,
+              .words = fmt::format("only Box2D reports {}; it is {:.3g} m away, {} {:.3g} m", named(touch), gap,
+                                   mine_.header->contender, mine),
+              .gap = gap};
   if (is_missed_by_mine(touch)) {
     event.cause = Cause::error_of_ours;
   } else if (is_ghost(judged, touch)) {
@@ -164,11 +159,9 @@ StepLedger::Event StepLedger::of_reference(const Contact& touch, EventKind kind)
 StepLedger::Event StepLedger::of_mine(const Contact& touch) const {
   const StepJudgement& judged = now_.reference.judged;
   const double gap = reference_solids_.gap_on_way(touch.collider);
-  Event event{EventKind::contact,
-              {},
-              false,
-              fmt::format("only {} reports {}; Box2D is {:.3g} m away", mine_.header->contender, named(touch), gap),
-              gap};
+  Event event{
+      .words = fmt::format("only {} reports {}; Box2D is {:.3g} m away", mine_.header->contender, named(touch), gap),
+      .gap = gap};
   const bool met = is_exact(judged, touch);
   const bool inside = contains(r_.start_overlap, touch.collider);
   const std::optional<Cause> near = within_skin(gap);
@@ -191,8 +184,7 @@ StepLedger::Event StepLedger::of_mine(const Contact& touch) const {
 
 void StepLedger::add_contacts() {
   const auto with = [](const std::vector<const Contact*>& some, const Contact& touch) {
-    const auto found =
-        std::find_if(some.begin(), some.end(), [&](const Contact* other) { return other->collider == touch.collider; });
+    const auto found = std::ranges::find(some, touch.collider, &Contact::collider);
     return found == some.end() ? nullptr : *found;
   };
   for (const Contact* touch : only_reference_) {
@@ -241,12 +233,11 @@ void StepLedger::add_time() {
     reference = r;
   }
   if (mine == nullptr) return;
-  Event event{EventKind::time,
-              {},
-              true,
-              fmt::format("{}: at {:.6g} for {}, at {:.6g} for Box2D, {:.3g} m apart", named(*mine), mine->fraction,
-                          mine_.header->contender, reference->fraction, most),
-              gap_when_reported(*reference)};
+  Event event{.kind = EventKind::time,
+              .both_right = true,
+              .words = fmt::format("{}: at {:.6g} for {}, at {:.6g} for Box2D, {:.3g} m apart", named(*mine),
+                                   mine->fraction, mine_.header->contender, reference->fraction, most),
+              .gap = gap_when_reported(*reference)};
   const std::optional<Cause> near = within_skin(event.gap);
   if (most <= rounding_) {
     event.cause = Cause::float_rounding;
@@ -287,11 +278,10 @@ void StepLedger::add_toggle() {
   const bool reference = toggles(before_->reference, now_.reference, now_.rests_reference);
   if (mine == reference) return;
   const bool reason = mine ? has_reason(before_->mine, now_.mine) : has_reason(before_->reference, now_.reference);
-  Event event{mine ? EventKind::toggle_ours : EventKind::toggle_box2d,
-              {},
-              reason,
-              fmt::format("at rest {} changes the sides of its contacts, exact arithmetic has {} reason",
-                          mine ? mine_.header->contender : "Box2D", reason ? "a" : "no")};
+  Event event{.kind = mine ? EventKind::toggle_ours : EventKind::toggle_box2d,
+              .both_right = reason,
+              .words = fmt::format("at rest {} changes the sides of its contacts, exact arithmetic has {} reason",
+                                   mine ? mine_.header->contender : "Box2D", reason ? "a" : "no")};
   if (mine && !reason) event.cause = Cause::error_of_ours;
   if (reference && !reason) {
     event.cause = Cause::skin;
@@ -309,8 +299,7 @@ void StepLedger::add_toggle() {
 void StepLedger::settle() {
   const bool together = apart_ <= within_skins + rounding_;
   const auto cause_of = [this](auto&& is_one) {
-    const auto found =
-        std::find_if(events_.begin(), events_.end(), [&](const Event& one) { return one.cause && is_one(one); });
+    const auto found = std::ranges::find_if(events_, [&](const Event& one) { return one.cause && is_one(one); });
     return found == events_.end() ? std::nullopt : found->cause;
   };
   const std::optional<Cause> of_contact = cause_of([](const Event& one) {

@@ -35,9 +35,9 @@ class StepLedger {
  public:
   struct Event {
     EventKind kind = EventKind::contact;
-    std::optional<Cause> cause;
+    std::optional<Cause> cause{};
     bool both_right = false;  ///< About their own motion: without a cause it is a leftover, and not unexplained.
-    std::string words;
+    std::string words{};
     /// From Box2D to the surface that the event is about [m]; infinite where it is about none.
     double gap = std::numeric_limits<double>::infinity();
   };

@@ -24,7 +24,7 @@ constexpr double turned = 1e-4;
 
 double width_of(const std::vector<Vec2d>& hull) {
   const auto [left, right] =
-      std::minmax_element(hull.begin(), hull.end(), [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
+      std::ranges::minmax_element(hull, [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
   return right->x() - left->x();
 }
 
@@ -56,13 +56,13 @@ double widest_spread(std::span<const MetSurface> surfaces) {
 std::vector<MetSurface> StepLedger::near_reference() const {
   std::vector<MetSurface> surfaces;
   const auto add = [&](const Vec2d& normal, const Vec2d& velocity, double spread) {
-    const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
+    const bool known = std::ranges::any_of(surfaces, [&](const MetSurface& one) {
       return (one.normal - normal).norm() < same_normal && one.velocity == velocity;
     });
     if (!known) surfaces.push_back({.normal = normal, .velocity = velocity, .spread = spread});
   };
   const auto is_of_ghost = [this](ColliderIndex collider, const NearFace& face) {
-    return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Contact& touch) {
+    return std::ranges::any_of(r_.contacts, [&](const Contact& touch) {
       return touch.collider == collider && is_ghost(now_.reference.judged, touch) &&
              (touch.normal - face.normal).norm() < one_normal;
     });
@@ -73,9 +73,8 @@ std::vector<MetSurface> StepLedger::near_reference() const {
          reference_solids_.at(corner.fraction).near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
       for (const NearFace& face : part.faces) {
         if (face.separation > box2d_skin + rounding_ || is_of_ghost(part.collider, face)) continue;
-        const Vec2d foot = *std::min_element(hull.begin(), hull.end(), [&](const Vec2d& a, const Vec2d& b) {
-          return a.dot(face.normal) < b.dot(face.normal);
-        });
+        const Vec2d foot =
+            *std::ranges::min_element(hull, {}, [&](const Vec2d& point) { return point.dot(face.normal); });
         const Vec2d moved = reference_solids_.moved(part.collider, corner.position + foot, corner.fraction);
         add(face.normal, moved / dt_, reference_solids_.spread(part.collider, moved, side_towards(hull, face.normal)));
       }
@@ -84,7 +83,7 @@ std::vector<MetSurface> StepLedger::near_reference() const {
 
 bool StepLedger::is_turned_by_ghost() const {
   const Vec2d added = r_.velocity - r_.requested / dt_;
-  return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Contact& touch) {
+  return std::ranges::any_of(r_.contacts, [&](const Contact& touch) {
     return is_ghost(now_.reference.judged, touch) && added.dot(touch.normal) > turned;
   });
 }
@@ -95,11 +94,9 @@ void StepLedger::add_stop() {
   const Vec2d speed_apart = (m_.velocity * dt_ - m_.requested) - (r_.velocity * dt_ - r_.requested);
   taken_ = std::max(way_apart.norm(), speed_apart.norm());
   if (!(taken_ > same_event)) return;
-  Event event{
-      EventKind::stop,
-      {},
-      false,
-      fmt::format("wanted ({:.4g}, {:.4g}) m/s: {} ends with ({:.4g}, {:.4g}), Box2D with ({:.4g}, {:.4g}); their "
+  Event event{.kind = EventKind::stop,
+              .words = fmt::format(
+                  "wanted ({:.4g}, {:.4g}) m/s: {} ends with ({:.4g}, {:.4g}), Box2D with ({:.4g}, {:.4g}); their "
                   "ways are {:.3g} m apart",
                   m_.requested.x() / dt_, m_.requested.y() / dt_, mine_.header->contender, m_.velocity.x(),
                   m_.velocity.y(), r_.velocity.x(), r_.velocity.y(), way_apart.norm())};

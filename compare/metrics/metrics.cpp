@@ -3,9 +3,10 @@
 #include "contains.hpp"
 #include "records/metric.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
@@ -13,15 +14,6 @@ namespace {
 void raise(std::optional<double>& maximum, double value) { maximum = std::max(maximum.value_or(value), value); }
 
 void count(std::optional<int>& counter, bool happened) { counter = counter.value_or(0) + (happened ? 1 : 0); }
-
-std::string sentence(const TraceStep& step, const Passing& passing, const std::string& id) {
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "at %.1f m/s, %.3g m thick at the crossing, %.0f° to its face", passing.speed,
-                passing.thickness, passing.angle);
-  return "step " + std::to_string(step.step) + ": passed `" + id + "` " + numbers;
-}
-
-std::string named(CharacterIndex character) { return "character " + std::to_string(character); }
 
 void write_the_least_quiet(const Rest& rest, Row& row) {
   Row other;
@@ -31,13 +23,11 @@ void write_the_least_quiet(const Rest& rest, Row& row) {
     if (other.*metric) raise(row.*metric, *(other.*metric));
 }
 
-double share(int part, int whole) { return static_cast<double>(part) / static_cast<double>(whole); }
-
 template <class Contacts>
 std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts) {
   std::vector<std::pair<ColliderIndex, Side>> touches;
   for (const auto& contact : contacts) touches.emplace_back(contact.collider, contact.side);
-  std::sort(touches.begin(), touches.end());
+  std::ranges::sort(touches);
   touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
   return touches;
 }
@@ -55,7 +45,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   sampled_ = party_of(header) == Party::sampled;
   if (header.characters > 1) sums_.characters = static_cast<int>(header.characters);
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
-  const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
+  const auto any = [&colliders](auto&& test) { return std::ranges::any_of(colliders, test); };
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter :
@@ -72,9 +62,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
 /// Both directions of the match of one step; of sampled paths with its neighbours.
 void Metrics::match(const View& view, Matches& matches, Breaches& breaches) const {
   const Moment& now = view.now();
-  const auto anywhere = [&](auto&& test) {
-    return test(now) || (sampled_ && std::any_of(view.around.begin(), view.around.end(), test));
-  };
+  const auto anywhere = [&](auto&& test) { return test(now) || (sampled_ && std::ranges::any_of(view.around, test)); };
   for (const Touch& touch : now.reported) {
     const bool in_time = contains(now.exact, touch) || contains(now.deflected, touch);
     const bool right = in_time || anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
@@ -112,19 +100,18 @@ void Metrics::match_wanted(const View& view, Matches& matches, Breaches& breache
   }
   for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
     const auto of_side = [&](const Touch& touch) { return touch.second == side; };
-    if (std::none_of(now.exact.begin(), now.exact.end(), of_side)) continue;
+    if (std::ranges::none_of(now.exact, of_side)) continue;
     const auto reports = [&](const Moment& moment) {
-      return std::any_of(moment.reported.begin(), moment.reported.end(),
-                         [&](const Touch& touch) { return of_side(touch) && contains(now.exact, touch); });
+      return std::ranges::any_of(moment.reported,
+                                 [&](const Touch& touch) { return of_side(touch) && contains(now.exact, touch); });
     };
     const bool in_time = reports(now);
-    const bool late = !in_time && sampled_ && std::any_of(view.around.begin(), view.around.end(), reports);
+    const bool late = !in_time && sampled_ && std::ranges::any_of(view.around, reports);
     if (!in_time && !late && now.held && promises_) {
       ++matches.stuck;
       continue;
     }
-    if (!in_time && !late)
-      note(Clause::contact_missed, now, *std::find_if(now.exact.begin(), now.exact.end(), of_side), breaches);
+    if (!in_time && !late) note(Clause::contact_missed, now, *std::ranges::find_if(now.exact, of_side), breaches);
     ++matches.wanted;
     matches.found += in_time || late;
   }
@@ -150,9 +137,8 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
 }
 
 void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judgement) {
-  const auto earlier = [](const auto& a, const auto& b) { return a.fraction < b.fraction; };
-  const auto with_scenery = std::min_element(step.contacts.begin(), step.contacts.end(), earlier);
-  const auto with_another = std::min_element(step.met.begin(), step.met.end(), earlier);
+  const auto with_scenery = std::ranges::min_element(step.contacts, {}, &Contact::fraction);
+  const auto with_another = std::ranges::min_element(step.met, {}, &CrowdContact::fraction);
   const bool meets = with_scenery == step.contacts.end() ||
                      (with_another != step.met.end() && with_another->fraction < with_scenery->fraction);
   const double fraction = meets ? with_another->fraction : with_scenery->fraction;
@@ -161,9 +147,8 @@ void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judg
     sums_.first_contact_step = step.step;
     sums_.first_contact_fraction = fraction;
   }
-  const bool exact =
-      !meets && std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
-                            [&](const ExactContact& contact) { return contact.collider == with_scenery->collider; });
+  const bool exact = !meets && std::ranges::find(judgement.contacts, with_scenery->collider, &ExactContact::collider) !=
+                                   judgement.contacts.end();
   if (judgement.turning_toi_error) raise(sums_.toi_error_max, *judgement.turning_toi_error);
   if (judgement.first_impact && judgement.first_impact_comparable && exact) {
     raise(sums_.toi_error_max, std::abs(fraction - *judgement.first_impact));
@@ -179,9 +164,7 @@ void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judge
   sums_.exact_first_impact_step = step.step;
   sums_.exact_first_impact_fraction = judgement.first_impact;
   // What is within reach of a corner of the way is merged with what is met from there: the earliest is the one.
-  const auto with =
-      std::min_element(judgement.contacts.begin(), judgement.contacts.end(),
-                       [](const ExactContact& a, const ExactContact& b) { return a.fraction < b.fraction; });
+  const auto with = std::ranges::min_element(judgement.contacts, {}, &ExactContact::fraction);
   sums_.exact_first_impact = with == judgement.contacts.end() ? "" : "`" + ids_[with->collider] + "`";
 }
 
@@ -194,8 +177,7 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
     return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider) &&
            !contains(judgement.drawn, collider);
   };
-  const bool inside = !company.overlap.empty() ||
-                      std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own);
+  const bool inside = !company.overlap.empty() || std::ranges::any_of(judgement.end_overlap, inside_on_its_own);
   count(sums_.steps_ending_inside, inside);
   if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
@@ -203,17 +185,19 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   if (!judgement.passings.empty()) {
     const Passing& passing = judgement.passings.front();
     const std::string& id = ids_[passing.collider];
-    sums_.first_tunnel = {.step = step.step,
-                          .collider = id,
-                          .speed_m_s = passing.speed,
-                          .thickness_m = passing.thickness,
-                          .angle_deg = passing.angle,
-                          .words = sentence(step, passing, id)};
+    sums_.first_tunnel = {
+        .step = step.step,
+        .collider = id,
+        .speed_m_s = passing.speed,
+        .thickness_m = passing.thickness,
+        .angle_deg = passing.angle,
+        .words = fmt::format("step {}: passed `{}` at {:.1f} m/s, {:.3g} m thick at the crossing, {:.0f}° to its face",
+                             step.step, id, passing.speed, passing.thickness, passing.angle)};
   } else if (!company.passed.empty()) {
     sums_.first_tunnel = {.step = step.step,
                           .collider = {},
-                          .words = "step " + std::to_string(step.step) + ": " + named(step.character) + " and " +
-                                   named(company.passed.front()) + " passed through each other"};
+                          .words = fmt::format("step {}: character {} and character {} passed through each other",
+                                               step.step, step.character, company.passed.front())};
   }
 }
 
@@ -285,7 +269,7 @@ void Metrics::note(Clause clause, const Moment& moment, const Touch& touch, Brea
     const char* what =
         clause == Clause::contact_missed ? "does not report a contact" : "reports a contact that is none";
     const std::string id = touch.first < ids_.size() ? ids_[touch.first] : std::to_string(touch.first);
-    return std::string(what) + ": `" + id + "`, " + std::string(name_of(touch.second));
+    return fmt::format("{}: `{}`, {}", what, id, name_of(touch.second));
   });
 }
 
@@ -314,8 +298,8 @@ void Metrics::write(Row& row) const {
   }
   Breaches noted;  // by `end`
   const Matches matches = all_matches(noted);
-  if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
-  if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
+  if (matches.counted > 0) row.contact_precision = static_cast<double>(matches.right) / matches.counted;
+  if (matches.wanted > 0) row.contact_recall = static_cast<double>(matches.found) / matches.wanted;
   if (promises_) row.contact_band = matches.band;
   row.exempted = sums_.exempted;
   for (const auto& [which, often] : {std::pair{Exempt::late_match, matches.late},

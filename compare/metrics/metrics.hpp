@@ -1,7 +1,6 @@
 /// Metrics: pure functions of a trace and its judgement.
 #pragma once
 
-#include "metrics/agreement.hpp"
 #include "metrics/energy.hpp"
 #include "metrics/events.hpp"
 #include "metrics/jitter.hpp"

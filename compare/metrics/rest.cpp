@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace paperproof::compare {
@@ -15,7 +14,7 @@ constexpr std::size_t spectrum_steps = 512;
 
 }  // namespace
 
-void Rest::measure(const Vec2d& position, std::uint8_t sides) {
+void Rest::measure(const Vec2d& position, unsigned sides) {
   if (now_.measured == 0) {
     now_.origin = position;
     now_.range = {position, position};
@@ -28,12 +27,8 @@ void Rest::measure(const Vec2d& position, std::uint8_t sides) {
   now_.range = now_.range.merged({position, position});
   now_.sum += offset;
   now_.squares += offset.squaredNorm();
-  if (now_.xs.size() == 2 * spectrum_steps) {  // now and then, not in every step
-    now_.xs.erase(now_.xs.begin(), now_.xs.begin() + spectrum_steps);
-    now_.ys.erase(now_.ys.begin(), now_.ys.begin() + spectrum_steps);
-  }
-  now_.xs.push_back(offset.x());
-  now_.ys.push_back(offset.y());
+  now_.latest.push_back(offset);
+  if (now_.latest.size() > spectrum_steps) now_.latest.pop_front();
 }
 
 Rest::Rest(const SceneryDef& scenery) {
@@ -41,8 +36,8 @@ Rest::Rest(const SceneryDef& scenery) {
 }
 
 MoverIndex Rest::carrying(const TraceStep& step) const {
-  const auto at_feet = std::find_if(step.contacts.begin(), step.contacts.end(),
-                                    [](const Contact& contact) { return contact.side == Side::bottom; });
+  const auto at_feet =
+      std::ranges::find_if(step.contacts, [](const Contact& contact) { return contact.side == Side::bottom; });
   return at_feet == step.contacts.end() ? no_mover : mover_of_[at_feet->collider];
 }
 
@@ -50,15 +45,11 @@ void Rest::end(MoverIndex ground) {
   if (now_.steps >= least_steps) last_ = std::move(now_);
   now_ = {};
   now_.ground = ground;
-  clear_gap();
-}
-
-void Rest::clear_gap() {
   gap_.clear();
   gap_lasts_ = 0;
 }
 
-void Rest::count(const Vec2d& position, std::uint8_t sides) {
+void Rest::count(const Vec2d& position, unsigned sides) {
   if (++now_.steps > settling_steps) measure(position, sides);
 }
 
@@ -77,8 +68,7 @@ void Rest::add(const TraceStep& step, double dt) {
   const bool may_rest = wanted == 0 && !step.path.empty();
   if (!may_rest || ground != now_.ground) end(ground);
   if (!may_rest || (!step.grounded && now_.steps == 0)) return;
-  const Airborne here{step.path.back().position - carried,
-                      static_cast<std::uint8_t>(sides_of(step.contacts) | sides_of(step.met))};
+  const Airborne here{step.path.back().position - carried, sides_of(step.contacts) | sides_of(step.met)};
   if (!step.grounded) {
     gap_.push_back(here);
     gap_lasts_ += dt;
@@ -87,7 +77,8 @@ void Rest::add(const TraceStep& step, double dt) {
     return;
   }
   for (const Airborne& each : gap_) count(each.position, each.sides);
-  clear_gap();
+  gap_.clear();
+  gap_lasts_ = 0;
   count(here.position, here.sides);
 }
 
@@ -99,13 +90,14 @@ void Rest::write(Row& row) const {
   row.rest_peak_to_peak_m = (rest.range.upper - rest.range.lower).maxCoeff();
   row.rest_rms_m = std::sqrt(std::max(0.0, rest.squares / count - mean.squaredNorm()));
   row.contact_toggles = 1000 * rest.toggles / count;
-  const auto latest = [](const std::vector<double>& all) {
-    return std::span(all).last(std::min(all.size(), spectrum_steps));
-  };
-  row.rest_sign_changes = std::max(sign_changes(latest(rest.xs)), sign_changes(latest(rest.ys)));
-  for (const std::vector<double>* along : {&rest.xs, &rest.ys})
-    if (const std::optional<double> share = upper_band_share(latest(*along)))
+  row.rest_sign_changes = 0;
+  for (const int axis : {0, 1}) {
+    std::vector<double> along;
+    for (const Vec2d& offset : rest.latest) along.push_back(offset[axis]);
+    row.rest_sign_changes = std::max(*row.rest_sign_changes, sign_changes(along));
+    if (const std::optional<double> share = upper_band_share(along))
       row.rest_upper_band = std::max(row.rest_upper_band.value_or(0), *share);
+  }
 }
 
 }  // namespace paperproof::compare

@@ -4,6 +4,7 @@
 #include "records/row.hpp"
 #include "records/trace.hpp"
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -39,25 +40,23 @@ class Rest {
     int measured = 0;
     int toggles = 0;
     MoverIndex ground = no_mover;
-    std::uint8_t sides = 0;
+    unsigned sides = 0;
     Vec2d origin{Vec2d::Zero()};  ///< First measured position: sums of offsets from it do not lose digits.
     Box2 range;
     Vec2d sum{Vec2d::Zero()};
     double squares = 0;
-    std::vector<double> xs{};  ///< Offsets of the last steps, oldest first.
-    std::vector<double> ys{};
+    std::deque<Vec2d> latest{};  ///< Offsets of the last steps, oldest first.
   };
   /// A step in the air that belongs to the rest if a grounded one comes soon.
   struct Airborne {
     Vec2d position{Vec2d::Zero()};
-    std::uint8_t sides = 0;
+    unsigned sides = 0;
   };
   /// What the first contact at the feet goes along with.
   [[nodiscard]] MoverIndex carrying(const TraceStep& step) const;
-  void count(const Vec2d& position, std::uint8_t sides);
-  void measure(const Vec2d& position, std::uint8_t sides);
+  void count(const Vec2d& position, unsigned sides);
+  void measure(const Vec2d& position, unsigned sides);
   void end(MoverIndex ground);
-  void clear_gap();
 
   std::vector<MoverIndex> mover_of_;  ///< By collider.
   Phase now_;
@@ -68,10 +67,10 @@ class Rest {
 
 /// The set of sides of some contacts, one bit each.
 template <class Contacts>
-[[nodiscard]] std::uint8_t sides_of(const Contacts& contacts) noexcept {
+[[nodiscard]] unsigned sides_of(const Contacts& contacts) noexcept {
   unsigned sides = 0;
   for (const auto& contact : contacts) sides |= 1U << static_cast<unsigned>(contact.side);
-  return static_cast<std::uint8_t>(sides);
+  return sides;
 }
 
 }  // namespace paperproof::compare

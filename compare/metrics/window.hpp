@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace paperproof::compare::detail {
 
@@ -23,25 +23,21 @@ class Window {
   /// Takes the next moment; `visit` is called with the one before it, which now has both its neighbours.
   template <class Visit>
   void add(Moment next, Visit&& visit) {
-    if (size_ == 3) {
-      std::rotate(moments_.begin(), moments_.begin() + 1, moments_.end());
-      --size_;
-    }
-    moments_[size_++] = std::move(next);
-    if (size_ > 1) visit(View{std::span(moments_.data(), size_), size_ - 2});
+    if (moments_.size() == 3) moments_.erase(moments_.begin());
+    moments_.push_back(std::move(next));
+    if (moments_.size() > 1) visit(View{moments_, moments_.size() - 2});
   }
 
   /// The last moment, which never gets a successor.
   template <class Visit>
   void last(Visit&& visit) const {
-    if (size_ == 0) return;
-    const std::size_t first = size_ == 3 ? 1 : 0;
-    visit(View{std::span(moments_.data() + first, size_ - first), size_ - 1 - first});
+    if (moments_.empty()) return;
+    const std::size_t last = std::min<std::size_t>(moments_.size(), 2);
+    visit(View{std::span(moments_).last(last), last - 1});
   }
 
  private:
-  std::array<Moment, 3> moments_{};
-  std::size_t size_ = 0;
+  std::vector<Moment> moments_;
 };
 
 }  // namespace paperproof::compare::detail
