@@ -10,7 +10,7 @@ import argparse
 import json
 import math
 import subprocess
-import sys
+from pathlib import Path
 
 # Words, measurement, end of the figure's name (none: nanoseconds), unit.
 ROWS = [
@@ -79,13 +79,11 @@ def main():
     parser.add_argument("--json")
     options = parser.parse_args()
     if options.benchmarks.endswith(".json"):
-        with open(options.benchmarks, encoding="utf-8") as file:
-            figures = json.load(file)
+        figures = json.loads(Path(options.benchmarks).read_text(encoding="utf-8"))
     else:
         figures = measured(options.benchmarks, options.processes)
     if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(figures, file, indent=1, sort_keys=True)
+        Path(options.json).write_text(json.dumps(figures, indent=1, sort_keys=True), encoding="utf-8")
     print(markdown(table(figures)), hero_markdown(figures), sep="\n\n")
 
 
