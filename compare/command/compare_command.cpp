@@ -332,16 +332,16 @@ std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
     try {
       settings.push_back(parse_knob(text));
       for (const std::string_view contender : contender_names()) {
-        if (!asked_for(contender) || !has_knob(contender, settings.back().name)) continue;
+        if (!asked_for(contender) || !has_knob(contender, settings.back().key)) continue;
         check_knob(settings.back(), contender);
         anyones = true;
       }
     } catch (const std::invalid_argument& reason) {
       throw InputError(fmt::format("--knob {}: {}", text, reason.what()));
     }
-    const std::string& name = settings.back().name;
+    const std::string& name = settings.back().key;
     if (!anyones) throw InputError(fmt::format("--knob {}: expected a knob of {}", text, fmt::join(contenders, ", ")));
-    const auto same = [&](const KnobSetting& setting) { return setting.name == name; };
+    const auto same = [&](const KnobSetting& setting) { return setting.key == name; };
     if (std::count_if(settings.begin(), settings.end(), same) > 1)
       throw InputError(fmt::format("--knob {}: expected {} once", text, name));
   }

@@ -49,7 +49,7 @@ void apply(const CaseArguments& arguments, std::vector<StudyPart>& parts) {
   for (StudyPart& part : parts) {
     if (!arguments.scalars.empty()) part.sweep.scalars = arguments.scalars;
     for (const KnobSetting& knob : parse_knobs(arguments.knobs, arguments.contenders))
-      for (NamedContender& contender : part.sweep.contenders) contender.knobs.push_back({knob.name, knob.value});
+      for (NamedContender& contender : part.sweep.contenders) contender.knobs.push_back(knob);
   }
 }
 

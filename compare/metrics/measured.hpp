@@ -3,9 +3,6 @@
 
 #include <paperproof/types.hpp>
 
-#include <string>
-#include <vector>
-
 namespace paperproof::compare {
 
 /// `false`: the metric is absent from the scene's rows, because nothing in the scene could ever give it a value other
@@ -15,14 +12,6 @@ struct Measured {
   bool rest = true;              ///< Rest jitter and toggles: something can rest.
   bool respawns = true;          ///< A map is left and begun anew.
   Vec2d gravity{Vec2d::Zero()};  ///< Of the scene [m/s²]: energy is measured in its field.
-
-  friend bool operator==(const Measured&, const Measured&) = default;
-};
-
-/// A metric that is left out, and what makes it superfluous.
-struct MetricOmission {
-  std::string metric;
-  std::string reason;
 };
 
 }  // namespace paperproof::compare

@@ -17,11 +17,12 @@ constexpr double epsilon = std::numeric_limits<float>::epsilon();
 
 BodyEnergy::BodyEnergy(const Scene& scene) : scene_(scene) {
   const std::vector<MoverDef>& movers = scene.movers;
-  applies_ = !movers.empty() && std::all_of(movers.begin(), movers.end(), [](const auto& m) { return m.body; });
+  applies_ =
+      !movers.empty() && std::ranges::all_of(movers, [](const MoverDef& mover) { return mover.body.has_value(); });
   if (!applies_) return;
   for (MoverIndex i = 0; i < movers.size(); ++i) {
-    const bool held = std::any_of(scene.joints.begin(), scene.joints.end(),
-                                  [i](const Joint& joint) { return joint.body == i || joint.other == i; });
+    const bool held =
+        std::ranges::any_of(scene.joints, [i](const Joint& joint) { return joint.body == i || joint.other == i; });
     if (!held) loose_mass_ += movers[i].body->mass;
   }
 }

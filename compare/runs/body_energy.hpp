@@ -5,8 +5,6 @@
 #include "records/trace.hpp"
 #include "scenes/scene.hpp"
 
-#include <vector>
-
 namespace paperproof::compare {
 
 /// Energy of all bodies and springs of a scene, Σ m (v²/2 - g·x) + Σ k (l - l0)²/2 [J]; v is the way of a step by its

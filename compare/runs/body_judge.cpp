@@ -9,16 +9,6 @@
 #include <algorithm>
 
 namespace paperproof::compare {
-namespace {
-
-/// Everything but what goes along with the mover.
-SceneryDef without(const SceneryDef& scenery, MoverIndex mover) {
-  SceneryDef rest = scenery;
-  for (ColliderDef& def : rest.colliders) def.sensor = def.sensor || def.mover == mover;
-  return rest;
-}
-
-}  // namespace
 
 BodyJudge::BodyJudge(const Scene& scene, const TraceHeader& header) : ids_(header.ids), energy_(scene) {
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
@@ -28,7 +18,8 @@ BodyJudge::BodyJudge(const Scene& scene, const TraceHeader& header) : ids_(heade
       TraceHeader own = header;
       own.characters = 1;
       own.points = part.points;
-      own.scenery = without(header.scenery, def.mover);
+      // Among everything but what goes along with the mover.
+      for (ColliderDef& other : own.scenery.colliders) other.sensor = other.sensor || other.mover == def.mover;
       bodies_.push_back({def.mover, header.ids[i], std::make_unique<Judge>(own)});
     }
   }

@@ -1,5 +1,6 @@
-#include "runs/box2d_contender.hpp"
+#include "runs/contender_kinds.hpp"
 
+#include "contains.hpp"
 #include "runs/engine_intent.hpp"
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
@@ -21,35 +22,32 @@ struct SubstepOf {
 
 /// Adds those that are not there yet, with their fractions of the whole step.
 template <class Event, class Same>
-void add_events(const std::vector<Event>& events, const SubstepOf& of, const Same& same, std::vector<Event>& all) {
+void add_events(const std::vector<Event>& events, const SubstepOf& of, std::vector<Event>& all, const Same& same) {
   for (Event event : events) {
     event.fraction = of.fraction(event.fraction);
-    if (std::none_of(all.begin(), all.end(), [&](const Event& known) { return same(known, event); }))
-      all.push_back(event);
+    if (std::ranges::none_of(all, [&](const Event& known) { return same(known, event); })) all.push_back(event);
   }
 }
 
 void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHeader& header, TraceStep& record) {
   for (std::size_t i = of.number == 0 ? 0 : 1; i < twin.path.size(); ++i)  // it begins where the one before ended
     record.path.push_back({twin.path[i].position, of.fraction(twin.path[i].fraction)});
-  add_events(
-      twin.contacts, of, [](const auto& a, const auto& b) { return a.collider == b.collider && a.side == b.side; },
-      record.contacts);
-  add_events(
-      twin.met, of, [](const auto& a, const auto& b) { return a.other == b.other && a.side == b.side; }, record.met);
-  add_events(
-      twin.sensors, of, [](const auto&, const auto&) { return false; }, record.sensors);
+  add_events(twin.contacts, of, record.contacts,
+             [](const auto& a, const auto& b) { return a.collider == b.collider && a.side == b.side; });
+  add_events(twin.met, of, record.met,
+             [](const auto& a, const auto& b) { return a.other == b.other && a.side == b.side; });
+  add_events(twin.sensors, of, record.sensors, [](const auto&, const auto&) { return false; });
   for (const ColliderIndex passed : twin.dropped_through)
-    if (std::find(record.dropped_through.begin(), record.dropped_through.end(), passed) == record.dropped_through.end())
-      record.dropped_through.push_back(passed);
-  std::sort(record.dropped_through.begin(), record.dropped_through.end());
+    if (!contains(record.dropped_through, passed)) record.dropped_through.push_back(passed);
+  std::ranges::sort(record.dropped_through);
   if (of.number == 0) record.movers = twin.movers;
   for (std::size_t k = 0; k < twin.movers.size(); ++k) record.movers[k].to = twin.movers[k].to;
-  std::vector<TurnMotion> turns;
-  for (const box2d::MoverTurn& turn : twin.turns) turns.push_back({turn.from, turn.to});
-  add_ways(header, {twin.movers, turns, of.fraction(0), of.fraction(1)}, record.vertex_ways);
-  record.velocity = twin.velocity;
-  record.grounded = twin.grounded;
+  std::vector<MoverMotion> movers = twin.movers;
+  for (std::size_t k = 0; k < movers.size(); ++k) {
+    movers[k].from_angle = twin.turns[k].from;
+    movers[k].to_angle = twin.turns[k].to;
+  }
+  add_ways(header, movers, {of.fraction(0), of.fraction(1)}, record.vertex_ways);
   record.capped = record.capped || twin.capped;
 }
 
@@ -93,9 +91,7 @@ class Box2dContender final : public Contender {
         add_substep(steps[k], of, header_, records[k]);
         records[k].requested += wishes_[k].velocity * dt_;
         records[k].steered += twins_[k].steered * dt_;
-        records[k].jumping = twins_[k].state.jumping;
-        records[k].ride = recorded_ride(twins_[k].state.ride);
-        records[k].velocity = twins_[k].state.velocity;  // with what carries it from now on
+        write_state(twins_[k].state, records[k]);  // with what carries it from now on
       }
     }
   }
@@ -121,16 +117,12 @@ class Box2dContender final : public Contender {
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
-    Pose pose = pose_of(twins_[character].state);
-    pose.position = world_.position(character);
-    pose.ground_normal = twins_[character].ground_normal;
-    return pose;
+    return pose_of(twins_[character], world_.position(character));
   }
 
   void place(const Pose& pose, std::size_t character) override {
-    twins_[character] = {state_at(pose), pose.ground_normal, 0};
-    twins_[character].state.ride = pose.ride;
-    world_.place(pose.position, pose.velocity, character);
+    twins_[character] = character_at(pose);
+    world_.place(pose.position, pose.state.velocity, character);
   }
 
  private:
@@ -156,19 +148,16 @@ class Box2dContender final : public Contender {
     if (substeps_ == 1) return whole;
     part_movers_.clear();
     for (const MoverMotion& mover : whole.movers)
-      part_movers_.push_back({place_at(mover, substep), place_at(mover, substep + 1)});
-    part_turns_.clear();
-    for (const TurnMotion& turn : whole.turns)
-      part_turns_.push_back({place_at(turn, substep), place_at(turn, substep + 1)});
-    return {whole.dt / substeps_, whole.players, part_movers_, part_turns_, whole.gravity, whole.up};
+      part_movers_.push_back({between(mover.from, mover.to, substep), between(mover.from, mover.to, substep + 1),
+                              between(mover.from_angle, mover.to_angle, substep),
+                              between(mover.from_angle, mover.to_angle, substep + 1)});
+    return {whole.dt / substeps_, whole.players, part_movers_, whole.gravity, whole.up};
   }
-  /// Where a motion is when so many substeps are done. @param motion with `from` and `to`.
-  template <class Motion>
-  [[nodiscard]] decltype(Motion::to) place_at(const Motion& motion, int substeps) const {
-    decltype(Motion::to) place = motion.to;
-    if (substeps != substeps_)
-      place = motion.from + (motion.to - motion.from) * (static_cast<double>(substeps) / substeps_);
-    return place;
+  /// Where a motion is when so many substeps are done.
+  template <class Place>
+  [[nodiscard]] Place between(const Place& from, const Place& to, int substeps) const {
+    if (substeps == substeps_) return to;
+    return from + (to - from) * (static_cast<double>(substeps) / substeps_);
   }
 
   /// One step of the world.
@@ -180,21 +169,20 @@ class Box2dContender final : public Contender {
     if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
     take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
-    for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], input, twins_[k]);
+    for (std::size_t k = 0; k < twins_.size(); ++k) {
+      const box2d::TwinStep& step = steps[k];
+      StepInput ran = input;
+      ran.movers = step.movers;  // what carries it goes as Box2D had it, in float
+      EngineStep ended{.velocity = step.velocity, .grounded = step.grounded};
+      if (step.ground) ended.ground = EngineGround{step.ground->collider, step.ground->normal};
+      intent_.take_over(ended, ran, step.contacts, twins_[k]);
+    }
     return steps;
-  }
-
-  /// What carries it goes as Box2D had it, in float.
-  void take_over(const box2d::TwinStep& step, StepInput input, EngineCharacter& twin) const {
-    input.movers = step.movers;
-    EngineStep ended{.velocity = step.velocity, .grounded = step.grounded};
-    if (step.ground) ended.ground = EngineGround{step.ground->collider, step.ground->normal};
-    intent_.take_over(ended, input, step.contacts, twin);
   }
 
   void take_turns(const StepInput& input) {
     turns_.clear();
-    for (const TurnMotion& turn : input.turns) turns_.push_back({turn.from, turn.to});
+    for (const MoverMotion& mover : input.movers) turns_.push_back({mover.from_angle, mover.to_angle});
   }
 
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion> movers) {
@@ -213,9 +201,8 @@ class Box2dContender final : public Contender {
   std::vector<EngineCharacter> twins_;
   std::vector<box2d::MoverTurn> turns_;   ///< Of the present step.
   std::vector<MoverMotion> part_movers_;  ///< See `part_of`.
-  std::vector<TurnMotion> part_turns_;
-  std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
-  std::vector<box2d::TwinWish> kept_;    ///< Of all steps since they are kept.
+  std::vector<box2d::TwinWish> wishes_;   ///< Of the present step.
+  std::vector<box2d::TwinWish> kept_;     ///< Of all steps since they are kept.
   bool keeps_ = false;
 };
 

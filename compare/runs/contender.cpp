@@ -1,8 +1,6 @@
 #include "runs/contender.hpp"
 
-#include "runs/box2d_contender.hpp"
-#include "runs/own_contender.hpp"
-#include "runs/peer_contender.hpp"
+#include "runs/contender_kinds.hpp"
 
 #include <stdexcept>
 
@@ -27,13 +25,14 @@ std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKi
 
 void Contender::launch(const Vec2d& velocity, std::size_t character) {
   Pose launched = pose(character);
-  launched.velocity = velocity;
+  launched.state.velocity = velocity;
   place(launched, character);
 }
 
+Pose pose_at(const Start& start) { return {.position = start.position, .state = {.velocity = start.velocity}}; }
+
 void place_at_start(Contender& contender, const Scene& scene) {
-  for (std::size_t k = 0; k < character_count(scene); ++k)
-    contender.place({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, k);
+  for (std::size_t k = 0; k < character_count(scene); ++k) contender.place(pose_at(start_of(scene, k)), k);
 }
 
 std::unique_ptr<Contender> make_contender(std::string_view name, ScalarKind scalar, const Scene& scene,

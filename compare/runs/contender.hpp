@@ -1,6 +1,7 @@
 /// One side of a comparison: something that moves the characters of a scene, step by step.
 #pragma once
 
+#include "records/row.hpp"
 #include "records/trace.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/scene.hpp"
@@ -27,14 +28,8 @@ enum class ScalarKind : std::uint8_t { binary64, binary32 };
 /// What a contender carries from step to step that a twin in lockstep takes over.
 struct Pose {
   Vec2d position{Vec2d::Zero()};
-  Vec2d velocity{Vec2d::Zero()};
-  bool grounded = false;
-  bool jumping = false;
-  bool jump_held = false;
-  bool jump_pending = false;
-  Ride ride{};                            ///< Its `place` is not used: a character that is put down begins a new ride.
-  Vec2d ground_normal{Vec2d::UnitY()};    ///< Of the surface that carries it.
-  std::optional<TraceRide> on_another{};  ///< The ride on another character; `ride` is empty then.
+  TraceState state{};
+  Vec2d ground_normal{Vec2d::UnitY()};  ///< Of the surface that carries it.
 };
 
 /// What happens to every contender alike in one step.
@@ -42,17 +37,8 @@ struct StepInput {
   double dt = 0;                        ///< [s]
   std::span<const Input> players;       ///< One for each character.
   std::span<const MoverMotion> movers;  ///< One for each mover of the scene.
-  std::span<const TurnMotion> turns;    ///< The same.
   Vec2d gravity{Vec2d::Zero()};         ///< [m/s²]
   Vec2d up{Vec2d::UnitY()};             ///< Unit vector.
-};
-
-/// What a program of somebody else's says of itself.
-struct PeerNotes {
-  std::string engine;                   ///< Name and version.
-  std::optional<double> ns_per_step{};  ///< By its own clock, the mean of the steps that it timed [ns].
-  std::string machine{};                ///< What its engine runs on; empty where it does not say.
-  double skin = 0;                      ///< [m]
 };
 
 class Contender {
@@ -73,8 +59,8 @@ class Contender {
   virtual void place(const Pose& pose, std::size_t character = 0) = 0;
   /// Gives a character another velocity [m/s], and leaves it the rest of its state where it can.
   virtual void launch(const Vec2d& velocity, std::size_t character);
-  /// Of a peer alone.
-  [[nodiscard]] virtual std::optional<PeerNotes> peer_notes() const { return std::nullopt; }
+  /// Writes what a program of somebody else's says of itself. @return whether this is a peer.
+  virtual bool write_notes(Row& /*row*/) const { return false; }
   /// What a character would overlap at a place, as the engine's own query has it: ids. Nothing where it has no query.
   /// @param movers where each stands.
   [[nodiscard]] virtual std::optional<std::vector<std::string>> overlapped_at(const Vec2d& /*place*/,
@@ -97,6 +83,8 @@ class StepRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// At rest in the air, but for its velocity.
+[[nodiscard]] Pose pose_at(const Start& start);
 /// Puts every character where the scene has it begin.
 void place_at_start(Contender& contender, const Scene& scene);
 

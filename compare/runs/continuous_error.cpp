@@ -17,12 +17,6 @@ constexpr double near_course = 0.025;
 /// Who falls less than this share of what is wanted hangs, as the judge has it.
 constexpr double least_share = 0.5;
 
-bool is_small(const Scene& scene) {
-  std::size_t corners = 0;
-  for (const ColliderDef& collider : scene.scenery.colliders) corners += collider.points.size();
-  return corners <= most_corners;
-}
-
 Courses courses_of(const Scene& scene, const std::vector<InputEvent>& input, continuous::Law law) {
   const auto course = [&](continuous::Time time) -> std::optional<continuous::Course<double>> {
     try {
@@ -38,7 +32,9 @@ Courses courses_of(const Scene& scene, const std::vector<InputEvent>& input, con
 
 ContinuousCourses::ContinuousCourses(const Scene& scene, const std::vector<InputEvent>& input, int steps)
     : times_(scene) {
-  if (!is_small(scene)) return;
+  std::size_t corners = 0;
+  for (const ColliderDef& collider : scene.scenery.colliders) corners += collider.points.size();
+  if (corners > most_corners) return;
   Scene run = scene;
   run.steps = steps;
   walking_ = courses_of(run, input, continuous::Law::octagon_sweep);
@@ -67,7 +63,7 @@ void ContinuousError::add(const Vec2d& position, double time) {
 }
 
 void ContinuousError::add_hanging(const Vec2d& from, double asked, double begin, double end) {
-  hanging_by_law_ += std::any_of(beside_.begin(), beside_.end(), [&](const Beside& one) {
+  hanging_by_law_ += std::ranges::any_of(beside_, [&](const Beside& one) {
     if (!one.courses->steps) return false;
     const Vec2d there = one.courses->steps->place_at(begin);
     const double fell = there.y() - one.courses->steps->place_at(end).y();
@@ -77,8 +73,7 @@ void ContinuousError::add_hanging(const Vec2d& from, double asked, double begin,
 
 void ContinuousError::write(Row& row) const {
   if (hanging_by_law_ > 0) row.hanging_by_law = hanging_by_law_;
-  const auto nearest = std::min_element(beside_.begin(), beside_.end(),
-                                        [](const Beside& a, const Beside& b) { return a.off() < b.off(); });
+  const auto nearest = std::ranges::min_element(beside_, {}, &Beside::off);
   if (count_ == 0 || nearest == beside_.end()) return;
   if (nearest->courses->steps) row.error_law_max_m = nearest->largest_of_law;
   if (!nearest->courses->motion) return;

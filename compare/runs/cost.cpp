@@ -25,21 +25,16 @@ double nanoseconds(Clock::duration time) { return std::chrono::duration<double, 
 class TimedSteps {
  public:
   TimedSteps(const Scene& scene, const Script& script, int steps) {
-    const std::size_t movers = scene.movers.size();
-    const std::size_t characters = script.size();
-    std::vector<double> lengths;
+    const auto count = static_cast<std::size_t>(std::min(steps, most_steps));
+    players_.reserve(count * script.size());
+    motions_.reserve(count * scene.movers.size());
     InputCursor cursor(scene, script);
-    for (int step = 0; step < std::min(steps, most_steps); ++step) {
-      const StepInput now = cursor.at(step);
-      lengths.push_back(now.dt);
-      players_.insert(players_.end(), now.players.begin(), now.players.end());
-      turns_.insert(turns_.end(), now.turns.begin(), now.turns.end());
-      motions_.insert(motions_.end(), now.movers.begin(), now.movers.end());
+    for (std::size_t step = 0; step < count; ++step) {
+      const StepInput now = cursor.at(static_cast<int>(step));
+      const auto players = players_.insert(players_.end(), now.players.begin(), now.players.end());
+      const auto movers = motions_.insert(motions_.end(), now.movers.begin(), now.movers.end());
+      inputs_.push_back({now.dt, {players, now.players.size()}, {movers, now.movers.size()}});
     }
-    for (std::size_t step = 0; step < lengths.size(); ++step)
-      inputs_.push_back({lengths[step], std::span(players_).subspan(step * characters, characters),
-                         std::span(motions_).subspan(step * movers, movers),
-                         std::span(turns_).subspan(step * movers, movers)});
   }
   TimedSteps(const TimedSteps&) = delete;
   TimedSteps& operator=(const TimedSteps&) = delete;
@@ -47,7 +42,6 @@ class TimedSteps {
 
  private:
   std::vector<MoverMotion> motions_;
-  std::vector<TurnMotion> turns_;
   std::vector<Input> players_;
   std::vector<StepInput> inputs_;
 };
@@ -61,10 +55,8 @@ double timed_pass(const TimedRun& run, const Scene& scene, std::size_t steps, co
   Clock::duration took{0};
   auto next = run.respawns.begin();
   for (std::size_t step = 0; step < steps;) {
-    for (; next != run.respawns.end() && static_cast<std::size_t>(next->step) <= step; ++next) {
-      const Start& start = start_of(scene, next->character);
-      run.contender->place({.position = start.position, .velocity = start.velocity}, next->character);
-    }
+    for (; next != run.respawns.end() && static_cast<std::size_t>(next->step) <= step; ++next)
+      run.contender->place(pose_at(start_of(scene, next->character)), next->character);
     const std::size_t end = next == run.respawns.end() ? steps : std::min(steps, static_cast<std::size_t>(next->step));
     const Clock::time_point begin = Clock::now();
     for (; step < end; ++step) step_at(step);
@@ -97,14 +89,14 @@ class Timing {
   /// The first pass records the wanted velocities; bare passes replay them.
   void warm_up() {
     has_bare_ = run_.contender->keep_wishes(true);
-    (void)full_pass();
+    (void)pass(false);
     if (!has_bare_) return;
     run_.contender->keep_wishes(false);
-    (void)bare_pass();
+    (void)pass(true);
   }
   void repeat() {
-    full_.push_back(full_pass());
-    if (has_bare_) bare_.push_back(bare_pass());
+    full_.push_back(pass(false));
+    if (has_bare_) bare_.push_back(pass(true));
     if (!step_is_timed()) return;
     const StepCost now{one_step(false), one_step(true)};
     if (!step_) step_ = now;
@@ -117,31 +109,31 @@ class Timing {
   }
 
  private:
-  void full_step(std::size_t step) const { run_.contender->step_unrecorded(inputs_[step]); }
-  void bare_step(std::size_t step) const { run_.contender->step_bare(inputs_[step], step); }
-  [[nodiscard]] double full_pass() const {
-    return timed_pass(run_, scene_, inputs_.size(), [this](std::size_t step) { full_step(step); });
+  void step(std::size_t number, bool bare) const {
+    if (bare)
+      run_.contender->step_bare(inputs_[number], number);
+    else
+      run_.contender->step_unrecorded(inputs_[number]);
   }
-  [[nodiscard]] double bare_pass() const {
-    return timed_pass(run_, scene_, inputs_.size(), [this](std::size_t step) { bare_step(step); });
+  [[nodiscard]] double pass(bool bare) const {
+    return timed_pass(run_, scene_, inputs_.size(), [&](std::size_t number) { step(number, bare); });
   }
   [[nodiscard]] bool step_is_timed() const {
     return run_.step && *run_.step < std::min(static_cast<int>(inputs_.size()), most_steps_before_one) &&
            (run_.respawns.empty() || run_.respawns.front().step > *run_.step);
   }
   [[nodiscard]] double one_step(bool cold) const {
-    const auto step_at = [this](std::size_t step) { has_bare_ ? bare_step(step) : full_step(step); };
-    const auto step = static_cast<std::size_t>(*run_.step);
-    (void)timed_pass(run_, scene_, step, step_at);
+    const auto number = static_cast<std::size_t>(*run_.step);
+    (void)timed_pass(run_, scene_, number, [&](std::size_t before) { step(before, has_bare_); });
     if (cold) write_other_memory();
     const Clock::time_point begin = Clock::now();
-    step_at(step);
+    step(number, has_bare_);
     const double took = nanoseconds(Clock::now() - begin);
     static const double reading = time_of_reading();
     return std::max(0.0, took - reading);
   }
   static Cost cost_of(std::vector<double>& passes) {
-    std::sort(passes.begin(), passes.end());
+    std::ranges::sort(passes);
     return {passes.front(), passes[passes.size() / 2], passes.back()};
   }
 

@@ -2,10 +2,27 @@
 
 #include "oracle/intent.hpp"
 #include "oracle/turning.hpp"
+#include "runs/technique_parts.hpp"
 
 #include <paperproof/controller.hpp>
 
 namespace paperproof::compare {
+
+EngineCharacter character_at(const Pose& pose) {
+  EngineCharacter character{state_at(pose), pose.ground_normal};
+  if (pose.state.ride) {
+    character.state.ride.ground = pose.state.ride->collider;
+    character.state.ride.velocity = pose.state.ride->velocity;
+  }
+  return character;
+}
+
+Pose pose_of(const EngineCharacter& character, const Vec2d& position) {
+  Pose pose = pose_of(character.state);
+  pose.position = position;
+  pose.ground_normal = character.ground_normal;
+  return pose;
+}
 
 void clear(TraceStep& record) {
   record.path.clear();

@@ -29,6 +29,11 @@ struct EngineStep {
   std::optional<EngineGround> ground{};
 };
 
+/// A new story of it begins there.
+[[nodiscard]] EngineCharacter character_at(const Pose& pose);
+/// @param position where the engine has its body.
+[[nodiscard]] Pose pose_of(const EngineCharacter& character, const Vec2d& position);
+
 /// Empties what a step of an engine writes anew.
 void clear(TraceStep& record);
 

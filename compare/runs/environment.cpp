@@ -4,6 +4,7 @@
 
 #include <paperproof/box2d/reference_world.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 #include <boost/version.hpp>
 
@@ -29,8 +30,7 @@ Environment environment() {
           {"box2d", box2d::box2d_version()},
           {"box2d_build", box2d::box2d_build()},
           {"box2d_asserts", box2d::box2d_asserts()},
-          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
-                        std::to_string(EIGEN_MINOR_VERSION)},
+          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"boost", BOOST_LIB_VERSION},
           {"compiler", PAPERPROOF_COMPILER},
           {"flags", PAPERPROOF_FLAGS},

@@ -49,8 +49,7 @@ TimedByScene cheapest_first(const std::vector<Row>& rows) {
   TimedByScene scenes;
   for (const Row& row : rows)
     if (row.ns_per_step && !failure_of(row)) scenes[row.scene].push_back({called(row), *row.ns_per_step});
-  for (auto& [scene, timed] : scenes)
-    std::sort(timed.begin(), timed.end(), [](const Timed& a, const Timed& b) { return a.ns_per_step < b.ns_per_step; });
+  for (auto& [scene, timed] : scenes) std::ranges::sort(timed, {}, &Timed::ns_per_step);
   return scenes;
 }
 
@@ -109,7 +108,7 @@ std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows) {
   std::vector<GalleryEntry> gallery;
   for (const Row& row : rows) {
     const std::string name = called(row);
-    auto entry = std::find_if(gallery.begin(), gallery.end(), [&](const auto& each) { return each.contender == name; });
+    auto entry = std::ranges::find(gallery, name, &GalleryEntry::contender);
     if (entry == gallery.end())
       entry = gallery.insert(gallery.end(), GalleryEntry{.contender = name, .fails = {}, .cheapest = {}});
     entry->scenes += row.verdict != Verdict::not_applicable;
@@ -122,7 +121,7 @@ std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows) {
 }
 
 std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery) {
-  const bool timed = std::any_of(gallery.begin(), gallery.end(), [](const auto& entry) { return entry.cheapest; });
+  const bool timed = std::ranges::any_of(gallery, [](const GalleryEntry& entry) { return entry.cheapest.has_value(); });
   std::vector<std::string> lines;
   for (const GalleryEntry& entry : gallery) {
     if (entry.scenes == 0)

@@ -1,5 +1,6 @@
 #include "runs/knobs.hpp"
 
+#include "contains.hpp"
 #include "runs/contender.hpp"
 
 #include <fmt/format.h>
@@ -58,17 +59,17 @@ const std::vector<EngineKnob>& engine_knobs() {
   return all;
 }
 
-const EngineKnob* find_engine_knob(std::string_view name) {
-  const std::vector<EngineKnob>& all = engine_knobs();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const EngineKnob& knob) { return knob.name == name; });
-  return found == all.end() ? nullptr : &*found;
+/// Null where none has that name.
+template <class One>
+const One* named(const std::vector<One>& knobs, std::string_view name) {
+  const auto found = std::ranges::find(knobs, name, &One::name);
+  return found == knobs.end() ? nullptr : &*found;
 }
 
+const EngineKnob* find_engine_knob(std::string_view name) { return named(engine_knobs(), name); }
+
 const Knob* find_knob(const TechniqueEntry& technique, std::string_view name) {
-  if (name == jump_rules.name) return &jump_rules;
-  const auto found =
-      std::find_if(technique.knobs.begin(), technique.knobs.end(), [&](const Knob& knob) { return knob.name == name; });
-  return found == technique.knobs.end() ? nullptr : &*found;
+  return name == jump_rules.name ? &jump_rules : named(technique.knobs, name);
 }
 
 /// A knob of techniques, and who has it.
@@ -82,7 +83,7 @@ std::vector<SharedKnob> technique_knobs() {
   std::vector<SharedKnob> all;
   for (const TechniqueEntry& technique : all_techniques()) {
     for (const Knob& knob : technique.knobs) {
-      auto known = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.knob.name == knob.name; });
+      auto known = std::ranges::find(all, knob.name, [](const SharedKnob& each) { return each.knob.name; });
       if (known == all.end()) known = all.insert(all.end(), {knob, {}});
       known->techniques.push_back(technique.name);
     }
@@ -91,25 +92,17 @@ std::vector<SharedKnob> technique_knobs() {
   return all;
 }
 
-/// A level of one square metre: whatever a knob may be is tried on it.
-Scenery a_square() { return Scenery({{{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}); }
-
 }  // namespace
 
 KnobSetting parse_knob(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
-  const auto& techniques = all_techniques();
-  const bool known = find_engine_knob(name) != nullptr ||
-                     std::any_of(techniques.begin(), techniques.end(), [name](const TechniqueEntry& technique) {
-                       return find_knob(technique, name) != nullptr;
-                     });
-  if (equals == std::string_view::npos || !known) {
-    std::vector<std::string_view> names;
-    for (const SharedKnob& each : technique_knobs()) names.push_back(each.knob.name);
-    for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
+  std::vector<std::string_view> names;
+  for (const SharedKnob& each : technique_knobs()) names.push_back(each.knob.name);
+  for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
+  if (equals == std::string_view::npos || !contains(names, name))
     throw std::invalid_argument(fmt::format("expected NAME=VALUE with a NAME of {}", fmt::join(names, ", ")));
-  }
+
   return {std::string(name), std::string(text.substr(equals + 1))};
 }
 
@@ -122,9 +115,9 @@ void check_knob(const KnobSetting& setting, std::string_view contender) {
   TechniqueDef def;
   def.name = contender;
   turn_knobs(std::span(&setting, 1), def);
-  const Scenery scenery = a_square();
+  const Scenery a_square({{{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}});  // whatever it may be is tried there
   try {
-    static_cast<void>(make_controller(scenery, CharacterDef{}, def));
+    static_cast<void>(make_controller(a_square, CharacterDef{}, def));
   } catch (const NotExpressible&) {
     // Another level may do.
   }
@@ -147,29 +140,29 @@ bool has_knob(std::string_view contender, std::string_view name) {
 
 void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def) {
   for (const KnobSetting& setting : knobs)
-    if (const EngineKnob* knob = find_engine_knob(setting.name)) knob->turn(setting.value, def);
+    if (const EngineKnob* knob = find_engine_knob(setting.key)) knob->turn(setting.value, def);
 }
 
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
   const TechniqueEntry* technique = find_technique(def.name);
   if (technique == nullptr) return;
   for (const KnobSetting& setting : knobs)
-    if (const Knob* knob = find_knob(*technique, setting.name)) knob->turn(setting.value, def);
+    if (const Knob* knob = find_knob(*technique, setting.key)) knob->turn(setting.value, def);
 }
 
 std::optional<bool> turned_jump_rules(std::span<const KnobSetting> knobs) {
   std::optional<bool> turned;
   for (const KnobSetting& setting : knobs)
-    if (setting.name == "jump_rules") turned = is_second(setting.value, "off", "on");
+    if (setting.key == "jump_rules") turned = is_second(setting.value, "off", "on");
   return turned;
 }
 
 std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender) {
   std::string text;
   for (const KnobSetting& setting : knobs) {
-    if (!has_knob(contender, setting.name)) continue;
+    if (!has_knob(contender, setting.key)) continue;
     if (!text.empty()) text += ' ';
-    text += setting.name + '=' + setting.value;
+    text += setting.key + '=' + setting.value;
   }
   return text;
 }

@@ -1,6 +1,8 @@
 /// Knobs of the contenders, as they stand on the command line.
 #pragma once
 
+#include "records/case.hpp"
+
 #include <paperproof/box2d/reference_world.hpp>
 #include <paperproof/techniques.hpp>
 
@@ -19,10 +21,7 @@ struct TwinDef {
 };
 
 /// `name=value`. A technique's knobs are in its registry entry, a twin's are fields of `TwinDef`.
-struct KnobSetting {
-  std::string name;
-  std::string value;
-};
+using KnobSetting = Case::Setting;
 
 /// @throws std::invalid_argument in words where there is no such knob.
 [[nodiscard]] KnobSetting parse_knob(std::string_view text);

@@ -2,7 +2,6 @@
 
 #include "records/verdict.hpp"
 #include "runs/technique_parts.hpp"
-#include "words.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +30,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     row_.knob = header().knob;
     row_.scalar = header().scalar;
     records_.resize(header().characters);
-    placed_.resize(records_.size(), true);
-    placed_in_.resize(records_.size());
+    placed_.assign(records_.size(), TraceState{});
     hung_.resize(records_.size());
     judge_ = std::make_unique<RunJudge>(header_as_run(), metrics_for(scene, planning).measured);
     if (is_reference(row_.contender)) bodies_ = std::make_unique<BodyJudge>(scene, header());
@@ -82,28 +80,18 @@ void Lane::expect(const std::vector<Answer>& answers) {
 
 void Lane::place(const Pose& pose, std::size_t character) {
   contender_->place(pose, character);
+  placed_[character] = pose.state;
   // A character of ours forgets its ride when it is placed.
-  begin_anew(pose, character, recorded_ride(is_reference(row_.contender) ? pose.ride : Ride{}));
+  if (!is_reference(row_.contender)) placed_[character]->ride.reset();
 }
 
 void Lane::launch(const Vec2d& velocity, std::size_t character) {
   contender_->launch(velocity, character);
-  const Pose launched = contender_->pose(character);
-  begin_anew(launched, character, launched.on_another ? launched.on_another : recorded_ride(launched.ride));
-}
-
-void Lane::begin_anew(const Pose& pose, std::size_t character, const std::optional<TraceRide>& ride) {
-  placed_[character] = true;
-  placed_in_[character] = {.velocity = pose.velocity,
-                           .grounded = pose.grounded,
-                           .jumping = pose.jumping,
-                           .jump_held = pose.jump_held,
-                           .jump_pending = pose.jump_pending,
-                           .ride = ride};
+  placed_[character] = contender_->pose(character).state;
 }
 
 void Lane::respawn(const Start& start, const Respawn& when) {
-  place({.position = start.position, .velocity = start.velocity}, when.character);
+  place(pose_at(start), when.character);
   respawns_.push_back(when);
 }
 
@@ -124,14 +112,13 @@ void Lane::begin_records(int step, const StepInput& input) {
     records_[k].up = input.up != header().up ? std::optional(input.up) : std::nullopt;
     records_[k].gravity = input.gravity != header().gravity ? std::optional(input.gravity) : std::nullopt;
     records_[k].respawn = placed_[k] && step > 0;
-    records_[k].from.reset();
-    if (records_[k].respawn) records_[k].from = placed_in_[k];
+    records_[k].from = records_[k].respawn ? placed_[k] : std::nullopt;
   }
 }
 
 void Lane::judge_step() {
   judge_->add(records_);
-  std::fill(placed_.begin(), placed_.end(), false);
+  std::ranges::fill(placed_, std::nullopt);
   if (records_.front().step == 0)
     row_.findings.insert(row_.findings.end(), judge_->begins_inside().begin(), judge_->begins_inside().end());
   if (answers_)
@@ -140,17 +127,10 @@ void Lane::judge_step() {
 }
 
 bool Lane::is_finite() const {
-  return std::all_of(records_.begin(), records_.end(), [](const TraceStep& record) {
-    return record.velocity.allFinite() && std::all_of(record.path.begin(), record.path.end(),
-                                                      [](const auto& corner) { return corner.position.allFinite(); });
+  return std::ranges::all_of(records_, [](const TraceStep& record) {
+    return record.velocity.allFinite() &&
+           std::ranges::all_of(record.path, [](const auto& corner) { return corner.position.allFinite(); });
   });
-}
-
-void Lane::note_refusal(const std::string& reason) {
-  TraceStep record = records_.front();
-  record.refused = reason;
-  judge_->add_refused(record);
-  if (trace_) trace_->write(record);
 }
 
 void Lane::step(int step, const StepInput& input) {
@@ -162,7 +142,9 @@ void Lane::step(int step, const StepInput& input) {
       return fail(Verdict::failed, fmt::format("step {}: a position or velocity that is no number", step));
     judge_step();
   } catch (const StepRefused& reason) {
-    note_refusal(reason.what());
+    records_.front().refused = reason.what();
+    judge_->add_refused(records_.front());
+    if (trace_) trace_->write(records_.front());
     return end_early(fmt::format("step {}: {}", step, reason.what()));
   } catch (const std::exception& error) {
     return fail(Verdict::failed, fmt::format("step {}: {}", step, error.what()));
@@ -193,41 +175,34 @@ void Lane::note_events(std::size_t character) {
     if (replay_.events.size() < static_cast<std::size_t>(limit_.most))
       replay_.events.push_back({record.step, kind, who + words, record.character, collider});
   };
-  const auto note = [&](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
-                        const std::string& when = "") {
-    if (colliders.empty()) return;
-    const ColliderIndex first = colliders.front();
-    tell(kind, fmt::format("{} {}{}", what, header().ids[first], when), first);
-  };
-  const auto note_company = [&](ReportEvent::Kind kind, const std::vector<CharacterIndex>& others, const char* what) {
+  const auto note = [&](ReportEvent::Kind kind, const char* what, const std::vector<ColliderIndex>& colliders,
+                        const std::vector<CharacterIndex>& others = {}) {
+    if (!colliders.empty()) tell(kind, fmt::format("{} {}", what, header().ids[colliders.front()]), colliders.front());
     if (!others.empty()) tell(kind, fmt::format("{} character {}", what, others.front()));
   };
-  note(ReportEvent::Kind::tunnel, judged.tunnelled, "passes");
-  note_company(ReportEvent::Kind::tunnel, judged.company.passed, "passes");
-  note(ReportEvent::Kind::clipped, judged.clipped, "clips");
-  note_company(ReportEvent::Kind::clipped, judged.company.clipped, "clips");
-  note(ReportEvent::Kind::one_way, judged.one_way_broken, "passes against its normal:");
-  note(ReportEvent::Kind::crush, record.crushed, "is crushed by");
-  note(ReportEvent::Kind::drop, record.dropped_through, "drops through");
+  note(ReportEvent::Kind::tunnel, "passes", judged.tunnelled, judged.company.passed);
+  note(ReportEvent::Kind::clipped, "clips", judged.clipped, judged.company.clipped);
+  note(ReportEvent::Kind::one_way, "passes against its normal:", judged.one_way_broken);
+  note(ReportEvent::Kind::crush, "is crushed by", record.crushed);
+  note(ReportEvent::Kind::drop, "drops through", record.dropped_through);
   for (const SensorEvent& event : record.sensors)
-    note(ReportEvent::Kind::sensor, {event.sensor}, event.change == SensorEvent::Change::enter ? "enters" : "leaves",
-         header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
-  note(ReportEvent::Kind::inside, judged.entered, "ends inside");
-  note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");
+    tell(ReportEvent::Kind::sensor,
+         fmt::format("{} {}{}", event.change == SensorEvent::Change::enter ? "enters" : "leaves",
+                     header().ids[event.sensor],
+                     header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction)
+                                         : ", seen when the step begins"),
+         event.sensor);
+  note(ReportEvent::Kind::inside, "ends inside", judged.entered, judged.company.entered);
   if (judged.hangs && !hung_[character]) tell(ReportEvent::Kind::hanging, "hangs in the air");
   hung_[character] = judged.hangs;
 }
 
 void Lane::write_metrics() {
   judge_->write(row_);
-  const std::optional<PeerNotes> peer = contender_->peer_notes();
-  if (answers_ && peer && row_.contact_steps == 0) answers_->ask_no_contacts();
+  const bool is_peer = contender_->write_notes(row_);
+  if (answers_ && is_peer && row_.contact_steps == 0) answers_->ask_no_contacts();
   if (answers_) answers_->write(row_);
-  if (peer) {
-    row_.engine = peer->engine;
-    row_.ns_per_step_own_clock = peer->ns_per_step;
-    row_.machine = peer->machine;
-    row_.skin_m = peer->skin;
+  if (is_peer) {
     row_.sensor_errors.reset();  // it is not asked
     row_.broken.erase(std::string(name_of(Clause::sensor)));
   }

@@ -66,11 +66,9 @@ class Lane {
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
-  void begin_anew(const Pose& pose, std::size_t character, const std::optional<TraceRide>& ride);
   void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();
-  void note_refusal(const std::string& reason);
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);
   void keep_for_replay();
@@ -88,9 +86,8 @@ class Lane {
   std::unique_ptr<TraceWriter> trace_;
   // By character:
   std::vector<TraceStep> records_;
-  std::vector<bool> placed_;           ///< Since the last step.
-  std::vector<TraceState> placed_in_;  ///< With this state.
-  std::vector<bool> hung_;             ///< In the step before.
+  std::vector<std::optional<TraceState>> placed_;  ///< Since the last step, with this state.
+  std::vector<bool> hung_;                         ///< In the step before.
   std::vector<Respawn> respawns_;
 };
 

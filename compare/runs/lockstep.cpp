@@ -19,7 +19,7 @@ std::vector<Vec2d> held_normals(Lane& lane, const Place& place) {
   std::vector<Vec2d> normals;
   for (const Contact& contact : lane.record().contacts) {
     if (lane.solids().separation(place, contact.collider) > held_gap) continue;
-    const bool known = std::any_of(normals.begin(), normals.end(), [&](const Vec2d& other) {
+    const bool known = std::ranges::any_of(normals, [&](const Vec2d& other) {
       return std::abs(other.x() * contact.normal.y() - other.y() * contact.normal.x()) < same_direction &&
              other.dot(contact.normal) > 0;
     });
@@ -55,7 +55,7 @@ TwinStart twin_start(Lane& lane, const StepInput& input) {
   for (const ColliderIndex near : solids.near(place(), place(), box2d::rest_gap))
     if (solids.separation(place(), near) < box2d::rest_gap - gap_slack) start.room = false;
   for (const Contact& contact : lane.record().contacts)
-    if (contact.collider == start.pose.ride.ground && contact.side == Side::bottom)
+    if (start.pose.state.ride && contact.collider == start.pose.state.ride->collider && contact.side == Side::bottom)
       start.pose.ground_normal = contact.normal;
   return start;
 }

@@ -1,9 +1,8 @@
-#include "runs/own_contender.hpp"
+#include "runs/contender_kinds.hpp"
 
 #include "contains.hpp"
-#include "runs/level_ways.hpp"
-#include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
+#include "runs/vertex_ways.hpp"
 
 #include <paperproof/controller.hpp>
 #include <paperproof/in_float.hpp>
@@ -25,11 +24,11 @@ class OwnContender : public Contender {
         rounded_(scalar == ScalarKind::binary32 ? std::make_unique<Scenery>(as_run(shared.as_run(), scalar)) : nullptr),
         scenery_(rounded_ ? *rounded_ : shared),
         sides_(sides_of(technique)),
-        movers_(scene.movers.size(), scenery_, scalar),
+        now_(scene.movers.size()),
+        last_(scene.movers.size()),
         header_(header_of(technique, scalar, scenery_, scene, planning)),
         states_(character_count(scene)) {
-    for (std::size_t k = 0; k < states_.size(); ++k)
-      states_[k] = state_at({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, scalar);
+    for (std::size_t k = 0; k < states_.size(); ++k) states_[k] = state_at(pose_at(start_of(scene, k)), scalar);
   }
 
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
@@ -44,14 +43,42 @@ class OwnContender : public Contender {
   void fill(TraceStep& record, const StepReport& report, std::size_t character, const Vec2d& carried) const {
     write_report(report, states_[character], sides_, record);
     record.requested += carried;
-    movers_.write(record);
+    record.movers.assign(now_.begin(), now_.end());
+  }
+
+  /// A step begins. @return its surroundings, as a technique takes them: in the scalar that runs.
+  StepContext begin(const StepInput& input) {
+    std::swap(now_, last_);
+    last_dt_ = dt_;
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      now_[i] = {as_run(input.movers[i].from, scalar_), as_run(input.movers[i].to, scalar_)};
+    dt_ = as_run(input.dt, scalar_);
+    return {.gravity = input.gravity, .dt = dt_, .movers = now_, .up = input.up};
+  }
+
+  /// What the ground adds to the displacement of a step that began with this ride [m]. A conveyor's part is what was
+  /// left of the ride's velocity in the step before, without its mover's. A character that drops through it goes on as
+  /// fast as it went.
+  [[nodiscard]] Vec2d carried_by(const Ride& ride, bool drops) const {
+    if (ride.ground == Ride::none) return Vec2d::Zero();
+    const ColliderInfo& ground = scenery_.collider(ride.ground);
+    if (drops && ground.one_way) return ride.velocity * dt_;
+    const auto way_in = [&](const std::vector<MoverMotion>& motions) {
+      return ground.mover == no_mover ? Vec2d::Zero() : Vec2d(motions[ground.mover].to - motions[ground.mover].from);
+    };
+    Vec2d carried = way_in(now_);
+    if (ground.surface_speed != 0) carried += ride.velocity * dt_ - way_in(last_) * (dt_ / last_dt_);
+    return carried;
   }
 
   ScalarKind scalar_;
   std::unique_ptr<const Scenery> rounded_;  ///< Null in double,
   const Scenery& scenery_;                  ///< where the shared scenery runs.
   Sides sides_;
-  MoverRecord movers_;
+  std::vector<MoverMotion> now_;   ///< How movers go in the present step, in the scalar that runs,
+  std::vector<MoverMotion> last_;  ///< and in the step before.
+  double dt_ = 0;                  ///< Of the present step [s],
+  double last_dt_ = 0;             ///< and of the step before.
   TraceHeader header_;
   std::vector<CharacterState> states_;
 };
@@ -77,13 +104,12 @@ class TechniqueContender final : public OwnContender {
   void step(const StepInput& input, std::span<TraceStep> records) override {
     const Ride ride = states_.front().ride;
     step_unrecorded(input);
-    fill(records.front(), report_, 0, movers_.carried_by(ride, input.players.front().drop));
+    fill(records.front(), report_, 0, carried_by(ride, input.players.front().drop));
     refuse_unusable(report_.status, report_.move.refusal);
   }
 
   void step_unrecorded(const StepInput& input) override {
-    movers_.take(input.movers, input.dt);
-    controller_.step(states_.front(), input.players.front(), context_of(input, movers_), scratch_, report_);
+    controller_.step(states_.front(), input.players.front(), begin(input), scratch_, report_);
   }
 
   [[nodiscard]] std::size_t memory_bytes() const override { return controller_.memory_bytes(); }
@@ -113,17 +139,15 @@ class LevelContender final : public OwnContender {
     step_unrecorded(input);
     write_report(report_, states_.front(), sides_, record);
     record.movers.assign(input.movers.begin(), input.movers.end());
-    record.vertex_ways = ways_in_level(header_.scenery, Controller::turned(scratch_), motions_);
+    record.vertex_ways = ways_in_level(header_.scenery, Controller::turned(scratch_), input.movers);
     record.requested += carried(before, record.vertex_ways);
     refuse_unusable(report_.status, report_.move.refusal);
   }
 
   void step_unrecorded(const StepInput& input) override {
-    motions_.clear();
-    for (std::size_t i = 0; i < input.movers.size(); ++i)
-      motions_.push_back({input.movers[i].from, input.movers[i].to, input.turns[i].from, input.turns[i].to});
     controller_.step(states_.front(), input.players.front(),
-                     {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, scratch_, report_);
+                     {.gravity = input.gravity, .dt = input.dt, .movers = input.movers, .up = input.up}, scratch_,
+                     report_);
   }
 
  private:
@@ -140,7 +164,6 @@ class LevelContender final : public OwnContender {
   Controller controller_;
   Scratch scratch_;
   StepReport report_;
-  std::vector<MoverMotion> motions_;  ///< Of the present step.
 };
 
 /// Several characters that move as a `Crowd`.
@@ -154,26 +177,23 @@ class CrowdContender final : public OwnContender {
         report_(states_.size()) {}
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
-    rides_.clear();
-    for (const CharacterState& state : states_) rides_.push_back(state.ride);
+    const std::vector<CharacterState> before = states_;
     step_unrecorded(input);
     refuse_unusable(report_.status);
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const CrowdMember& member = report_.members[k];
-      fill(records[k], member.step, k, movers_.carried_by(rides_[k], input.players[k].drop));
+      fill(records[k], member.step, k, carried_by(before[k].ride, input.players[k].drop));
       records[k].met.assign(member.met.begin(), member.met.end());
     }
   }
 
   void step_unrecorded(const StepInput& input) override {
-    movers_.take(input.movers, input.dt);
-    crowd_.step(states_, input.players, context_of(input, movers_), scratch_, report_);
+    crowd_.step(states_, input.players, begin(input), scratch_, report_);
   }
 
  private:
   TechniqueCrowd crowd_;
   CrowdScratch scratch_;
-  std::vector<Ride> rides_;  ///< With which the present step began.
   CrowdReport report_;
 };
 
@@ -185,7 +205,6 @@ class TogetherContender final : public OwnContender {
       : OwnContender(technique, ScalarKind::binary64, scene, shared, planning),
         level_(shared.as_run()),
         first_body_(static_cast<ColliderIndex>(level_.size())),
-        rides_(states_.size()),
         reports_(states_.size()) {
     const CharacterDef character = rules_for(technique, scene, planning.knobs);
     const TechniqueDef def = definition_of(technique, scene, planning);
@@ -201,19 +220,16 @@ class TogetherContender final : public OwnContender {
   }
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
-    std::vector<Vec2d> from;
-    for (std::size_t k = 0; k < states_.size(); ++k) {
-      rides_[k] = states_[k].ride;
-      from.push_back(states_[k].position);
-    }
+    const std::vector<CharacterState> before = states_;
     step_unrecorded(input);
     for (std::size_t k = 0; k < states_.size(); ++k) {
-      const std::size_t carrier = rides_[k].ground - first_body_;
-      fill(records[k], reports_[k], k,
-           is_body(rides_[k].ground)
-               ? Vec2d(contains(companions_[k].moving, rides_[k].ground) ? states_[carrier].position - from[carrier]
-                                                                         : Vec2d(0, 0))
-               : movers_.carried_by(rides_[k], input.players[k].drop));
+      const Ride& ride = before[k].ride;
+      Vec2d carried = Vec2d::Zero();
+      if (!is_body(ride.ground))
+        carried = carried_by(ride, input.players[k].drop);
+      else if (contains(companions_[k].moving, ride.ground))
+        carried = states_[ride.ground - first_body_].position - before[ride.ground - first_body_].position;
+      fill(records[k], reports_[k], k, carried);
       records[k].turn = static_cast<CharacterIndex>(companions_[k].turn);
       records[k].moving.clear();
       for (const ColliderIndex body : companions_[k].moving) records[k].moving.push_back(body - first_body_);
@@ -223,31 +239,28 @@ class TogetherContender final : public OwnContender {
   }
 
   void step_unrecorded(const StepInput& input) override {
-    movers_.take(input.movers, input.dt);
     for (std::size_t k = 0; k < states_.size(); ++k) companions_[k].input = input.players[k];
-    step_together(companions_, context_of(input, movers_), together_);
+    step_together(companions_, begin(input), together_);
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
     Pose pose = pose_of(states_[character]);
-    if (is_body(pose.ride.ground)) {
-      pose.on_another = on_another(pose.ride.ground, pose.ride.velocity);
-      pose.ride = {};
-    }
+    name_other(pose.state.ride);
     return pose;
   }
 
  private:
   [[nodiscard]] bool is_body(ColliderIndex collider) const { return collider != Ride::none && collider >= first_body_; }
 
-  [[nodiscard]] TraceRide on_another(ColliderIndex body, const Vec2d& velocity) const {
-    return {.velocity = velocity, .character = body - first_body_};
+  /// A ride on the body of another is one on that character.
+  void name_other(std::optional<TraceRide>& ride) const {
+    if (ride && is_body(ride->collider))
+      ride = TraceRide{.velocity = ride->velocity, .character = ride->collider - first_body_};
   }
 
   /// Contacts with the bodies of others are those with characters, and so is what carries it.
   void name_others(TraceStep& record) const {
-    if (record.ride && is_body(record.ride->collider))
-      record.ride = on_another(record.ride->collider, record.ride->velocity);
+    name_other(record.ride);
     record.met.clear();
     for (const Contact& contact : record.contacts)
       if (contact.collider >= first_body_)
@@ -259,7 +272,6 @@ class TogetherContender final : public OwnContender {
   ColliderIndex first_body_;  ///< The bodies come after the colliders of the scene.
   std::optional<Controller> controller_;
   Scratch scratch_;
-  std::vector<Ride> rides_;  ///< With which the present step began.
   std::vector<StepReport> reports_;
   std::vector<Companion> companions_;
   TogetherScratch together_;
@@ -275,8 +287,8 @@ void check_level(const TechniqueEntry& octagon_sweep, const Scene& scene, const 
       throw NotApplicable("octagon_sweep is for one-way colliders that stand where something turns, and \"" +
                           scene.ids[i] + "\" moves");
   for (const KnobSetting& knob : planning.knobs)
-    if (knob.name != "jump_rules" && has_knob(octagon_sweep.name, knob.name))
-      throw NotApplicable("octagon_sweep has no knob " + knob.name + " where something turns");
+    if (knob.key != "jump_rules" && has_knob(octagon_sweep.name, knob.key))
+      throw NotApplicable("octagon_sweep has no knob " + knob.key + " where something turns");
 }
 
 std::unique_ptr<Contender> make_several(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene,
@@ -297,8 +309,7 @@ std::unique_ptr<Contender> make_several(const TechniqueEntry& technique, ScalarK
 
 std::unique_ptr<Contender> make_own_contender(const TechniqueEntry& technique, ScalarKind scalar, const Scene& scene,
                                               const Scenery& scenery, const Planning& planning) {
-  const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
-                                    [](const MoverDef& mover) { return !mover.turns.empty(); });
+  const auto turning = std::ranges::find_if(scene.movers, [](const MoverDef& mover) { return !mover.turns.empty(); });
   if (turning != scene.movers.end()) {
     if (computes_in_one(technique.name) || scalar != ScalarKind::binary64)
       throw NotApplicable(fmt::format("{}{} is for movers that do not turn, and \"{}\" does", technique.name,

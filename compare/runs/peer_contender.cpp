@@ -1,4 +1,4 @@
-#include "runs/peer_contender.hpp"
+#include "runs/contender_kinds.hpp"
 
 #include "one_line.hpp"
 #include "oracle/exemptions.hpp"
@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -29,39 +28,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::seconds patience{10};
 
-/// What a scene may have, and not every engine.
-struct Feature {
-  std::string_view name;
-  bool (*needed)(const Scene& scene);
-};
-
-template <class Needs>
-bool any_collider(const Scene& scene, const Needs& needs) {
-  return std::any_of(scene.scenery.colliders.begin(), scene.scenery.colliders.end(), needs);
+/// What the scene has, and not every engine.
+std::vector<std::string_view> needs_of(const Scene& scene) {
+  std::vector<std::string_view> needs;
+  const auto need = [&](std::string_view name, bool is_there) {
+    if (is_there) needs.push_back(name);
+  };
+  const auto any = [&](const auto& is_so) { return std::ranges::any_of(scene.scenery.colliders, is_so); };
+  need("movers", !scene.movers.empty());
+  need("turning", !turning_movers(scene).empty());
+  need("one_way", any([](const ColliderDef& collider) { return collider.one_way.has_value(); }));
+  need("several", !scene.others.empty());
+  need("circles", any([](const ColliderDef& collider) { return collider.shape == ColliderDef::Shape::circle; }));
+  need("conveyors", any([](const ColliderDef& collider) { return collider.surface_speed != 0; }));
+  return needs;
 }
-
-constexpr std::array<Feature, 6> features{{
-    {"movers", [](const Scene& scene) { return !scene.movers.empty(); }},
-    {"turning",
-     [](const Scene& scene) {
-       return std::any_of(scene.movers.begin(), scene.movers.end(),
-                          [](const MoverDef& mover) { return !mover.turns.empty(); });
-     }},
-    {"one_way",
-     [](const Scene& scene) {
-       return any_collider(scene, [](const ColliderDef& collider) { return collider.one_way.has_value(); });
-     }},
-    {"several", [](const Scene& scene) { return !scene.others.empty(); }},
-    {"circles",
-     [](const Scene& scene) {
-       return any_collider(scene,
-                           [](const ColliderDef& collider) { return collider.shape == ColliderDef::Shape::circle; });
-     }},
-    {"conveyors",
-     [](const Scene& scene) {
-       return any_collider(scene, [](const ColliderDef& collider) { return collider.surface_speed != 0; });
-     }},
-}};
 
 const Schema& protocol() {
   static const Schema schema(peer_schema::paperproof_peer_schema_json);
@@ -104,7 +85,7 @@ class PeerContender final : public Contender {
       record.capped = record.requested.norm() > most_way_;
       record.steered = characters_[k].steered * input.dt;
       record.movers.assign(input.movers.begin(), input.movers.end());
-      add_ways(header_, {input.movers, input.turns}, record.vertex_ways);
+      add_ways(header_, input.movers, {}, record.vertex_ways);
       take(answer["characters"][k], input, k, record);
     }
     ns_ += answer.value("ns", 0.0);
@@ -117,15 +98,11 @@ class PeerContender final : public Contender {
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
-    Pose pose = pose_of(characters_[character].state);
-    pose.position = places_[character].position;
-    pose.ground_normal = characters_[character].ground_normal;
-    return pose;
+    return pose_of(characters_[character], places_[character].position);
   }
 
   void place(const Pose& pose, std::size_t character) override {
-    characters_[character] = {state_at(pose), pose.ground_normal, 0};
-    characters_[character].state.ride = pose.ride;
+    characters_[character] = character_at(pose);
     places_[character] = {pose.position, true};
   }
 
@@ -133,14 +110,16 @@ class PeerContender final : public Contender {
                                                                       std::span<const MoverMotion> movers) override {
     if (!has_query_ || !header_.turning.empty()) return std::nullopt;
     Json question{{"overlap", point_json(place)}};
-    if (const Json ways = ways_json(movers, {}); !ways.is_null()) question["movers"] = ways;
+    if (const Json ways = ways_json(movers); !ways.is_null()) question["movers"] = ways;
     return ask(question, "overlaps", patience)["overlaps"].get<std::vector<std::string>>();
   }
 
-  [[nodiscard]] std::optional<PeerNotes> peer_notes() const override {
-    PeerNotes notes{engine_, {}, machine_, header_.tolerances.front().metres};
-    if (timed_ > 0) notes.ns_per_step = ns_ / timed_;
-    return notes;
+  bool write_notes(Row& row) const override {
+    row.engine = engine_;
+    row.machine = machine_;
+    row.skin_m = header_.tolerances.front().metres;
+    if (timed_ > 0) row.ns_per_step_own_clock = ns_ / timed_;
+    return true;
   }
 
  private:
@@ -154,22 +133,20 @@ class PeerContender final : public Contender {
     const Json greeting = ask({{"paperproof_peer", 1}, {"run", trace_header_json(header_)}}, "name", longest_greeting);
     engine_ = greeting["name"].get<std::string>() + ' ' + greeting["version"].get<std::string>();
     const Json can = greeting.value("can", Json::array());
-    for (const Feature& feature : features)
-      if (feature.needed(scene) && std::find(can.begin(), can.end(), feature.name) == can.end())
-        throw NotApplicable(fmt::format("{} does not say that it can: {}", engine_, feature.name));
+    for (const std::string_view need : needs_of(scene))
+      if (std::ranges::find(can, need) == can.end())
+        throw NotApplicable(fmt::format("{} does not say that it can: {}", engine_, need));
     machine_ = greeting.value("machine", "");
     has_query_ = greeting.value("overlap", false);
     header_.scalar = greeting.value("scalar", header_.scalar);
     header_.path_exact = greeting.value("path_exact", false);
     most_way_ = greeting.value("most_way", most_way_);
-    if (greeting.contains("points")) header_.points = shape_said(greeting["points"]);
+    // The judge looks at this one then: a capsule that fits into the octagon stands deeper than the octagon would.
+    if (greeting.contains("points")) {
+      const CharacterShape shape(points_of(greeting["points"]));
+      header_.points.assign(shape.hull().begin(), shape.hull().end());
+    }
     header_.tolerances = {{"touch", std::min(greeting.value("skin", 0.0), box2d_skin) + rounding_of_gap(scene)}};
-  }
-
-  /// The judge looks at this one then: a capsule that fits into the octagon stands deeper than the octagon would.
-  static std::vector<Vec2d> shape_said(const Json& said) {
-    const CharacterShape shape(points_of(said));
-    return {shape.hull().begin(), shape.hull().end()};
   }
 
   /// What is kept exactly comes out as a difference of places, each rounded as this peer counts [m].
@@ -202,24 +179,22 @@ class PeerContender final : public Contender {
     }
   }
 
-  /// Of each collider that moves, by its id. @param turns empty: nothing turns.
-  [[nodiscard]] Json ways_json(std::span<const MoverMotion> movers, std::span<const TurnMotion> turns) const {
+  /// Of each collider that moves, by its id.
+  [[nodiscard]] Json ways_json(std::span<const MoverMotion> movers) const {
     Json ways;
     for (ColliderIndex i = 0; i < header_.ids.size(); ++i) {
       const MoverIndex mover = header_.scenery.colliders[i].mover;
       if (mover == no_mover) continue;
       Json& way = ways[header_.ids[i]];
       way = {{"from", point_json(movers[mover].from)}, {"to", point_json(movers[mover].to)}};
-      if (!turns.empty()) way["angle"] = {turns[mover].from, turns[mover].to};
+      if (!header_.turning.empty()) way["angle"] = {movers[mover].from_angle, movers[mover].to_angle};
     }
     return ways;
   }
 
   Json question_of(const StepInput& input, std::span<const Vec2d> wanted) {
     Json question{{"dt", input.dt}};
-    const bool turns = !header_.turning.empty();
-    if (const Json ways = ways_json(input.movers, turns ? input.turns : std::span<const TurnMotion>{}); !ways.is_null())
-      question["movers"] = ways;
+    if (const Json ways = ways_json(input.movers); !ways.is_null()) question["movers"] = ways;
     for (std::size_t k = 0; k < characters_.size(); ++k) {
       Json one{{"wanted", point_json(wanted[k])}};
       if (input.players[k].drop) one["drop"] = true;
@@ -260,15 +235,11 @@ class PeerContender final : public Contender {
       ended.ground = EngineGround{collider_named(said["ground"]["collider"]),
                                   normal_of(said["ground"].value("normal", Json{0, 1}))};
     intent_.take_over(ended, input, record.contacts, characters_[k]);
-    const CharacterState& state = characters_[k].state;
-    record.velocity = state.velocity;
-    record.grounded = state.grounded;
-    record.jumping = state.jumping;
-    record.ride = recorded_ride(state.ride);
+    write_state(characters_[k].state, record);
     record.stuck = said.value("stuck", false);
     for (const Json& id : said.value("dropped_through", Json::array()))
       record.dropped_through.push_back(collider_named(id));
-    std::sort(record.dropped_through.begin(), record.dropped_through.end());
+    std::ranges::sort(record.dropped_through);
   }
 
   static Vec2d normal_of(const Json& said) {
@@ -280,7 +251,7 @@ class PeerContender final : public Contender {
   }
 
   [[nodiscard]] ColliderIndex collider_named(const std::string& id) const {
-    const auto found = std::find(header_.ids.begin(), header_.ids.end(), id);
+    const auto found = std::ranges::find(header_.ids, id);
     if (found == header_.ids.end()) throw std::runtime_error("the peer names a collider that there is not: " + id);
     return static_cast<ColliderIndex>(found - header_.ids.begin());
   }

@@ -1,5 +1,6 @@
 #include "runs/peers.hpp"
 
+#include "contains.hpp"
 #include "runs/contender.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +14,10 @@
 namespace paperproof::compare {
 namespace {
 
-std::vector<Peer>& added() {
-  static std::vector<Peer> all;
-  return all;
-}
+std::vector<Peer> added;
 
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char letter) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char letter) {
     return std::islower(letter) != 0 || std::isdigit(letter) != 0 || letter == '_';
   });
 }
@@ -49,17 +47,16 @@ Peer parse_peer(std::string_view text) {
 }
 
 void add_peer(const Peer& peer) {
-  const std::vector<std::string_view> taken = contender_names();
-  if (std::find(taken.begin(), taken.end(), peer.name) != taken.end())
+  if (contains(contender_names(), peer.name))
     throw std::invalid_argument(fmt::format("expected another name, as NAME=COMMAND: {} is a contender", peer.name));
-  added().push_back(peer);
+  added.push_back(peer);
 }
 
-const std::vector<Peer>& peers() { return added(); }
+const std::vector<Peer>& peers() { return added; }
 
 const Peer* find_peer(std::string_view name) {
-  const auto found = std::find_if(peers().begin(), peers().end(), [&](const Peer& peer) { return peer.name == name; });
-  return found == peers().end() ? nullptr : &*found;
+  const auto found = std::ranges::find(added, name, &Peer::name);
+  return found == added.end() ? nullptr : &*found;
 }
 
 std::string peer_command(std::string_view name) {

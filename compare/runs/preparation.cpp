@@ -24,8 +24,8 @@ double pairs_in(std::span<const Box2> boxes, double reach) {
   double met = 0;
   double count = 0;
   for (std::size_t i = 0; i < boxes.size(); i += stride, ++count)
-    met += static_cast<double>(std::count_if(boxes.begin(), boxes.end(),
-                                             [&](const Box2& box) { return box.overlaps(boxes[i].inflated(reach)); })) -
+    met += static_cast<double>(
+               std::ranges::count_if(boxes, [&](const Box2& box) { return box.overlaps(boxes[i].inflated(reach)); })) -
            1;
   return count == 0 ? 0 : met / count * static_cast<double>(boxes.size()) / 2;
 }

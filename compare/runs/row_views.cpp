@@ -113,8 +113,7 @@ std::vector<Value> values(const OfContender& of, std::optional<Value> Row::*metr
 }
 
 std::string scenes_run(const OfContender& of) {
-  return std::to_string(
-      std::count_if(of.second.begin(), of.second.end(), [](const Row* row) { return was_judged(*row); }));
+  return std::to_string(std::ranges::count_if(of.second, [](const Row* row) { return was_judged(*row); }));
 }
 
 /// Steps, and in how many scenes.
@@ -125,7 +124,7 @@ std::function<Cell(const OfContender&)> steps_of(std::optional<int> Row::*metric
     long long steps = 0;
     for (const int count : counts) steps += count;
     if (steps == 0) return "0";
-    const auto scenes = std::count_if(counts.begin(), counts.end(), [](int count) { return count > 0; });
+    const auto scenes = std::ranges::count_if(counts, [](int count) { return count > 0; });
     return fmt::format("{} in {}", steps, scenes);
   };
 }
@@ -133,7 +132,7 @@ std::function<Cell(const OfContender&)> steps_of(std::optional<int> Row::*metric
 Cell answers_met(const OfContender& of) {
   const std::vector<bool> met = values(of, &Row::answer_ok);
   if (met.empty()) return std::nullopt;
-  return fmt::format("{} of {}", std::count(met.begin(), met.end(), true), met.size());
+  return fmt::format("{} of {}", std::ranges::count(met, true), met.size());
 }
 
 std::function<Cell(const OfContender&)> median_of(std::optional<double> Row::*metric) {
@@ -148,8 +147,7 @@ std::function<Cell(const OfContender&)> median_of(std::optional<double> Row::*me
 
 std::function<Cell(const OfContender&)> runs_with(Verdict verdict) {
   return [verdict](const OfContender& of) {
-    return std::to_string(
-        std::count_if(of.second.begin(), of.second.end(), [&](const Row* row) { return row->verdict == verdict; }));
+    return std::to_string(std::ranges::count_if(of.second, [&](const Row* row) { return row->verdict == verdict; }));
   };
 }
 

@@ -27,4 +27,7 @@ namespace paperproof::compare {
 /// column whose metric no row has is left out.
 [[nodiscard]] std::string summary_table(const std::vector<Row>& rows);
 
+/// The sentence under a table: who is right where the contenders differ.
+[[nodiscard]] std::string who_is_right(const std::vector<Row>& rows);
+
 }  // namespace paperproof::compare

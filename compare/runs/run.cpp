@@ -1,15 +1,15 @@
 #include "runs/run.hpp"
 
+#include "contains.hpp"
 #include "metrics/agreement.hpp"
 #include "metrics/ledger.hpp"
-
 #include "runs/continuous_error.hpp"
 #include "runs/cost.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
 #include "runs/lockstep.hpp"
 #include "runs/peers.hpp"
-#include "runs/sentence.hpp"
+#include "runs/row_views.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -128,8 +128,8 @@ class SceneRun {
       for (std::size_t i = 0; i < lanes_.size(); ++i) pair_up(*lanes_[i], *twins_[i]);
       return;
     }
-    const auto reference = std::find_if(lanes_.begin(), lanes_.end(),
-                                        [](const auto& lane) { return lane->contender_name() == twin_name; });
+    const auto reference =
+        std::ranges::find_if(lanes_, [](const auto& lane) { return lane->contender_name() == twin_name; });
     if (reference == lanes_.end()) return;
     for (const auto& lane : lanes_)
       if (lane != *reference) pair_up(*lane, **reference);
@@ -211,8 +211,7 @@ class SceneRun {
 
   /// Whether the boxes of two characters come within Box2D's skin of each other, where the step begins or ends.
   static bool is_beside_another(const Lane& lane, std::size_t k) {
-    Box2 hull{lane.header().points.front(), lane.header().points.front()};
-    for (const Vec2d& point : lane.header().points) hull = hull.merged({point, point});
+    const Box2 hull = Box2::around(lane.header().points);
     const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(beyond_box2d_skin);
     for (std::size_t other = 0; other < lane.characters(); ++other)
       for (const bool end : {false, true}) {
@@ -258,8 +257,7 @@ class SceneRun {
     for (const auto& lane : lanes_) add(*lane, result);
     for (const auto& lane : twins_) add(*lane, result);
     result.sentence = who_is_right(result.rows);
-    const auto inside =
-        std::find_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->begins_inside().empty(); });
+    const auto inside = std::ranges::find_if(lanes_, [](const auto& lane) { return !lane->begins_inside().empty(); });
     if (inside != lanes_.end()) result.sentence += fmt::format(" Mind that {}.", (*inside)->begins_inside());
     if (options_.mode == Mode::lockstep)
       for (const Pair& pair : pairs_) result.sentence += in_lockstep(pair);
@@ -317,20 +315,17 @@ class SceneRun {
     const bool told = pair.mine->contender_name() == default_lockstep;
     if (!told || options_.max_replay_steps == 0) return;
     const auto run_of = [&](const Lane& lane) {
-      const auto found = std::find_if(result.runs.begin(), result.runs.end(), [&](const ReportRun& run) {
-        return run.header.contender == lane.contender_name();
-      });
+      const auto found = std::ranges::find(result.runs, lane.contender_name(),
+                                           [](const ReportRun& run) { return run.header.contender; });
       return static_cast<std::size_t>(found - result.runs.begin());
     };
     for (std::size_t k = 0; k < pair.agreements.size(); ++k) {
       const std::string who = pair.agreements.size() > 1 ? fmt::format("character {}: ", k) : "";
       for (const SideDisagreement& one : pair.agreements[k].disagreements()) {
         if (result.disagreements.size() == most_disagreements) return;
-        Disagreement told_one;
-        told_one.step = one.step;
-        told_one.statements = {{run_of(*pair.mine), one.mine}, {run_of(*pair.reference), one.reference}};
-        told_one.who_is_right = who + one.who_is_right;
-        result.disagreements.push_back(std::move(told_one));
+        result.disagreements.push_back({one.step,
+                                        {{run_of(*pair.mine), one.mine}, {run_of(*pair.reference), one.reference}},
+                                        who + one.who_is_right});
       }
     }
   }
@@ -362,8 +357,7 @@ std::vector<std::string> contenders_of(const RunOptions& options) {
   if (chosen.empty())
     for (const std::string_view name : contender_names())
       if (!is_reference(name) || options.reference) chosen.emplace_back(name);
-  if (!options.contenders.empty() && options.reference && !lockstep &&
-      std::find(chosen.begin(), chosen.end(), twin_name) == chosen.end())
+  if (!options.contenders.empty() && options.reference && !lockstep && !contains(chosen, twin_name))
     chosen.emplace_back(twin_name);
   if (lockstep) std::erase_if(chosen, [](const std::string& name) { return is_reference(name); });
   return chosen;

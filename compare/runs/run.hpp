@@ -1,7 +1,6 @@
 /// Runs the contenders of a scene side by side and judges every step.
 #pragma once
 
-#include "records/row.hpp"
 #include "records/scene_result.hpp"
 #include "runs/contender.hpp"
 #include "scenes/scene.hpp"
@@ -30,10 +29,10 @@ struct RunOptions {
   bool measure_cost = true;
   bool continuous = false;   ///< Rows say how far the run is from continuous motion, where the reference has a law.
   bool ledger = false;       ///< Attribute every event on which a contender and the twin differ to a cause.
-  std::string trace_stem;    ///< Empty: no traces.
+  std::string trace_stem{};  ///< Empty: no traces.
   int max_replay_steps = 0;  ///< Kept per run for the report; 0: none.
   /// Called with 0 before the first step, and then now and then with the share of the steps that is done.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress{};
 };
 
 /// The contenders that run, the reference among them where it is wanted.

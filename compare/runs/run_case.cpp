@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -17,25 +16,6 @@ namespace {
 
 /// A recorded step takes about a kilobyte of memory.
 constexpr int most_recorded_steps = 100'000;
-
-std::vector<ParameterSetting> settings_of(const Case& one) {
-  std::vector<ParameterSetting> settings;
-  for (const Case::Setting& each : one.parameters) settings.push_back(parse_setting(each.key + "=" + each.value));
-  return settings;
-}
-
-RunOptions options_of(const Case& one) {
-  RunOptions options;
-  options.contenders = {one.contender};
-  options.scalars = {one.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64};
-  options.steps = one.steps;
-  options.random_input = one.seed;
-  for (const Case::Setting& each : one.knobs) options.knobs.push_back({each.key, each.value});
-  options.full_plan = one.full_plan;
-  options.reference = false;
-  options.measure_cost = false;
-  return options;
-}
 
 /// What is wanted of a run besides its row.
 struct Extras {
@@ -50,9 +30,15 @@ ReportScene run_alone(const Case& one, const Extras& extras) {
     if (one.mode != "free" || one.reference) throw std::invalid_argument("a Case runs free and by itself");
     if (!one.peer.empty() && find_peer(one.contender) == nullptr) add_peer({one.contender, one.peer});
     const Scene scene = scene_of(one);
-    RunOptions options = options_of(one);
-    options.continuous = extras.beside_motion;
-    options.measure_cost = extras.timed;
+    RunOptions options{.contenders = {one.contender},
+                       .scalars = {one.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64},
+                       .steps = one.steps,
+                       .random_input = one.seed,
+                       .knobs = one.knobs,
+                       .full_plan = one.full_plan,
+                       .reference = false,
+                       .measure_cost = extras.timed,
+                       .continuous = extras.beside_motion};
     if (extras.recorded) options.max_replay_steps = one.steps.value_or(scene.steps);
     if (options.max_replay_steps > most_recorded_steps) throw std::length_error("too many steps to record");
     result = run_scene(scene, options);
@@ -65,7 +51,11 @@ ReportScene run_alone(const Case& one, const Extras& extras) {
 
 }  // namespace
 
-Scene scene_of(const Case& one) { return load_scene(one.scene, settings_of(one)); }
+Scene scene_of(const Case& one) {
+  std::vector<ParameterSetting> settings;
+  for (const Case::Setting& each : one.parameters) settings.push_back(parse_setting(each.key + "=" + each.value));
+  return load_scene(one.scene, settings);
+}
 
 Row run_case(const Case& one) { return run_alone(one, {}).rows.front(); }
 
@@ -94,7 +84,7 @@ std::optional<Case> case_of(const RunOptions& options, const std::string& scene,
   one.peer = peer_command(row.contender);
   if (!is_reference(row.contender)) one.scalar = row.scalar;
   for (const KnobSetting& each : options.knobs)
-    if (has_knob(row.contender, each.name)) one.knobs.push_back({each.name, each.value});
+    if (has_knob(row.contender, each.key)) one.knobs.push_back(each);
   one.seed = options.random_input;
   one.steps = options.steps;
   one.mode = row.mode;
@@ -109,9 +99,7 @@ Row failed_row(const Case& one, const std::string& reason) {
   row.contender = one.contender;
   row.scalar = is_reference(one.contender) ? "float" : one.scalar;
   row.mode = one.mode;
-  std::vector<KnobSetting> knobs;
-  for (const Case::Setting& each : one.knobs) knobs.push_back({each.key, each.value});
-  row.knob = turned_knobs(knobs, one.contender);
+  row.knob = turned_knobs(one.knobs, one.contender);
   row.verdict = Verdict::failed;
   row.reason = reason;
   put_case(one, row);

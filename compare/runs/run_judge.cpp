@@ -28,7 +28,7 @@ constexpr double lost_beyond = 10;
 
 /// Whether it says that it has met two surfaces that face different ways.
 bool is_between(const TraceStep& record) {
-  return std::any_of(record.contacts.begin(), record.contacts.end(), [&](const Contact& contact) {
+  return std::ranges::any_of(record.contacts, [&](const Contact& contact) {
     return contact.normal.dot(record.contacts.front().normal) < same_face;
   });
 }
@@ -49,7 +49,7 @@ RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
                           .intent = Intent(header_)});
   if (header.characters > 1) company_ = std::make_unique<CompanyJudge>(header_);
   const auto is_known = [](const MoverScript& script) { return !script.path.empty(); };
-  if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known))
+  if (!header_.scripts.empty() && std::ranges::all_of(header_.scripts, is_known))
     ways_.emplace(header_, header_.scripts);
 }
 
@@ -74,7 +74,7 @@ bool RunJudge::is_beside_another(const TraceStep& turn, const Follower& follower
   const auto went_near = [&](const std::vector<MoverMotion>& movers) {
     const std::vector<ColliderIndex> near =
         scenery().near(Place(turn.path.front(), movers), Place(turn.path.back(), movers), beside);
-    return std::any_of(near.begin(), near.end(), went);
+    return std::ranges::any_of(near, went);
   };
   return went_near(turn.movers) || went_near(before);
 }
@@ -170,19 +170,16 @@ void RunJudge::add(std::span<TraceStep> all) {
     follower.inside = judgements_[k].end_overlap;
     follower.intent.end(records[k]);
     follower.last.push_back(asked[k]);
-    follower.last_wanted.push_back(follower.wanted);
-    if (follower.last.size() > 2) {
-      follower.last.erase(follower.last.begin());
-      follower.last_wanted.erase(follower.last_wanted.begin());
-    }
+    if (follower.last.size() > 2) follower.last.erase(follower.last.begin());
+    follower.last_wanted = follower.wanted;
   }
   if (in_turns_) judge_carrying(all);
   ++steps_;
-  const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
+  const auto any = [this](const auto& is) { return std::ranges::any_of(judgements_, is); };
   steps_broken_ += any([](const StepJudgement& judged) { return judged.broke(); });
   broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
   disagreements_ += any([](const StepJudgement& judged) { return !judged.methods_disagree.empty(); });
-  steps_capped_ += std::any_of(records.begin(), records.end(), [](const TraceStep& record) { return record.capped; });
+  steps_capped_ += std::ranges::any_of(records, [](const TraceStep& record) { return record.capped; });
 }
 
 /// Who rides on another character goes as fast as that one does when it ends its step.
@@ -246,7 +243,7 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
   };
   std::string fault;
   if (path.front().fraction != 0 || path.back().fraction != 1 ||
-      !std::is_sorted(path.begin(), path.end(), [](const auto& a, const auto& b) { return a.fraction < b.fraction; }))
+      !std::ranges::is_sorted(path, {}, &PathPoint::fraction))
     fault = "the fractions of its way do not ascend from 0 to 1";
   if (refused_) {
     fault = "goes on after the step that it refused";
@@ -301,10 +298,10 @@ bool RunJudge::is_beside_what_turns(const TraceStep& record) const {
 /// Whether nothing near the character moves.
 bool RunJudge::stands(const TraceStep& record) const {
   if (record.respawn || is_beside_what_turns(record)) return false;
-  if (std::none_of(record.movers.begin(), record.movers.end(), moves)) return true;
+  if (std::ranges::none_of(record.movers, moves)) return true;
   const std::vector<ColliderIndex> near =
       scenery().near(Place(record.path.front(), record.movers), Place(record.path.back(), record.movers), beside);
-  return std::none_of(near.begin(), near.end(), [&](ColliderIndex collider) {
+  return std::ranges::none_of(near, [&](ColliderIndex collider) {
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
     return mover != no_mover && moves(record.movers[mover]);
   });
@@ -349,8 +346,8 @@ void RunJudge::add_refused(const TraceStep& record) {
   const double fastest = begin.velocity.norm() + character.jump_speed + character.walk_speed +
                          character.acceleration * dt + gravity_in(record, header_).norm() * dt;
   const bool may = !(dt > 0) || !(begin.position.cwiseAbs().maxCoeff() + fastest * dt < range);
-  const bool movers_leave = std::any_of(header_.scripts.begin(), header_.scripts.end(), [](const MoverScript& script) {
-    return std::any_of(script.path.begin(), script.path.end(), [](const MoverScript::Waypoint& waypoint) {
+  const bool movers_leave = std::ranges::any_of(header_.scripts, [](const MoverScript& script) {
+    return std::ranges::any_of(script.path, [](const MoverScript::Waypoint& waypoint) {
       return !(waypoint.at.cwiseAbs().maxCoeff() < range);
     });
   });
@@ -381,45 +378,37 @@ void RunJudge::write(Row& row) const {
 
 /// Where it falls short, whatever it promises.
 void RunJudge::write_faults(Row& row) const {
-  const auto fault = [&](Axis axis, Verdict verdict, const std::string& words) {
-    add_fault(row, axis, verdict, words);
-  };
-  const auto on_steps = [&](const std::optional<int>& steps, const std::string& what) {
+  const auto on_steps = [&](Axis axis, const std::optional<int>& steps, const std::string& what) {
     if (steps.value_or(0) > 0)
-      fault(Axis::progress, Verdict::flagged, fmt::format("{} on {}", what, counted(*steps, "step")));
+      add_fault(row, axis, Verdict::flagged, fmt::format("{} on {}", what, counted(*steps, "step")));
   };
-  if (const int unsure = row.undecided_steps.value_or(0); unsure > 0)
-    fault(Axis::safety, Verdict::flagged, fmt::format("too near to what turns to tell on {}", counted(unsure, "step")));
-  on_steps(row.dropped_steps, "drops displacement");
+  on_steps(Axis::safety, row.undecided_steps, "too near to what turns to tell");
+  on_steps(Axis::progress, row.dropped_steps, "drops displacement");
   if (disagreements_ > 0)
-    fault(Axis::validity, Verdict::failed,
-          fmt::format("the judge's two methods disagree on {}", counted(disagreements_, "step")));
+    add_fault(row, Axis::validity, Verdict::failed,
+              fmt::format("the judge's two methods disagree on {}", counted(disagreements_, "step")));
   if (steps_capped_ > 0)
-    fault(Axis::validity, Verdict::flagged,
-          fmt::format("{} beyond the way that its maker documents as the most in a step, not scored",
-                      counted(steps_capped_, "step")));
+    add_fault(row, Axis::validity, Verdict::flagged,
+              fmt::format("{} beyond the way that its maker documents as the most in a step, not scored",
+                          counted(steps_capped_, "step")));
   if (!header_.guarantees.empty()) return;  // the rest are clauses
   if (row.first_tunnel)                     // the first passage in words says more than how many there are
-    fault(Axis::safety, Verdict::tunnels, row.first_tunnel->words);
+    add_fault(row, Axis::safety, Verdict::tunnels, row.first_tunnel->words);
   if (row.steps_ending_inside.value_or(0) > 0 && steps_broken_ > 0)
-    fault(Axis::safety, Verdict::flagged,
-          fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(*row.steps_ending_inside, "step"),
-                      broke_company_ ? "a solid or another character" : "a solid", row.max_penetration_m.value_or(0)));
-  if (const int passed = row.one_way_violations.value_or(0); passed > 0)
-    fault(Axis::safety, Verdict::flagged,
-          fmt::format("passes a one-way chain against its normal on {}", counted(passed, "step")));
-  if (row.crushes_refuted.value_or(0) > 0)
-    fault(Axis::safety, Verdict::flagged,
-          fmt::format("a crush with room to give way on {}", counted(*row.crushes_refuted, "step")));
-  on_steps(row.hanging_steps, "hangs");
-  on_steps(row.stuck_refuted, "says it is stuck beside a way out");
-  on_steps(row.ground_refuted, no_ground(header_));
+    add_fault(
+        row, Axis::safety, Verdict::flagged,
+        fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(*row.steps_ending_inside, "step"),
+                    broke_company_ ? "a solid or another character" : "a solid", row.max_penetration_m.value_or(0)));
+  on_steps(Axis::safety, row.one_way_violations, "passes a one-way chain against its normal");
+  on_steps(Axis::safety, row.crushes_refuted, "a crush with room to give way");
+  on_steps(Axis::progress, row.hanging_steps, "hangs");
+  on_steps(Axis::progress, row.stuck_refuted, "says it is stuck beside a way out");
+  on_steps(Axis::progress, row.ground_refuted, no_ground(header_));
   if (const double share = row.wanted_motion_lost.value_or(0); share > most_motion_lost)
-    fault(Axis::progress, Verdict::flagged,
-          fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * share));
+    add_fault(row, Axis::progress, Verdict::flagged,
+              fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * share));
   if (const auto other = breaches_.find(Clause::wanted); other != breaches_.end())
-    fault(Axis::validity, Verdict::flagged,
-          fmt::format("was asked for another motion than the scene wants on {}", counted(other->second.steps, "step")));
+    on_steps(Axis::validity, other->second.steps, "was asked for another motion than the scene wants");
 }
 
 }  // namespace paperproof::compare

@@ -52,11 +52,11 @@ class RunJudge {
     Wanted wanted{};
     std::vector<ColliderIndex> inside{};  ///< What the octagon overlaps now, exactly.
     std::vector<TraceStep> last{};        ///< Two steps, the earlier one first; none before the first step.
-    std::vector<Wanted> last_wanted{};
-    bool begins = true;               ///< The next step does not continue one.
-    int steps_alone = 0;              ///< So many in a row none is near that went since the one before.
-    std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
-    Vec2d crept{Vec2d::Zero()};       ///< Over its steps, less a share of its way: see `StepJudgement::crept` [m].
+    Wanted last_wanted{};                 ///< In the later of them.
+    bool begins = true;                   ///< The next step does not continue one.
+    int steps_alone = 0;                  ///< So many in a row none is near that went since the one before.
+    std::optional<Vec2d> stood_at{};      ///< Where it has begun to stand still, as it says.
+    Vec2d crept{Vec2d::Zero()};           ///< Over its steps, less a share of its way: see `StepJudgement::crept` [m].
   };
 
   void note(Clause clause, const TraceStep& record, const std::string& what);

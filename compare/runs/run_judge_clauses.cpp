@@ -4,7 +4,6 @@
 #include "contains.hpp"
 #include "oracle/legs.hpp"
 #include "oracle/response_laws.hpp"
-#include "oracle/turning.hpp"
 #include "oracle/up.hpp"
 #include "runs/run_judge_limits.hpp"
 
@@ -30,63 +29,54 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   const auto name = [&](const std::vector<ColliderIndex>& colliders) {
     return colliders.empty() ? std::string("another character") : "`" + header_.ids[colliders.front()] + "`";
   };
-  const auto check = [&](Clause clause, bool broken, const auto& words) {
-    if (broken) note(clause, record, words());
-  };
-  check(Clause::overlap, !judged.entered.empty() || !judged.company.entered.empty(),
-        [&] { return "ends inside " + name(judged.entered); });
-  check(Clause::passage, !judged.tunnelled.empty() || !judged.company.passed.empty(),
-        [&] { return "passes through " + name(judged.tunnelled); });
-  check(Clause::one_way, !judged.one_way_broken.empty(),
-        [&] { return "passes " + name(judged.one_way_broken) + " against its normal"; });
-  check(Clause::gap, judged.max_contact_gap > guaranteed_gap,
-        [&] { return "a contact is " + metres(judged.max_contact_gap) + " away"; });
-  check(Clause::normal, judged.normal_error.value_or(0) > rounding_of_normal,
-        [&] { return fmt::format("a normal is {:.3g} degrees off", *judged.normal_error); });
-  check(Clause::normal,
-        std::any_of(record.contacts.begin(), record.contacts.end(),
-                    [](const Contact& contact) { return std::abs(contact.normal.norm() - 1) > rounding_of_unit; }),
-        [] { return std::string("a normal is no unit vector"); });
-  check(Clause::sensor, judged.sensor_events_missing > 0 || judged.sensor_events_extra > 0, [&] {
-    return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
-                                                        : "reports a sensor's event that was none");
-  });
-  check(Clause::sensor, judged.max_sensor_way > guaranteed_gap,
-        [&] { return fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error); });
-  check(Clause::sensor,
-        !std::is_sorted(record.sensors.begin(), record.sensors.end(),
-                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; }),
-        [] { return std::string("the events of sensors are not in order of time"); });
-  check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
-  check(Clause::start_inside, judged.start_mishandled,
-        [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
-  check(Clause::velocity, !(judged.way_gained <= 0),
-        [&] { return "goes " + metres(judged.way_gained) + " more or less than the law allows"; });
-  check(Clause::velocity, !(judged.leg_error <= 0),
-        [&] { return "goes another way than the law makes, by " + metres(judged.leg_error); });
-  check(Clause::velocity, !(judged.end_error <= 0),
-        [&] { return "goes another way than its velocity at the end says, by " + metres(judged.end_error); });
-  check(Clause::velocity, !(judged.speed_gained <= 0),
-        [&] { return fmt::format("is {:.3g} m/s faster or slower than the law allows", judged.speed_gained); });
-  check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
-  check(Clause::speed_lost, judged.motion_lost > 0,
-        [&] { return "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing"; });
-  check(Clause::speed_lost, judged.motion_lost == 0 && (judged.speed_lost > 0 || judged.ghost_speed_loss > 0), [&] {
-    return judged.speed_lost > 0
-               ? fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost)
-               : fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss);
-  });
-  check(Clause::ground_invented, judged.ground_refuted, [&] { return no_ground(header_); });
-  check(Clause::ground_missed, judged.ground_missed,
-        [] { return std::string("stands on ground, and says it does not"); });
-  check(Clause::ground_missed, judged.ground_left,
-        [] { return std::string("leaves ground that `snap` has it follow"); });
-  check(Clause::speed_lost, judged.kerb_missed,
-        [] { return std::string("is stopped by what `step_height` has it climb"); });
-  check(Clause::crush, !judged.crushed_with_room.empty(),
-        [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
-  check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
-        [] { return std::string("takes a step that must be refused"); });
+  const auto broken = [&](Clause clause, const std::string& words) { note(clause, record, words); };
+  const auto is_no_unit = [](const Contact& contact) { return std::abs(contact.normal.norm() - 1) > rounding_of_unit; };
+  if (!judged.entered.empty() || !judged.company.entered.empty())
+    broken(Clause::overlap, "ends inside " + name(judged.entered));
+  if (!judged.tunnelled.empty() || !judged.company.passed.empty())
+    broken(Clause::passage, "passes through " + name(judged.tunnelled));
+  if (!judged.one_way_broken.empty())
+    broken(Clause::one_way, "passes " + name(judged.one_way_broken) + " against its normal");
+  if (judged.max_contact_gap > guaranteed_gap)
+    broken(Clause::gap, "a contact is " + metres(judged.max_contact_gap) + " away");
+  if (judged.normal_error.value_or(0) > rounding_of_normal)
+    broken(Clause::normal, fmt::format("a normal is {:.3g} degrees off", *judged.normal_error));
+  if (std::ranges::any_of(record.contacts, is_no_unit)) broken(Clause::normal, "a normal is no unit vector");
+  if (judged.sensor_events_missing > 0)
+    broken(Clause::sensor, "a sensor's event is missing");
+  else if (judged.sensor_events_extra > 0)
+    broken(Clause::sensor, "reports a sensor's event that was none");
+  if (judged.max_sensor_way > guaranteed_gap)
+    broken(Clause::sensor, fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error));
+  if (!std::ranges::is_sorted(record.sensors, {}, &SensorEvent::fraction))
+    broken(Clause::sensor, "the events of sensors are not in order of time");
+  if (judged.stuck_refuted) broken(Clause::start_inside, "says it is stuck beside a way out");
+  if (judged.start_mishandled)
+    broken(Clause::start_inside, "begins inside, and neither leaves by the shortest way out nor stays and says so");
+  if (!(judged.way_gained <= 0))
+    broken(Clause::velocity, "goes " + metres(judged.way_gained) + " more or less than the law allows");
+  if (!(judged.leg_error <= 0))
+    broken(Clause::velocity, "goes another way than the law makes, by " + metres(judged.leg_error));
+  if (!(judged.end_error <= 0))
+    broken(Clause::velocity, "goes another way than its velocity at the end says, by " + metres(judged.end_error));
+  if (!(judged.speed_gained <= 0))
+    broken(Clause::velocity, fmt::format("is {:.3g} m/s faster or slower than the law allows", judged.speed_gained));
+  if (judged.hangs) broken(Clause::hanging, "hangs in the air");
+  if (judged.motion_lost > 0)
+    broken(Clause::speed_lost, "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing");
+  else if (judged.motion_lost == 0 && judged.speed_lost > 0)
+    broken(Clause::speed_lost, fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost));
+  else if (judged.motion_lost == 0 && judged.ghost_speed_loss > 0)
+    broken(Clause::speed_lost,
+           fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss));
+  if (judged.ground_refuted) broken(Clause::ground_invented, no_ground(header_));
+  if (judged.ground_missed) broken(Clause::ground_missed, "stands on ground, and says it does not");
+  if (judged.ground_left) broken(Clause::ground_missed, "leaves ground that `snap` has it follow");
+  if (judged.kerb_missed) broken(Clause::speed_lost, "is stopped by what `step_height` has it climb");
+  if (!judged.crushed_with_room.empty())
+    broken(Clause::crush, "is crushed by " + name(judged.crushed_with_room) + " with room to give way");
+  if (record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0))
+    broken(Clause::refusal, "takes a step that must be refused");
   judge_places(record, judged);
 }
 
@@ -118,8 +108,8 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const std::optional<TraceRide> carrier = record.from             ? record.from->ride
                                            : follower.last.empty() ? std::nullopt
                                                                    : follower.last.back().ride;
-  const bool is_bounded_only = std::any_of(surfaces.begin(), surfaces.end(), turns) ||
-                               (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
+  const bool is_bounded_only =
+      std::ranges::any_of(surfaces, turns) || (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
   if (is_bounded_only) return;
   if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
 }

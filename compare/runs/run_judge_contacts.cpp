@@ -28,15 +28,15 @@ bool is_point_of(const TraceStep& record, const Contact& contact, std::span<cons
     const Vec2d point = contact.point - at.position;
     return box.contains({point, point});
   };
-  return std::abs(contact.separation) <= near && std::any_of(record.path.begin(), record.path.end(), is_there);
+  return std::abs(contact.separation) <= near && std::ranges::any_of(record.path, is_there);
 }
 
 /// Whether a face of what a contact is with has its normal, or nearly so.
 bool has_face(std::span<const NearPart> parts, const Contact& contact) {
-  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.collider == contact.collider &&
-           std::any_of(part.faces.begin(), part.faces.end(),
-                       [&](const NearFace& face) { return face.normal.dot(contact.normal) > same_face; });
+  return std::ranges::any_of(parts, [&](const NearPart& part) {
+    return part.collider == contact.collider && std::ranges::any_of(part.faces, [&](const NearFace& face) {
+             return face.normal.dot(contact.normal) > same_face;
+           });
   });
 }
 
@@ -53,9 +53,8 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
                        header_.ids[contact.collider], contact.fraction, metres(off)));
   };
   if (judged.first_impact && judged.first_approach) {
-    const auto first = std::min_element(record.contacts.begin(), record.contacts.end(),
-                                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
-    const bool is_exact = std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
+    const auto first = std::ranges::min_element(record.contacts, {}, &Contact::fraction);
+    const bool is_exact = std::ranges::any_of(judged.contacts, [&](const ExactContact& exact) {
       return exact.collider == first->collider && exact.side == first->side && exact.foreseen;
     });
     // It stops up to 7e-7 m before the impact, and the exact fraction counts from there on.
@@ -63,17 +62,16 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
       check(*first, std::abs(first->fraction - *judged.first_impact) * *judged.first_approach, guaranteed_gap);
   }
   const detail::TurningJudge& turning = followers_.front().judge->turning();
-  const bool meets_turning = std::any_of(record.contacts.begin(), record.contacts.end(),
-                                         [&](const auto& contact) { return turning.turns(contact.collider); });
+  const bool meets_turning =
+      std::ranges::any_of(record.contacts, [&](const auto& contact) { return turning.turns(contact.collider); });
   const bool in_parts = parts_of(record.vertex_ways) > 1;
   for (const Contact& contact : record.contacts) {
     if (in_parts || !turning.turns(contact.collider) || !judged.end_overlap.empty()) continue;
     std::vector<PathPoint> then{{place_at(record.path, contact.fraction), contact.fraction}};
-    std::copy_if(record.path.begin(), record.path.end(), std::back_inserter(then),
-                 [&](const PathPoint& corner) { return corner.fraction == contact.fraction; });
-    const bool is_there = std::any_of(then.begin(), then.end(), [&](const PathPoint& at) {
-      return has_face(turning.near(record, at, 3 * guaranteed_gap), contact);
-    });
+    std::ranges::copy_if(record.path, std::back_inserter(then),
+                         [&](const PathPoint& corner) { return corner.fraction == contact.fraction; });
+    const bool is_there = std::ranges::any_of(
+        then, [&](const PathPoint& at) { return has_face(turning.near(record, at, 3 * guaranteed_gap), contact); });
     if (!is_there)
       note(Clause::time_of_impact, record,
            fmt::format("says it met `{}` at {:.6g} of the step, and was not there", header_.ids[contact.collider],
@@ -86,7 +84,7 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
         mover != no_mover ? Vec2d(record.movers[mover].to - record.movers[mover].from) : Vec2d::Zero();
     // Of one collider that is the first contact: a later one is another face, and is met where the way comes to it.
     const auto is_of_it = [&](const Contact& one) { return one.collider == contact.collider; };
-    const Contact& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
+    const Contact& first = *std::ranges::find_if(record.contacts, is_of_it);
     const auto is_there = [&](const PathPoint& corner) {
       const Place at(corner, record.movers);
       if (&first == &contact) return scenery().separation(at, contact.collider) <= guaranteed_gap;
@@ -177,13 +175,14 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
   if (excused) return;
   const detail::TurningJudge& turning = followers_.front().judge->turning();
   for (const Contact& contact : record.contacts) {
+    const auto wrong = [&](Clause clause, const char* how) {
+      note(clause, record, fmt::format("has a contact with `{}` {}", header_.ids[contact.collider], how));
+    };
     if (detail::side_along(contact.normal, up_in(record, header_)) != contact.side)
-      note(Clause::normal, record,
-           "has a contact with `" + header_.ids[contact.collider] + "` on another side than its normal says");
+      wrong(Clause::normal, "on another side than its normal says");
     if (turning.turns(contact.collider)) {
       if (!is_point_of(record, contact, header_.points))
-        note(Clause::contact_invented, record,
-             "has a contact with `" + header_.ids[contact.collider] + "` in a point that it does not come to");
+        wrong(Clause::contact_invented, "in a point that it does not come to");
       continue;
     }
     if (header_.is_body(contact.collider)) continue;  // a meeting has no point
@@ -194,8 +193,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
     const auto is_it = [&](const Contact& one) { return one.collider == exact.collider && one.side == exact.side; };
     const auto on_side = [&](const Contact& one) { return one.side == exact.side; };
     // Of a side where none is reported the metrics tell.
-    if (exact.first && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
-        std::none_of(record.contacts.begin(), record.contacts.end(), is_it))
+    if (exact.first && std::ranges::any_of(record.contacts, on_side) && std::ranges::none_of(record.contacts, is_it))
       note(Clause::contact_missed, record,
            fmt::format("does not report a contact: `{}`, {}", header_.ids[exact.collider], name_of(exact.side)));
   }

@@ -40,11 +40,11 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
   const auto is_asked_alike = [this](const TraceStep& a, const TraceStep& b) {
     return length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
   };
-  const bool repeated =
-      same(before, earlier) && stands(earlier) && stands(before) && stands(record) && follower.steps_alone > 2 &&
-      follower.last_wanted[1].displacement == follower.wanted.displacement &&
-      follower.last_wanted[1].steered == follower.wanted.steered && before.input.drop == record.input.drop &&
-      is_asked_alike(earlier, before) && is_asked_alike(before, record);
+  const bool repeated = same(before, earlier) && stands(earlier) && stands(before) && stands(record) &&
+                        follower.steps_alone > 2 && follower.last_wanted.displacement == follower.wanted.displacement &&
+                        follower.last_wanted.steered == follower.wanted.steered &&
+                        before.input.drop == record.input.drop && is_asked_alike(earlier, before) &&
+                        is_asked_alike(before, record);
   if (repeated && !same(record, before))
     note(Clause::rest, record,
          fmt::format("changes after position and velocity had repeated: goes {}, ends with ({:.3g}, {:.3g}) m/s, {}",
@@ -94,9 +94,9 @@ bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follow
   const bool is_kept =
       !follower.last.empty() && !record.grounded && follower.last.back().ground_velocity == record.ground_velocity;
   if (record.ground_velocity.isZero(0) || is_kept || record.respawn || is_beside_what_turns(record)) return false;
-  return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint& at) {
+  return std::ranges::none_of(record.path, [&](const PathPoint& at) {
     const std::vector<NearPart> parts = scenery().near_parts(Place(at, record.movers), guaranteed_gap);
-    return std::any_of(parts.begin(), parts.end(), [this](const NearPart& part) { return moves_or_conveys(part); });
+    return std::ranges::any_of(parts, [this](const NearPart& part) { return moves_or_conveys(part); });
   });
 }
 
@@ -123,7 +123,7 @@ bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follow
       }
     return stands;
   };
-  return std::all_of(record.path.begin(), record.path.end(), stands_on_what_moves);
+  return std::ranges::all_of(record.path, stands_on_what_moves);
 }
 
 /// What it says that it rides is there, and goes as it says.
@@ -145,8 +145,7 @@ void RunJudge::judge_carrier(const SolidsInStep& there, const Follower& follower
     for (const NearFace& face : part.faces) {
       if (part.collider != carrier || !(face.normal.dot(up) > 0)) continue;
       const Vec2d foot =
-          *std::min_element(header_.points.begin(), header_.points.end(),
-                            [&](const Vec2d& a, const Vec2d& b) { return a.dot(face.normal) < b.dot(face.normal); });
+          *std::ranges::min_element(header_.points, {}, [&](const Vec2d& point) { return point.dot(face.normal); });
       for (const SolidsInStep::Carrying& by :
            there.carrying(carrier, end.position + foot, detail::extent_of(header_.points))) {
         const Vec2d velocity = by.velocity + conveyed(header_.scenery.colliders[carrier], face.normal);
@@ -173,8 +172,9 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
   const Vec2d up = up_in(record, header_);
   const Vec2d own = follower.wanted.displacement - (motion.to - motion.from);
   const bool stays = std::abs(own.dot(right_of(up))) == 0 && own.dot(up) <= 0 &&
-                     std::all_of(record.contacts.begin(), record.contacts.end(),
-                                 [&](const Contact& contact) { return contact.collider == record.ride->collider; });
+                     std::ranges::all_of(record.contacts, [&](const Contact& contact) {
+                       return contact.collider == record.ride->collider;
+                     });
   if (!stays || follower.last.size() < 2) return;
   const std::optional<TraceRide>& earlier = follower.last[0].ride;
   if (!earlier || earlier->collider != before->collider) return;

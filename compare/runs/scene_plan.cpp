@@ -2,6 +2,7 @@
 
 #include "runs/contender.hpp"
 #include "runs/cost.hpp"
+#include "words.hpp"
 
 #include <paperproof/scenery.hpp>
 
@@ -76,8 +77,9 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   plan.measured.gravity = scene.gravity;
   if (planning.full) return plan;
   const std::vector<ColliderDef>& colliders = scene.scenery.colliders;
-  const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
-  const auto leave_out = [&plan](bool needed, bool Measured::*member, const char* metric, const char* reason) {
+  const auto any = [&colliders](auto&& test) { return std::ranges::any_of(colliders, test); };
+  const auto leave_out = [&plan](bool needed, bool Measured::*member, std::string_view metric,
+                                 std::string_view reason) {
     if (member != nullptr) plan.measured.*member = needed;
     if (!needed) plan.omitted.push_back({metric, reason});
   };
@@ -96,15 +98,14 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
 
 std::string describe_plan(const Scene& scene, const Scenery& scenery) {
   const LevelPlan plan = plan_of(scenery, {});
-  const std::size_t pieces = scenery.pieces().size();
   std::string out = scene.name + "\n";
-  out += fmt::format("  looks at     pieces whose boxes meet the step's, of {} {}\n", pieces,
-                     pieces == 1 ? "piece" : "pieces");
+  out += fmt::format("  looks at     pieces whose boxes meet the step's, of {}\n",
+                     counted(scenery.pieces().size(), "piece"));
   for (const Omission& omission : plan.omitted)
     out += fmt::format("  without      {}: {}\n", omission.stage, omission.reason);
   if (plan.omitted.empty()) out += "  without      nothing: the level has everything\n";
-  for (const MetricOmission& omission : metrics_for(scene, {}).omitted)
-    out += fmt::format("  not measured {}: {}\n", omission.metric, omission.reason);
+  for (const Omission& omission : metrics_for(scene, {}).omitted)
+    out += fmt::format("  not measured {}: {}\n", omission.stage, omission.reason);
   return out;
 }
 

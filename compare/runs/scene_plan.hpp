@@ -23,7 +23,7 @@ struct Planning {
 
 struct MetricPlan {
   Measured measured;
-  std::vector<MetricOmission> omitted;  ///< Those, and what has no cause in the scene.
+  std::vector<Omission> omitted;  ///< Those, and what has no cause in the scene.
 };
 [[nodiscard]] MetricPlan metrics_for(const Scene& scene, const Planning& planning);
 

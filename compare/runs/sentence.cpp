@@ -1,6 +1,8 @@
-#include "runs/sentence.hpp"
+#include "runs/row_views.hpp"
 
+#include "contains.hpp"
 #include "metrics/agreement.hpp"
+#include "runs/view.hpp"
 #include "words.hpp"
 
 #include <paperproof/box2d/reference_world.hpp>
@@ -38,7 +40,7 @@ std::string plural(const std::vector<std::string>& names, const char* one, const
 
 /// What may not be passed.
 const char* solid_in(const std::vector<Row>& rows) {
-  const bool several = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.characters.has_value(); });
+  const bool several = std::ranges::any_of(rows, [](const Row& row) { return row.characters.has_value(); });
   return several ? "a solid or another character" : "a solid";
 }
 
@@ -51,14 +53,12 @@ std::string passage(const Row& row) {
 std::string about_tunnels(const std::vector<Row>& rows) {
   const auto passes = [](const Row& row) { return was_judged(row) && row.tunnels.value_or(0) > 0; };
   const auto firm = those(rows, [&](const Row& row) { return was_judged(row) && !passes(row); });
-  std::vector<std::string> told;
+  std::vector<std::pair<std::string, std::vector<std::string>>> wrong;
+  for (const Row& row : rows)
+    if (passes(row)) entry_of(wrong, passage(row)).push_back(called(row));
   std::string text;
-  for (const Row& row : rows) {
-    if (!passes(row) || std::find(told.begin(), told.end(), passage(row)) != told.end()) continue;
-    told.push_back(passage(row));
-    const auto same = those(rows, [&](const Row& other) { return passes(other) && passage(other) == passage(row); });
-    text += fmt::format("{} {} wrong: {}. ", listed(same), plural(same, "is", "are"), passage(row));
-  }
+  for (const auto& [words, same] : wrong)
+    text += fmt::format("{} {} wrong: {}. ", listed(same), plural(same, "is", "are"), words);
   if (firm.empty()) return text;
   if (text.empty()) return fmt::format("Nobody passes {}. ", solid_in(rows));
   return text + fmt::format("{} {} not pass. ", listed(firm), plural(firm, "does", "do"));
@@ -117,15 +117,15 @@ std::string shared_reason(const Row& row) {
 
 std::string about_limits(const std::vector<Row>& rows) {
   const auto limited = [](const Row& row) {
-    const bool told = row.steps_ending_inside.value_or(0) > 0 &&  // by about_overlap
-                      std::all_of(row.faults.begin(), row.faults.end(),
-                                  [](const AxisFault& fault) { return fault.axis == Axis::safety; });
+    const bool told =
+        row.steps_ending_inside.value_or(0) > 0 &&  // by about_overlap
+        std::ranges::all_of(row.faults, [](const AxisFault& fault) { return fault.axis == Axis::safety; });
     return (row.verdict == Verdict::flagged && !told) || !was_judged(row);
   };
   std::vector<std::string> told;
   std::string text;
   for (const Row& row : rows) {
-    if (!limited(row) || std::find(told.begin(), told.end(), shared_reason(row)) != told.end()) continue;
+    if (!limited(row) || contains(told, shared_reason(row))) continue;
     told.push_back(shared_reason(row));
     const auto same =
         those(rows, [&](const Row& other) { return limited(other) && shared_reason(other) == shared_reason(row); });

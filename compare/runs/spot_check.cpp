@@ -1,5 +1,6 @@
 #include "runs/spot_check.hpp"
 
+#include "contains.hpp"
 #include "oracle/company.hpp"
 #include "runs/contender.hpp"
 #include "runs/run_case.hpp"
@@ -23,9 +24,7 @@ struct Asked {
   Vec2d place;
   std::vector<std::string> overlapped;
   [[nodiscard]] bool free() const { return overlapped.empty(); }
-  [[nodiscard]] bool has(const std::string& id) const {
-    return std::find(overlapped.begin(), overlapped.end(), id) != overlapped.end();
-  }
+  [[nodiscard]] bool has(const std::string& id) const { return contains(overlapped, id); }
   [[nodiscard]] std::string words() const {
     return fmt::format("{} at ({:.4f}, {:.4f})",
                        free() ? "free" : fmt::format("overlaps {}", fmt::join(overlapped, ", ")), place.x(), place.y());
@@ -67,9 +66,9 @@ void ask_on_the_way(Engine& engine, const std::vector<TraceStep>& steps, const s
     }
     if (step.step == check.step) way.push_back(engine.ask(step, 1, step.path.back().position));
   }
-  const bool is_named = std::any_of(way.begin(), way.end(), [&](const Asked& asked) { return asked.has(solid); });
+  const bool is_named = std::ranges::any_of(way, [&](const Asked& asked) { return asked.has(solid); });
   const auto is_free = [&](const Asked& asked) { return is_named ? !asked.has(solid) : asked.free(); };
-  const auto before = std::find_if(way.begin(), way.end(), is_free);
+  const auto before = std::ranges::find_if(way, is_free);
   const auto within = std::find_if_not(before, way.end(), is_free);
   const auto last = way.empty() ? way.end() : way.end() - 1;
   check.confirmed = within != way.end() && is_free(*last) ? "yes" : "no";
@@ -111,13 +110,12 @@ void ask_below(Engine& engine, const std::vector<TraceStep>& steps, SpotCheck& c
 }  // namespace
 
 SpotCheck spot_check(const Case& one, ReportEvent::Kind hole) {
-  SpotCheck check{0, "", "", "-"};
+  SpotCheck check;
   const ReportScene excerpt = excerpt_of(one, steps_around);
-  if (excerpt.runs.empty()) return {0, "", "the run cannot be made again: " + excerpt.rows.front().reason, "-"};
+  if (excerpt.runs.empty()) return {.engine = "the run cannot be made again: " + excerpt.rows.front().reason};
   const ReportRun& run = excerpt.runs.front();
-  const auto event =
-      std::find_if(run.events.begin(), run.events.end(), [&](const ReportEvent& each) { return each.kind == hole; });
-  if (event == run.events.end()) return {0, "", "nothing of the kind is in the record", "-"};
+  const auto event = std::ranges::find(run.events, hole, &ReportEvent::kind);
+  if (event == run.events.end()) return {.engine = "nothing of the kind is in the record"};
   check.step = event->step;
   check.judge = event->words;
   try {

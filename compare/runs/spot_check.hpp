@@ -10,9 +10,9 @@ namespace paperproof::compare {
 
 struct SpotCheck {
   int step = 0;
-  std::string judge;      ///< What the judge says of that step.
-  std::string engine;     ///< What the engine's own query says of the places of the record.
-  std::string confirmed;  ///< `yes`, `no`, or `-`: it has no query, or the run cannot be made again.
+  std::string judge{};          ///< What the judge says of that step.
+  std::string engine{};         ///< What the engine's own query says of the places of the record.
+  std::string confirmed = "-";  ///< `yes`, `no`, or `-`: it has no query, or the run cannot be made again.
 };
 
 /// Runs the Case of a peer again, and asks its engine what the character overlaps at the places that were recorded: on

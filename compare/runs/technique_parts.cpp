@@ -1,5 +1,6 @@
 #include "runs/technique_parts.hpp"
 
+#include "contains.hpp"
 #include "records/row.hpp"
 
 #include <paperproof/tolerances.hpp>
@@ -23,11 +24,16 @@ Contact recorded(Contact contact, Sides sides) {
   return contact;
 }
 
+std::optional<TraceRide> recorded(const Ride& ride) {
+  if (ride.ground == Ride::none) return std::nullopt;
+  return TraceRide{ride.ground, ride.velocity};
+}
+
 /// That the picture techniques take.
 constexpr double finest_raster = 1000;
 
 bool is_turned(std::span<const KnobSetting> knobs, std::string_view name) {
-  return std::any_of(knobs.begin(), knobs.end(), [name](const KnobSetting& each) { return each.name == name; });
+  return std::ranges::any_of(knobs, [name](const KnobSetting& each) { return each.key == name; });
 }
 
 /// Scenery of vectors is drawn as finely as can be, since there the resolution is a knob. A picture that is drawn
@@ -74,9 +80,24 @@ ArticleKnobs article_knobs(const TechniqueEntry& technique, const Scene& scene, 
   return def.article;
 }
 
-/// The steps in which the technique searches or moves [m]; 0 where it computes.
-double unit_of(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
-  return technique.unit == nullptr ? 0 : technique.unit(article_knobs(technique, scene, knobs));
+CharacterDef with_rules(const Scene& scene, const JumpRules& turned, bool usual) {
+  CharacterDef character = scene.character;
+  const JumpRules& said = scene.jump_rules;
+  character.no_jump_toward_wall = turned.no_jump_toward_wall.value_or(said.no_jump_toward_wall.value_or(usual));
+  character.side_hit_ends_rise = turned.side_hit_ends_rise.value_or(said.side_hit_ends_rise.value_or(usual));
+  return character;
+}
+
+/// What runs must be what the scene says: the judge sees the latter.
+/// @throws std::logic_error naming the collider that differs.
+void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vector<std::string>& ids) {
+  const auto same = [](const ColliderDef& a, const ColliderDef& b) {
+    return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.radius == b.radius &&
+           a.mover == b.mover && a.sensor == b.sensor && a.one_way.has_value() == b.one_way.has_value();
+  };
+  for (std::size_t i = 0; i < said.colliders.size(); ++i)
+    if (i >= runs.colliders.size() || !same(said.colliders[i], runs.colliders[i]))
+      throw std::logic_error(fmt::format("the collider \"{}\" that runs is not the scene's", ids[i]));
 }
 
 }  // namespace
@@ -118,18 +139,6 @@ TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, 
   return def;
 }
 
-namespace {
-
-CharacterDef with_rules(const Scene& scene, const JumpRules& turned, bool usual) {
-  CharacterDef character = scene.character;
-  const JumpRules& said = scene.jump_rules;
-  character.no_jump_toward_wall = turned.no_jump_toward_wall.value_or(said.no_jump_toward_wall.value_or(usual));
-  character.side_hit_ends_rise = turned.side_hit_ends_rise.value_or(said.side_hit_ends_rise.value_or(usual));
-  return character;
-}
-
-}  // namespace
-
 CharacterDef rules_for(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
   const std::optional<bool> turned = turned_jump_rules(knobs);
   return with_rules(scene, {turned, turned}, technique.name != "octagon_sweep");
@@ -141,26 +150,10 @@ double jump_rules_in_force(const CharacterDef& character) {
   return (character.no_jump_toward_wall ? 0.5 : 0) + (character.side_hit_ends_rise ? 0.5 : 0);
 }
 
-namespace {
-
-/// What runs must be what the scene says: the judge sees the latter.
-/// @throws std::logic_error naming the collider that differs.
-void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vector<std::string>& ids) {
-  const auto same = [](const ColliderDef& a, const ColliderDef& b) {
-    return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.radius == b.radius &&
-           a.mover == b.mover && a.sensor == b.sensor && a.one_way.has_value() == b.one_way.has_value();
-  };
-  for (std::size_t i = 0; i < said.colliders.size(); ++i)
-    if (i >= runs.colliders.size() || !same(said.colliders[i], runs.colliders[i]))
-      throw std::logic_error(fmt::format("the collider \"{}\" that runs is not the scene's", ids[i]));
-}
-
-}  // namespace
-
 std::vector<bool> turning_movers(const Scene& scene) {
   std::vector<bool> turning;
   for (const MoverDef& mover : scene.movers) turning.push_back(!mover.turns.empty());
-  if (std::find(turning.begin(), turning.end(), true) == turning.end()) turning.clear();
+  if (!contains(turning, true)) turning.clear();
   return turning;
 }
 
@@ -201,15 +194,19 @@ TraceHeader header_of(const TechniqueEntry& technique, ScalarKind scalar, const 
   header.ids = scene.ids;
   header.plan = plan_of(scenery, planning);
   header.tolerances = tolerances_of(scalar);
-  if (const double unit = unit_of(technique, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
+  // The steps in which the technique searches or moves; 0 where it computes.
+  const double unit = technique.unit == nullptr ? 0 : technique.unit(article_knobs(technique, scene, knobs));
+  if (unit > 0) header.tolerances.push_back({"unit", unit});
   if (technique.draws_level && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
     header.tolerances.push_back({"pixel", 1 / scene.pixels_per_metre});
   return header;
 }
 
-std::optional<TraceRide> recorded_ride(const Ride& ride) {
-  if (ride.ground == Ride::none) return std::nullopt;
-  return TraceRide{ride.ground, ride.velocity};
+void write_state(const CharacterState& state, TraceStep& record) {
+  record.velocity = state.velocity;
+  record.grounded = state.grounded;
+  record.jumping = state.jumping;
+  record.ride = recorded(state.ride);
 }
 
 void write_report(const StepReport& report, const CharacterState& state, Sides sides, TraceStep& record) {
@@ -218,11 +215,8 @@ void write_report(const StepReport& report, const CharacterState& state, Sides s
   record.path.assign(move.path.begin(), move.path.end());
   record.requested = report.requested;
   record.steered = report.steered;
-  record.velocity = state.velocity;
+  write_state(state, record);
   record.remainder = state.technique_memory;
-  record.grounded = state.grounded;
-  record.jumping = state.jumping;
-  record.ride = recorded_ride(state.ride);
   record.ground_velocity = state.ground.velocity;
   record.stuck = report.status == StepStatus::stuck;
   record.dropped = report.status == StepStatus::dropped;
@@ -243,22 +237,22 @@ void refuse_unusable(StepStatus status, std::string_view refusal) {
 
 Pose pose_of(const CharacterState& state) {
   return {.position = state.position,
-          .velocity = state.velocity,
-          .grounded = state.grounded,
-          .jumping = state.jumping,
-          .jump_held = state.jump_held,
-          .jump_pending = state.jump_pending,
-          .ride = {.ground = state.ride.ground, .place = state.ride.place, .velocity = state.ride.velocity}};
+          .state = {.velocity = state.velocity,
+                    .grounded = state.grounded,
+                    .jumping = state.jumping,
+                    .jump_held = state.jump_held,
+                    .jump_pending = state.jump_pending,
+                    .ride = recorded(state.ride)}};
 }
 
 CharacterState state_at(const Pose& pose, ScalarKind scalar) {
   CharacterState state;
   state.position = as_run(pose.position, scalar);
-  state.velocity = as_run(pose.velocity, scalar);
-  state.grounded = pose.grounded;
-  state.jumping = pose.jumping;
-  state.jump_held = pose.jump_held;
-  state.jump_pending = pose.jump_pending;
+  state.velocity = as_run(pose.state.velocity, scalar);
+  state.grounded = pose.state.grounded;
+  state.jumping = pose.state.jumping;
+  state.jump_held = pose.state.jump_held;
+  state.jump_pending = pose.state.jump_pending;
   return state;
 }
 

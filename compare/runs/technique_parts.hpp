@@ -37,15 +37,15 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
 [[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, ScalarKind scalar, const Scenery& scenery,
                                     const Scene& scene, const Planning& planning);
 
-/// What carries a character, as a record has it.
-[[nodiscard]] std::optional<TraceRide> recorded_ride(const Ride& ride);
-
 /// On which side of the character a contact is: the sides of the article's techniques are those that they search, and
 /// a trace has those that their normals say.
 enum class Sides : std::uint8_t { as_said, of_normals };
 [[nodiscard]] inline Sides sides_of(const TechniqueEntry& technique) {
   return technique.name == "octagon_sweep" ? Sides::as_said : Sides::of_normals;
 }
+
+/// Of the state in which a step ends: velocity, `grounded`, `jumping` and the ride.
+void write_state(const CharacterState& state, TraceStep& record);
 
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
 /// to what carries the character.
@@ -57,7 +57,7 @@ void refuse_unusable(StepStatus status, std::string_view refusal = {});
 
 [[nodiscard]] Pose pose_of(const CharacterState& state);
 
-/// A new story begins there.
+/// A new story begins there, without a ride.
 [[nodiscard]] CharacterState state_at(const Pose& pose, ScalarKind scalar = ScalarKind::binary64);
 
 }  // namespace paperproof::compare

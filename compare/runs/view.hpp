@@ -34,7 +34,7 @@ struct Table {
 template <class Line>
 [[nodiscard]] std::vector<Column<Line>> shown(const std::vector<Line>& lines, std::vector<Column<Line>> columns) {
   std::erase_if(columns, [&](const Column<Line>& column) {
-    return std::none_of(lines.begin(), lines.end(), [&](const Line& line) {
+    return std::ranges::none_of(lines, [&](const Line& line) {
       const Cell cell = column.cell(line);
       return cell && !(column.trouble && *cell == "0");
     });
@@ -62,7 +62,7 @@ template <class Line>
 /// What there is of a key, in the order in which keys came; made where there is nothing yet.
 template <class Value>
 [[nodiscard]] Value& entry_of(std::vector<std::pair<std::string, Value>>& all, const std::string& key) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == key; });
+  const auto found = std::ranges::find(all, key, &std::pair<std::string, Value>::first);
   return found != all.end() ? found->second : all.emplace_back(key, Value{}).second;
 }
 

@@ -52,8 +52,7 @@ class Party {
     const compare::StepInput input = cursor_.at(step_++);
     all.inputs.assign(input.players.begin(), input.players.end());
     all.dt = input.dt;
-    for (std::size_t k = 0; k < input.movers.size(); ++k)
-      all.movers[k] = {input.movers[k].from, input.movers[k].to, input.turns[k].from, input.turns[k].to};
+    std::ranges::copy(input.movers, all.movers.begin());
     all.step();
     return true;
   }

@@ -69,7 +69,7 @@ const Row& row_in(Runs& runs, const std::string& text) {
     options.full_plan = options.full_plan || words[i] == "full";
     if (words[i] == "full") continue;
     options.knobs.push_back(parse_knob(words[i]));
-    EXPECT_TRUE(has_knob(words[1], options.knobs.back().name)) << text;
+    EXPECT_TRUE(has_knob(words[1], options.knobs.back().key)) << text;
   }
   return runs[text] = run_scene(built_in(words.at(0)), options).rows.front();
 }

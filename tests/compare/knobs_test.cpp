@@ -44,7 +44,7 @@ TEST(Knobs, change_each_technique_that_has_them_on_some_scene) {
                            "square=0.5", "raster_pixels_per_metre=8", "pixels_per_tile=7"}) {
     const KnobSetting setting = parse_knob(text);
     for (const std::string_view kind : technique_names()) {
-      if (!has_knob(kind, setting.name)) continue;
+      if (!has_knob(kind, setting.key)) continue;
       bool changes = false;
       const std::string contender(kind);
       for (const Scene& scene : scenes)

@@ -59,7 +59,7 @@ TEST(VertexWays, are_as_many_chords_as_keep_them_within_their_sag) {
     const double radius = random.log_between(1e-3, 1e3);
     const double turn = random.log_between(1e-6, 30) * (random.chance(0.5) ? 1 : -1);
     VertexWay way;
-    add_turn({.points = {radius * towards(random.angle()), {0, 0}}}, {.angle = {0, turn}}, way);
+    add_turn({.points = {radius * towards(random.angle()), {0, 0}}}, {.to_angle = turn}, {}, way);
     const auto chords = static_cast<double>(way.instants.size() - 1);
     const auto sag = [&](double many) {
       return radius * (1 - std::cos(std::min(std::numbers::pi, std::abs(turn) / many / 2)));

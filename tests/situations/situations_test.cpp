@@ -64,7 +64,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
     std::vector<compare::KnobSetting> knobs;
     for (const std::string& knob : situation.knobs) {
       knobs.push_back(compare::parse_knob(knob));
-      ASSERT_TRUE(compare::has_knob(situation.contender, knobs.back().name)) << knob;
+      ASSERT_TRUE(compare::has_knob(situation.contender, knobs.back().key)) << knob;
     }
     const auto scalar = situation.in_float ? compare::ScalarKind::binary32 : compare::ScalarKind::binary64;
     compare::Lane lane(situation.contender, scalar, scene, scenery, {.knobs = knobs}, "free", stem(),
