@@ -33,7 +33,9 @@ class TimedSteps {
       const StepInput now = cursor.at(static_cast<int>(step));
       const auto players = players_.insert(players_.end(), now.players.begin(), now.players.end());
       const auto movers = motions_.insert(motions_.end(), now.movers.begin(), now.movers.end());
-      inputs_.push_back({now.dt, {players, now.players.size()}, {movers, now.movers.size()}});
+      StepInput& kept = inputs_.emplace_back(now);
+      kept.players = {players, now.players.size()};
+      kept.movers = {movers, now.movers.size()};
     }
   }
   TimedSteps(const TimedSteps&) = delete;

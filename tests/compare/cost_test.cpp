@@ -11,7 +11,10 @@ class Scribe final : public Contender {
   Scribe(char name, bool engine, std::string& log) : name_(name), engine_(engine), log_(log) {}
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
   void step(const StepInput&, std::span<TraceStep>) override { log_ += '?'; }
-  void step_unrecorded(const StepInput&) override { log_ += name_; }
+  void step_unrecorded(const StepInput& input) override {
+    EXPECT_EQ(input.gravity, Vec2d(0, -3));
+    log_ += name_;
+  }
   bool keep_wishes(bool) override { return engine_; }
   void step_bare(const StepInput&, std::size_t k) override { log_ += std::to_string(k); }
   [[nodiscard]] Pose pose(std::size_t) const override { return {}; }
@@ -30,6 +33,7 @@ class Scribe final : public Contender {
 TEST(Cost, contenders_take_turns_and_are_put_back_where_the_judged_run_was) {
   Scene scene = empty_sky(4);
   scene.start.position = {1, 2};
+  scene.gravity = {0, -3};
   std::string log;
   Scribe a('a', false, log);
   Scribe b('b', true, log);
