@@ -1,7 +1,6 @@
 /// Characters as bodies of one joint solve: what no scene can say of it. What the law of `discrete` makes of two that
 /// meet is in tests/situations/techniques.json.
 #include "controller/states.hpp"
-#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 

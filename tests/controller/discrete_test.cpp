@@ -1,5 +1,6 @@
 /// Discrete collision detection: impacts, islands, their order. The technique made of them is in tests/situations.
 #include "controller/stepping.hpp"
+#include "support/steps_wanted.hpp"
 #include "techniques/discrete/solver.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +97,8 @@ TEST(DiscretePairs, are_those_of_looking_at_all) {
   Random random(61);
   std::size_t possible = 0;
   std::size_t found = 0;
-  for (int scene = 0; scene < 9000; ++scene) {
+  const int scenes = test::sampled(4000);
+  for (int scene = 0; scene < scenes; ++scene) {
     // Boxes in a field, a row or a tower; on whole quarters of a metre, so that many touch and begin at the same place.
     const Vec2d field{random.between(0.5, 12), random.between(0.5, 12)};
     const double share_that_moves = random.unit();
