@@ -17,7 +17,7 @@ struct ConvexPieces {
 /// Triangles are merged across every diagonal that leaves both ends convex (S. Hertel and K. Mehlhorn, 1983): at most
 /// four times as many pieces as possible. A convex outline without holes is one piece, found in linear time.
 /// @param outer, holes either winding; vertices on a straight side are allowed. Coordinates as exact.hpp demands.
-/// @throws InvalidRings as `check_ring` and `check_rings`.
+/// @throws std::invalid_argument as `check_ring` and `check_rings`.
 [[nodiscard]] ConvexPieces cut_into_convex_pieces(Ring outer, std::span<const std::vector<Vec2d>> holes);
 
 }  // namespace paperproof::geometry

@@ -3,6 +3,7 @@
 
 #include "geometry/time_below.hpp"
 
+#include <paperproof/character.hpp>
 #include <paperproof/types.hpp>
 
 #include <span>
@@ -27,10 +28,10 @@ struct SeparatingAxis {
   }
 };
 
-using SeparatingAxes = FixedVector<SeparatingAxis, 40>;
+/// Of a character and a piece, which has 32 vertices at most.
+using SeparatingAxes = FixedVector<SeparatingAxis, CharacterShape::max_points + 32>;
 
-/// The edge normals of two outlines, along which they can be apart: the edges of their Minkowski sum. No outline of a
-/// piece has more than 32 vertices.
+/// The edge normals of two outlines, along which they can be apart: the edges of their Minkowski sum.
 /// @param mover 3 points or more, counter-clockwise, relative to its position [m].
 /// @param standing the same, or the two ends of a segment [m].
 [[nodiscard]] SeparatingAxes separating_axes(std::span<const Vec2d> mover, std::span<const Vec2d> standing);

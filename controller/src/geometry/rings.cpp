@@ -61,8 +61,9 @@ Meeting meeting_of(const Side& a, const Side& b) {
 [[noreturn]] void refuse_meeting(const Side& a, const Side& b, Meeting meeting) {
   const std::string verb = meeting == Meeting::crossing ? " crosses " : " touches ";
   const std::string other = a.ring == b.ring ? "itself" : name_of(std::min(a.ring, b.ring));
-  throw InvalidRings(name_of(std::max(a.ring, b.ring)) + verb + other + ": the side from " + text_of(a.from) + " to " +
-                     text_of(a.to) + " meets the side from " + text_of(b.from) + " to " + text_of(b.to));
+  throw std::invalid_argument(name_of(std::max(a.ring, b.ring)) + verb + other + ": the side from " + text_of(a.from) +
+                              " to " + text_of(a.to) + " meets the side from " + text_of(b.from) + " to " +
+                              text_of(b.to));
 }
 
 void check_sides_apart(std::span<const Ring> rings) {
@@ -97,10 +98,10 @@ void check_nesting(std::span<const Ring> rings) {
   std::vector<Box2> boxes;
   for (const Ring ring : rings) boxes.push_back(Box2::around(ring));
   for (std::size_t hole = 1; hole < rings.size(); ++hole) {
-    if (!is_inside(rings[hole][0], rings[0])) throw InvalidRings(name_of(hole) + " is not inside the outline");
+    if (!is_inside(rings[hole][0], rings[0])) throw std::invalid_argument(name_of(hole) + " is not inside the outline");
     for (std::size_t other = 1; other < rings.size(); ++other) {
       if (other != hole && boxes[other].contains(boxes[hole]) && is_inside(rings[hole][0], rings[other])) {
-        throw InvalidRings(name_of(hole) + " is inside " + name_of(other));
+        throw std::invalid_argument(name_of(hole) + " is inside " + name_of(other));
       }
     }
   }
@@ -142,15 +143,15 @@ void check_neighbours(std::span<const Vec2d> points, bool is_closed, const std::
   for (std::size_t i = 0; i + (is_closed ? 0 : 1) < points.size(); ++i) {
     const std::size_t next = (i + 1) % points.size();
     if (points[i] == points[next]) {
-      throw InvalidRings(name + " has the same point twice in a row: points " + std::to_string(i) + " and " +
-                         std::to_string(next) + " (counted from 0) are both " + text_of(points[next]));
+      throw std::invalid_argument(name + " has the same point twice in a row: points " + std::to_string(i) + " and " +
+                                  std::to_string(next) + " (counted from 0) are both " + text_of(points[next]));
     }
   }
 }
 
 void check_ring(Ring ring, const std::string& name) {
   const std::size_t size = ring.size();
-  if (size < 3) throw InvalidRings(name + " needs at least 3 points, it has " + std::to_string(size));
+  if (size < 3) throw std::invalid_argument(name + " needs at least 3 points, it has " + std::to_string(size));
   check_neighbours(ring, true, name);
   bool has_area = false;
   const Vec2d* fold = nullptr;
@@ -162,8 +163,8 @@ void check_ring(Ring ring, const std::string& name) {
     else if (fold == nullptr && left_of(ring[i], corner) != left_of(corner, next))
       fold = &corner;
   }
-  if (!has_area) throw InvalidRings(name + " has no area: all its points are on one line");
-  if (fold != nullptr) throw InvalidRings(name + " folds back onto itself at " + text_of(*fold));
+  if (!has_area) throw std::invalid_argument(name + " has no area: all its points are on one line");
+  if (fold != nullptr) throw std::invalid_argument(name + " folds back onto itself at " + text_of(*fold));
 }
 
 void check_rings(std::span<const Ring> rings) {

@@ -13,9 +13,6 @@ namespace paperproof::geometry {
 /// The vertices of a closed outline, in order; the first is not repeated at the end.
 using Ring = std::span<const Vec2d>;
 
-/// Rings that bound no polygon; `what()` gives the reason in words that a level designer understands.
-using InvalidRings = std::invalid_argument;
-
 /// Order of sweeps: by x, and by y where x is the same. This order works as if the plane were turned by a very small
 /// angle, so that no side is vertical.
 [[nodiscard]] inline bool left_of(const Vec2d& a, const Vec2d& b) {
@@ -33,20 +30,20 @@ using InvalidRings = std::invalid_argument;
 [[nodiscard]] int winding(Ring ring);
 
 /// @param is_closed the first point follows the last.
-/// @throws InvalidRings on a point that repeats the one before it.
+/// @throws std::invalid_argument on a point that repeats the one before it.
 void check_neighbours(std::span<const Vec2d> points, bool is_closed, const std::string& name);
 
 /// Checks that a ring alone could bound something.
 /// @param name the ring's name in a message: "the outline".
-/// @throws InvalidRings on fewer than 3 vertices, a vertex that repeats its neighbour, no area, a side that folds back
-///   onto the side before it.
+/// @throws std::invalid_argument, in words that a level designer understands, on fewer than 3 vertices, a vertex that
+///   repeats its neighbour, no area, a side that folds back onto the side before it.
 void check_ring(Ring ring, const std::string& name);
 
 /// Checks that the rings bound one polygon: none touches or crosses itself or another, and every hole is inside the
 /// outer ring and outside the other holes. Exact.
 /// Sweeps over the sides by x: fast while few sides lie above one another, quadratic (with a small factor) at worst.
 /// @param rings each passed `check_ring`; the first is the outer one, the others are holes.
-/// @throws InvalidRings
+/// @throws std::invalid_argument in such words.
 void check_rings(std::span<const Ring> rings);
 
 }  // namespace paperproof::geometry

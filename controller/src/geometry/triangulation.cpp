@@ -117,7 +117,7 @@ NodeIndex bridge_end(const Outline& outline, NodeIndex start, const Vec2d& hole_
     }
     i = outline.node(i).next;
   } while (i != start);
-  if (!found) throw InvalidRings("a hole cannot be joined to the outline");
+  if (!found) throw std::invalid_argument("a hole cannot be joined to the outline");
   return best;
 }
 
@@ -159,7 +159,7 @@ class EarClipper {
         waiting_.push_back(neighbour);
       }
     }
-    if (left != 2) throw InvalidRings("the polygon cannot be cut into triangles");
+    if (left != 2) throw std::invalid_argument("the polygon cannot be cut into triangles");
     return triangles;
   }
 

@@ -59,7 +59,7 @@ class SweepInParts {
   /// @param scratch made by this sweep, which is not checked here.
   virtual void move(const StepRequest& request, Scratch& scratch, MoveResult& result) const = 0;
 
-  /// See the function of this name.
+  /// See `paperproof::find_passed`.
   virtual void find_passed(const Around& around, std::span<const PathPoint> path, Scratch& scratch,
                            std::vector<ColliderIndex>& passed) const = 0;
 
