@@ -135,19 +135,24 @@ Vec2d farthest_motion(const Scenery& scenery, double fastest_surface, const Move
   return farthest;
 }
 
+bool leaves_range(const Vec2d& position, const Vec2d& wanted, const Vec2d& farthest) noexcept {
+  return !in_range(position) || !in_range(position + wanted) || !in_range(farthest);
+}
+
 }  // namespace
 
 bool leaves_range(const Scenery& scenery, double fastest_surface, const MoveRequest& request) noexcept {
-  return !in_range(request.position) || !in_range(request.position + FrameOfReference(scenery, request).wanted()) ||
-         !in_range(farthest_motion(scenery, fastest_surface, request));
+  const Vec2d wanted = FrameOfReference(scenery, request).wanted();
+  return leaves_range(request.position, wanted, farthest_motion(scenery, fastest_surface, request));
 }
 
 bool refuse(const Parts& parts, bool searches_by_units, const MoveRequest& request, MoveResult& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
-  const Vec2d searched = FrameOfReference(*parts.scenery, request).wanted().cwiseAbs() +
-                         2 * farthest_motion(*parts.scenery, parts.fastest_surface, request);
+  const Vec2d wanted = FrameOfReference(*parts.scenery, request).wanted();
+  const Vec2d farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
+  const Vec2d searched = wanted.cwiseAbs() + 2 * farthest;
   const bool quick = !searches_by_units || searched.norm() <= parts.unit * double(max_search_steps);
-  const bool leaves = leaves_range(*parts.scenery, parts.fastest_surface, request);
+  const bool leaves = leaves_range(request.position, wanted, farthest);
   if (quick && !leaves) return false;
   refuse(request, result, leaves ? StepStatus::out_of_range : StepStatus::refused);
   return true;
