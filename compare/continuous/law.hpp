@@ -92,7 +92,7 @@ struct StepMotion {
 struct Forces {
   Point velocity;     ///< Relative to what carries it [m/s].
   Real fall{0};       ///< Acceleration downwards: gravity, or 0 at the greatest speed of falling [m/s²].
-  Real missing{0};    ///< What is missing to the wanted horizontal speed [m/s]; 0 where it is reached.
+  Real missing{0};    ///< The wanted horizontal speed minus the present one [m/s].
   Real on_ground{0};  ///< Acceleration of steering [m/s²], 0 where nothing steers,
   Real in_air{0};     ///< and that in the air.
 };

@@ -52,7 +52,7 @@ struct ContactJudge : ContactScene {
     return is_rounding || loss < least_loss || !starts_free || is_opposed(wanted, judgement) ? 0 : loss;
   }
 
-  /// What is missing of the wanted horizontal displacement, and whether something exact is in the way of it.
+  /// Measures how much of the wanted horizontal displacement the step lost, and whether a solid is in its way.
   void measure_motion(bool starts_free, StepJudgement& judgement) const {
     const double wanted = across(step.requested);
     judgement.motion_wanted = std::abs(wanted);
@@ -115,7 +115,7 @@ struct ContactJudge : ContactScene {
     }
   }
 
-  /// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
+  /// Whether a reported contact opposes the motion and has a real face there: Box2D pushes bodies out of its skin.
   [[nodiscard]] bool pushed_by_skin(double wanted) const {
     return std::ranges::any_of(step.contacts, [&](const Contact& contact) {
       return across(contact.normal) * wanted < 0 && has_face(contact);
@@ -189,15 +189,15 @@ struct ContactJudge : ContactScene {
   }
 
   /// Whether what another contact leaves of the requested motion, or what a mover adds to it by pushing, leads into a
-  /// collider that is touched: which part that is belongs to the contender's law of response, not to geometry. (In a
-  /// corner of a wall and a slope, pushing down along the slope: it runs along the slope and into the wall; what is
-  /// left of it falls onto the slope.)
+  /// collider that is touched: the contender's law of response says which part that is, and geometry does not. (An
+  /// example is the corner of a wall and a slope. A motion down along the slope runs into the wall. What the wall
+  /// leaves of it falls onto the slope.)
   [[nodiscard]] bool met_after_another(const Contact& contact, std::span<const ExactContact> others) const {
     const Vec2d own = step.requested - wanted(contact.collider);
     // A steep face takes steering out of the motion, and an impact the momentum across up.
     const std::array<Vec2d, 4> left_over{step.requested, unsteered(), up * step.requested.dot(up),
                                          right * step.requested.dot(right)};
-    // What moves adds to the motion what it pushes, and ground carries.
+    // A mover pushes: that is added to the motion. Ground carries: so is that.
     const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
       const Vec2d pushed = step.requested - wanted(one.collider);
       if (is_walkable(one.normal, header, up) && contact.normal.dot(pushed - own) < 0) return true;

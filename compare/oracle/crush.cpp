@@ -19,7 +19,7 @@ struct Departure {
   using Sides = std::vector<std::pair<ColliderIndex, Place>>;
   Sides sides = met_before();
 
-  /// What was met, with the last place free of it.
+  /// The colliders that were met before, each with the last place that was free of it.
   [[nodiscard]] Sides met_before() const {
     Sides met;
     for (const auto& [collider, free] : meetings.before)
@@ -47,9 +47,9 @@ struct Departure {
     return scenery.find_free(question, reach, least_clearance, can_go_there);
   }
 
-  /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
-  /// come out on another side. It comes no nearer than `least_clearance` to what is farther away where it begins: what
-  /// passes a rim nearer than that may be stopped there.
+  /// Whether a straight uniform motion comes to `there` without meeting a solid. It must not come out on
+  /// another side of what was met before. It keeps `least_clearance` from everything that is farther away where it
+  /// begins: a motion that passes a rim at less may be stopped there.
   [[nodiscard]] bool reaches(const Place& there) const {
     return scenery.meets_only(from, there, inside) && grown_scenery.meets_only(from, there, near) &&
            std::ranges::none_of(sides, [&](const auto& side) { return scenery.meets(side.second, there, side.first); });

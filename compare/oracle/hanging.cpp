@@ -40,7 +40,7 @@ struct FreeSide {
 /// One of these has to hold.
 using Obstacle = std::vector<FreeSide>;
 
-/// What is near a corner of the way.
+/// The obstacles near a corner of the way.
 struct Nearby {
   std::vector<Obstacle> obstacles;  ///< By how far they go in the whole step.
   bool holds = false;               ///< Something of it is ground, or overlaps the octagon.

@@ -30,7 +30,7 @@ enum class Bounds : std::uint8_t { safe, nominal };
                          Bounds bounds = Bounds::safe);
 /// Whether a face that looks upwards is no farther away, or anything is overlapped, at a corner of the step's way.
 [[nodiscard]] bool has_support(const StepView& at, std::size_t corner, double within);
-/// Whether what is no farther away where the step ends lets the unsteered motion go no way down: a wedge.
+/// Whether the step ends in a wedge: the obstacles within this distance leave the unsteered motion no way down.
 [[nodiscard]] bool is_held_at_end(const StepView& at, double within);
 
 }  // namespace paperproof::compare::detail
