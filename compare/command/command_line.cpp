@@ -56,7 +56,7 @@ struct Command {
   Arguments& typed;
 };
 
-/// @param run is called when the options are parsed; `status` is then what it returns.
+/// @param run is called once the options are parsed. `status` gets its result.
 template <class Arguments, class Run>
 Command<Arguments> add_command(CLI::App& parent, int& status, const std::string& name, const std::string& help,
                                Run run) {
