@@ -22,8 +22,7 @@ using Colliders = std::set<ColliderIndex>;
 
 /// A character among movers, which nothing pulls.
 struct AmongMovers : stepping::Stepper {
-  compare::ExactScenery exact{scenery->as_run(),
-                              {sweep().character().shape.hull().begin(), sweep().character().shape.hull().end()}};
+  compare::ExactScenery exact{scenery->as_run(), hull()};
 
   AmongMovers(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
       : Stepper(colliders) {

@@ -120,7 +120,7 @@ TEST(Together, a_thousand_that_fall_onto_each_other_neither_overlap_nor_pass_and
   constexpr std::size_t columns = 40;
   Random random(1);
   std::vector<Vec2d> places;
-  const std::size_t count = sanitized ? 63 : steps_per_family() < few_steps ? 250 : 1000;
+  const auto count = shortened(std::size_t{1000});
   for (std::size_t i = 0; i < count; ++i)
     places.emplace_back(static_cast<double>(i % columns) + random.between(0.85, 1.15),
                         0.8 + 1.5 * static_cast<double>(i / columns) + random.between(-0.05, 0.05));

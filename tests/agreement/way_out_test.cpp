@@ -60,8 +60,7 @@ struct Solids : stepping::Stepper {
   }
 
   Vec2d start;
-  compare::ExactScenery oracle{scenery->as_run(),
-                               {sweep().character().shape.hull().begin(), sweep().character().shape.hull().end()}};
+  compare::ExactScenery oracle{scenery->as_run(), hull()};
 };
 
 class WayOut : public ::testing::TestWithParam<const compare::Family*> {};

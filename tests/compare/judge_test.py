@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `paperproof judge` tells: of traces that lie, of those of runs, and of the one in the README of compare/.
+"""Tests of `paperproof judge`: traces that lie, traces of runs, and the trace in the README of compare/.
 
     judge_test.py PAPERPROOF
 """

@@ -24,7 +24,7 @@ inline void to_json(nlohmann::json& name, Side side) { name = compare::name_of(s
 namespace compare {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Passing, collider, speed, thickness, angle)
-/// What a row may say of what the judge made of a step, but for `others`.
+/// The members that a row may name; `others` has the remaining keys.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(StepJudgement, end_overlap, drawn, pressed, tunnelled, passings,
                                                 clipped, clipped_depth, crushed, crushed_with_room, excused_crush,
                                                 dont_care, contact_band, deflected, ghosts, first_impact_comparable,

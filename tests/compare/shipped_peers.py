@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The peers that ship, on two scenes, and on three more those that must hold there, and some of each engine: who is continuous stops the article's bullet, who is not lets it pass, and Box2D 2.4
-in WebAssembly goes where the contender `box2d` goes. Skipped (77) where npm's packages are not installed; Godot and Chipmunk
+"""Every peer that ships runs two scenes with thin solids: a continuous one stops the article's bullet, another lets it
+pass. Some peers of each engine run three more scenes; those without seams must hold there. Box2D 2.4 in WebAssembly goes
+where the contender `box2d` goes. Skipped (77) where npm's packages are not installed; Godot and Chipmunk
 are left out where Debian's are not.
 
 usage: shipped_peers.py PAPERPROOF SOURCE_DIR EMPTY_DIR"""

@@ -9,7 +9,8 @@
 
 namespace paperproof::compare {
 
-inline const std::string tables = PAPERPROOF_SOURCE_DIR "/tests/compare/tables/";
+// Tests of tables are registered before main: a string might not be made by then.
+inline constexpr const char* tables = PAPERPROOF_SOURCE_DIR "/tests/compare/tables/";
 
 [[nodiscard]] inline Json read_table(const std::string& file) {
   return strict_json(read_file(tables + file, file), file);

@@ -74,7 +74,7 @@ void expect_grid_to_find_them(const Boxes& boxes, const Boxes& queries) {
   }
 }
 
-TEST(BroadPhases, find_exactly_what_overlaps_on_10000_scenes) {
+TEST(BroadPhases, find_exactly_what_overlaps_on_thousands_of_scenes) {
   const unsigned scenes = test::sampled(10000U);
   int not_empty = 0;
   int selective = 0;

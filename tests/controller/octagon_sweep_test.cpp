@@ -187,7 +187,7 @@ TEST(GoingCorner, holds_a_walker_as_one_that_stands_does) {
   EXPECT_LE(unlike, 4);
 }
 
-const int an_hour = test::sanitized ? 13'500 : test::steps_per_family() < test::few_steps ? 54'000 : 216'000;
+const int an_hour = test::shortened(216'000);
 
 /// Distance to the next double.
 double ulp(double value) { return std::nextafter(std::abs(value), INFINITY) - std::abs(value); }
@@ -200,7 +200,7 @@ Vec2d ping_pong(const Vec2d& by, int step) {
   return by * (static_cast<double>(along) / steps_each_way);
 }
 
-/// What goes along such a line, and is a belt 8 km long where it has a speed [m/s].
+/// Goes to and fro by `by`: a lift, or with a speed `belt` [m/s] a belt 8 km long.
 struct Carrier {
   Vec2d by;
   double belt = 0;

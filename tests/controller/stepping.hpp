@@ -80,6 +80,10 @@ struct Stepper {
 
   /// For what only `octagon_sweep` does.
   [[nodiscard]] const Controller& sweep() const { return *controller.sweep(); }
+  [[nodiscard]] std::vector<Vec2d> hull() const {
+    const std::span<const Vec2d> hull = sweep().character().shape.hull();
+    return {hull.begin(), hull.end()};
+  }
   Stepper& at(double x, double y) {
     state.position = Vec2d{x, y};
     return *this;

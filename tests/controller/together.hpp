@@ -63,7 +63,7 @@ struct Together {
     step_together(companions_, context(), turns);
     for (std::size_t k = 0; k < order.size(); ++k) turn[order[k]] = companions_[k].turn;
   }
-  /// Its mover stays, and turns on to an angle.
+  /// The one mover turns on to this angle, at its place.
   void step_with_mover_turned_to(double angle) {
     movers[0] = {{0, 0}, {0, 0}, movers[0].to_angle, angle};
     step();

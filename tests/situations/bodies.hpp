@@ -97,8 +97,8 @@ class Bodies {
     made.GetBody()->SetBullet(text.value("bullet", false));
     if (text.value("weightless", false)) made.GetBody()->SetGravityScale(0);
     made.GetBody()->SetAngularDamping(text.value("angular_damping", 0.0F));
-    surfaces_[&made] = {.blocks =
-                            named(text.value("blocks", "as_in_box2d"), blockings)};  // Box2D uses its memory again
+    surfaces_[&made] = {.blocks = named(text.value("blocks", "as_in_box2d"),
+                                        blockings)};  // a new fixture may have the address of a destroyed one
     const std::string id = text.at("id");
     fixtures[id] = &made;
     json put_so = json::object();

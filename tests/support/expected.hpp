@@ -48,7 +48,8 @@ template <class Json>
 }
 
 /// @param known names between blanks.
-inline void refuse_other_keys(const nlohmann::json& object, const std::string& known, const std::string& what) {
+template <class Json>
+void refuse_other_keys(const Json& object, const std::string& known, const std::string& what) {
   for (const auto& [key, value] : object.items())
     if (known.find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("no such key of " + what + ": " + key);

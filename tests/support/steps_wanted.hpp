@@ -25,13 +25,20 @@ inline constexpr int few_steps = 1000;
 /// Who asks for as many wants all cases.
 inline constexpr int many_steps = 4000;
 
-/// So many random cases where many steps are wanted, half of them by default, and a quarter where an answer is wanted
-/// soon. A sixteenth where sanitizers look on, as each takes ten times as long there.
+/// A length as it is by default; a quarter where an answer is wanted soon, and a sixteenth where sanitizers look on, as
+/// each step takes ten times as long there.
+template <class Count>
+[[nodiscard]] Count shortened(Count length) {
+  const int of = sanitized ? 16 : steps_per_family() < few_steps ? 4 : 1;
+  return (length + static_cast<Count>(of - 1)) / static_cast<Count>(of);
+}
+
+/// So many random cases, shortened; by default half of them, and all from `many_steps` on.
 template <class Count>
 [[nodiscard]] Count sampled(Count cases) {
   const int steps = steps_per_family();
-  const int of = sanitized ? 16 : steps < few_steps ? 4 : steps < many_steps ? 2 : 1;
-  return (cases + static_cast<Count>(of - 1)) / static_cast<Count>(of);
+  const bool is_default = !sanitized && steps >= few_steps && steps < many_steps;
+  return is_default ? (cases + 1) / 2 : shortened(cases);
 }
 
 /// All of a list, or the last of every `of` where sanitizers look on.

@@ -1,4 +1,4 @@
-/// Bodies and joints that Box2D must not see. How bodies go by formulas is in tests/situations/box2d.json.
+/// Bodies and joints that Box2D must not see. tests/situations/box2d.json compares the motion of bodies with formulas.
 #include "levels.hpp"
 
 #include <paperproof/box2d/body_world.hpp>
