@@ -230,7 +230,7 @@ inline constexpr Real covered_share = Real(0.5);
   const auto impact = start >= 0 ? approach(Real(0)) : std::nullopt;
   const bool missed = start >= 0 && !impact;
   return {stop.time <= 1,
-          stop.time,
+          Real(stop.time),
           {axis_along(stop.there.normal),
            impact   ? axis_along(impact->there.normal)
            : missed ? axis_along(near->there.normal)
@@ -338,7 +338,7 @@ struct BestAxis {
 [[nodiscard]] PAPERPROOF_COLD inline BestAxis best_axis_of_circle(const ConfigurationSpace& space, PieceIndex piece,
                                                                   const Vec2& p) {
   const geometry::NearCircle near = space.near_circle(piece, p);
-  return {axis_along(near.normal), near.separation};
+  return {axis_along(near.normal), Real(near.separation)};
 }
 
 [[nodiscard]] PAPERPROOF_INLINE BestAxis best_axis(const ConfigurationSpace& space, PieceIndex piece, const Vec2& p) {
