@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -137,20 +138,33 @@ struct ContactJudge : ContactScene {
       if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
     };
     for (std::size_t i = 0; i < step.path.size(); ++i) {
-      Place beside = place(i);
-      beside.position -= contact.normal * reach;
-      for (const ExactScenery* solids : {&scenery, grown})
-        if (solids != nullptr) std::ranges::for_each(solids->impacts_between(place(i), beside), look);
+      std::ranges::for_each(impacts_along(-contact.normal * reach, i), look);
       if (i == 0 || !header.path_exact || is_dropped_through(contact.collider)) continue;
       Place beyond = place(i);
       const Vec2d leg = beyond.position - place(i - 1).position;
       const double approach = -contact.normal.dot(leg);
       if (approach >= least_approach * leg.norm() && approach > 0) beyond.position += leg * (reach / approach);
       if (scenery.separation(place(i), contact.collider) > reach) continue;
+      Place beside = place(i);
+      beside.position -= contact.normal * reach;
       for (const Place& to : {beside, beyond})
         if (const auto impact = scenery.impact_between(place(i - 1), to, contact.collider)) look(*impact);
     }
     return is_own || !promises ? most_alike : std::nullopt;
+  }
+
+  /// What a straight way from a corner meets. Contacts with the same normal ask it once.
+  [[nodiscard]] const std::vector<ExactImpact>& impacts_along(const Vec2d& way, std::size_t corner) const {
+    const auto [found, is_new] = impacts.try_emplace({corner, way.x(), way.y()});
+    if (!is_new) return found->second;
+    Place end = place(corner);
+    end.position += way;
+    for (const ExactScenery* solids : {&scenery, grown}) {
+      if (solids == nullptr) continue;
+      const std::vector<ExactImpact> met = solids->impacts_between(place(corner), end);
+      found->second.insert(found->second.end(), met.begin(), met.end());
+    }
+    return found->second;
   }
 
   [[nodiscard]] std::optional<Vec2d> face_of(const Contact& contact) const {
@@ -279,7 +293,10 @@ struct ContactJudge : ContactScene {
     std::erase_if(judgement.dont_care, is_met_as_reported);
   }
 
-  mutable std::map<const Contact*, std::optional<Vec2d>> faces{};  ///< See `face_of`.
+  /// By contact: see `face_of`.
+  mutable std::map<const Contact*, std::optional<Vec2d>> faces{};
+  /// By corner and way: see `impacts_along`.
+  mutable std::map<std::tuple<std::size_t, double, double>, std::vector<ExactImpact>> impacts{};
 };
 
 }  // namespace
