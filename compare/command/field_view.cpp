@@ -2,6 +2,7 @@
 
 #include "records/case.hpp"
 #include "report/row_pictures.hpp"
+#include "runs/build_info.hpp"
 #include "runs/environment.hpp"
 #include "runs/peers.hpp"
 #include "runs/spot_check.hpp"
@@ -107,7 +108,7 @@ std::vector<Column<FieldLine>> cost_columns() {
           mean_time("ns, WebAssembly", "webassembly"),
           mean_time("ns, JavaScript", "javascript"),
           mean_time("ns, script", "script"),
-          {"lines of code", of_ours(std::to_string(core_lines()))},
+          {"lines of code", of_ours(std::to_string(build_info.core_lines))},
           {"characters that it does not have", of_ours("round ones, more than 8 corners, ones that turn")}};
 }
 

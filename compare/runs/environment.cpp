@@ -23,19 +23,17 @@ std::string processor() {
 
 }  // namespace
 
-int core_lines() { return PAPERPROOF_CORE_LINES; }
-
 Environment environment() {
-  return {{"paperproof", PAPERPROOF_VERSION},
+  return {{"paperproof", build_info.version},
           {"box2d", box2d::box2d_version()},
           {"box2d_build", box2d::box2d_build()},
           {"box2d_asserts", box2d::box2d_asserts()},
           {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"boost", BOOST_LIB_VERSION},
-          {"compiler", PAPERPROOF_COMPILER},
-          {"flags", PAPERPROOF_FLAGS},
+          {"compiler", build_info.compiler},
+          {"flags", build_info.flags},
           {"cpu", processor()},
-          {"build", PAPERPROOF_BUILD_TYPE}};
+          {"build", build_info.build_type}};
 }
 
 }  // namespace paperproof::compare

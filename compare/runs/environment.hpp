@@ -5,9 +5,6 @@
 
 namespace paperproof::compare {
 
-/// Lines of code of the controller's core, without its techniques, when this was configured.
-[[nodiscard]] int core_lines();
-
 /// Versions, compiler, flags, cpu and build of this executable.
 [[nodiscard]] Environment environment();
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -44,6 +46,16 @@ std::vector<File>& files() {
   return all;
 }
 
+/// Those that may have something of that name. Texts are searched once for each name.
+const std::vector<File*>& files_naming(std::string_view name) {
+  static std::map<std::string, std::vector<File*>, std::less<>> by_name;
+  if (const auto found = by_name.find(name); found != by_name.end()) return found->second;
+  std::vector<File*>& naming = by_name[std::string(name)];
+  for (File& file : files())
+    if (file.names(name)) naming.push_back(&file);
+  return naming;
+}
+
 const Json& base() {
   static const Json file = Json::parse(built_in_files.front().text);
   return file;
@@ -63,9 +75,8 @@ const Json* named_in(const Json& file, std::string_view kind, std::string_view n
 }
 
 const Json* named(std::string_view kind, std::string_view name) {
-  for (File& file : files())
-    if (file.names(name))
-      if (const Json* text = named_in(file.json(), kind, name)) return text;
+  for (File* file : files_naming(name))
+    if (const Json* text = named_in(file->json(), kind, name)) return text;
   return nullptr;
 }
 
@@ -90,9 +101,8 @@ Json whole(const Json& file, std::string_view name) {
 }
 
 Json whole(std::string_view name) {
-  for (File& file : files())
-    if (file.names(name))
-      if (Json text = whole(file.json(), name); !text.is_null()) return text;
+  for (File* file : files_naming(name))
+    if (Json text = whole(file->json(), name); !text.is_null()) return text;
   throw std::invalid_argument(fmt::format("no built-in scene is called {}", name));
 }
 
