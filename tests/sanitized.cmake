@@ -39,8 +39,7 @@ if(PAPERPROOF_SANITIZED_TESTS)
   list(SUBLIST paperproof_sanitized_objects 0 2 paperproof_sanitized_core)
 endif()
 
-# Runs `test` with the sanitizers, in a few processes: each takes longer to begin and to end than most tests. The sanitized
-# objects come first, so that inline functions are theirs.
+# Runs `test` with the sanitizers, in a few processes. The sanitized objects come first, so that inline functions are theirs.
 function(paperproof_sanitized_test test)
   if(NOT PAPERPROOF_SANITIZED_TESTS)
     return()
@@ -55,11 +54,5 @@ function(paperproof_sanitized_test test)
   target_link_libraries(${test}_sanitized PRIVATE ${libraries})
   target_link_options(${test}_sanitized PRIVATE ${paperproof_sanitizers})
   add_dependencies(sanitized_tests ${test}_sanitized)
-  set(shards 4)
-  foreach(number RANGE 1 ${shards})
-    math(EXPR index "${number} - 1")
-    add_test(NAME ${test}_sanitized.${number}_of_${shards} COMMAND ${test}_sanitized --gtest_brief=1)
-    set_tests_properties(${test}_sanitized.${number}_of_${shards} PROPERTIES TIMEOUT 900 LABELS sanitized
-      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};PAPERPROOF_GUARANTEE_STEPS=100")
-  endforeach()
+  paperproof_run_in_shards(${test}_sanitized 4 "PAPERPROOF_GUARANTEE_STEPS=100" LABELS sanitized)
 endfunction()

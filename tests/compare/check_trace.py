@@ -410,14 +410,14 @@ def check_file(path, clauses, but):
     return sum(broken.values())
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--all", action="store_true", help="ask for every clause, whatever the header guarantees")
     which.add_argument("--clauses", help="ask for these alone")
     parser.add_argument("--but", default="", help="do not ask for these")
     parser.add_argument("files", nargs="+")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     clauses = CLAUSES if options.all else options.clauses.split(",") if options.clauses else None
     but = options.but.split(",") if options.but else []
     if not {*but, *(clauses or ())} <= set(CLAUSES):

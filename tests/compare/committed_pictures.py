@@ -17,9 +17,9 @@ STRIP, TIMED = "article_bullet", "level"
 OF_ROWS = {
     "a-tip-between-two-points": "study corner --contender speculative_march,box2d,octagon_sweep",
     "Where-does-drop-hold": "sweep drop --vary gravity=10,100,1e3,1e4,1e5,1e6 --vary dt=1e-4,1e-3,0.01,0.1,1 "
-                            "--contender octagon_sweep,box2d",
-    TIMED: "work-precision level"}
-LONG = {  # a minute of a core
+                            "--contender octagon_sweep,box2d"}
+LONG = {  # ten seconds of a core, and a minute
+    TIMED: "work-precision level",
     "Where-do-bullets-pass": "study bullet --contender penetration_resolution,wind_back,box2d,octagon_sweep"}
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -3,6 +3,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/later_parts.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   int with_room = 0;
   Colliders all(14);
   std::iota(all.begin(), all.end(), ColliderIndex{0});
-  constexpr int rounds = 300;
+  const int rounds = paperproof::test::sampled(300);
   for (int i = 0; i < rounds; ++i) {
     SCOPED_TRACE("round " + std::to_string(i));
     std::vector<ColliderDef> colliders;
@@ -60,7 +61,7 @@ TEST(JudgeHanging, it_is_right_beside_random_solids) {
   Random random(41);
   int hanging = 0;
   int held = 0;
-  constexpr int scenes = 4000;
+  const int scenes = paperproof::test::sampled(4000);
   for (int scene = 0; scene < scenes; ++scene) {
     std::vector<ColliderDef> solids;
     for (int k = 1 + random.below(3); k > 0; --k) {

@@ -1,14 +1,28 @@
 """What the tests of traces share: calls of the command and of the checker, records in files, traces to spoil."""
+import contextlib
+import io
 import json
 import subprocess
 import sys
 from pathlib import Path
 
+import check_trace
+
 CHECKER = (sys.executable, "-B", Path(__file__).with_name("check_trace.py"))
+
+
+def check(*arguments):
+    """As `call`. In this process: to start another takes longer than to check a short trace."""
+    said, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(errors):
+        status = check_trace.main(list(map(str, arguments)))
+    return status, said.getvalue(), errors.getvalue()
 
 
 def call(*arguments):
     """Exit status, output, errors."""
+    if arguments[:len(CHECKER)] == CHECKER:
+        return check(*arguments[len(CHECKER):])
     done = subprocess.run(arguments, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout, done.stderr
 

@@ -43,7 +43,7 @@ thin, feel = ["article_bullet", "paper_1e-3"], ["flush_tiles", "lift_sideways", 
 without_seams = {"box2d3", "planck", "box2d24", "godot", "godot_snap"} & commands.keys()
 rows = compare(thin, {**commands, "straight": f"python3 {peers}/straight.py"})
 others = {"rapier", "rapier_body", "box2d3_mover", "matter", "chipmunk"} & commands.keys()
-rows |= compare(feel, {name: commands[name] for name in without_seams | others})
+rows |= compare(feel, {name: commands[name] for name in without_seams | others}, "--steps", "150")
 for (scene, contender), row in rows.items():
     assert row["verdict"] != "failed", row
     assert row["verdict"] != "not_applicable" or scene == "one_way_drop" and contender in ("matter", "chipmunk"), row
@@ -61,11 +61,11 @@ for scene in (*thin, *feel) if "chipmunk" in commands else []:
 
 same = ["thin_platform", "flush_tiles", "skier", "low_step", "wedge_60", "lift_up", "lift_sideways", "turning_arm",
         "land_on_circle", "playground"]
-compare(same, {"box2d24": commands["box2d24"]}, "--steps", "1000", "--trace", "t")
+compare(same, {"box2d24": commands["box2d24"]}, "--steps", "500", "--trace", "t")
 for scene in same:
     ways = [[json.loads(line)["path"][-1] for line in open(place / f"t.{scene}.{name}.float.jsonl") if "requested" in line]
             for name in ("box2d", "box2d24")]
-    assert len(ways[0]) == len(ways[1]) == 1000, scene
+    assert len(ways[0]) == len(ways[1]) == 500, scene
     assert max(abs(a - b) for p, q in zip(*ways) for a, b in zip(p, q)) <= 1e-4, scene
 for file in peers.glob("*.mjs"):
     shutil.copy(file, place)

@@ -6,7 +6,6 @@
 #include "scenes/write_json.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -27,9 +26,9 @@ void fill(Json& value, const Json& words) {
 }
 
 /// What `more` says besides `common`, without lists of tests and rows.
-Json merged(Json common, const Json& more) {
+Json merged(Json common, Json more) {
+  for (const char* list : {"tests", "rows"}) more.erase(list);
   common.update(more, true);
-  for (const char* list : {"tests", "rows"}) common.erase(list);
   return common;
 }
 
@@ -69,6 +68,11 @@ std::string filled(std::string text, const Json& words) {
   return text;
 }
 
+Json filled(Json row) {
+  fill(row, Json(object_in(row, "let")));
+  return row;
+}
+
 std::string text_in(const Json& text) {
   if (text.is_string()) return text;
   std::string lines;
@@ -84,15 +88,13 @@ const Json& object_in(const Json& row, const char* key) {
 std::vector<TableDef> tests_in(const std::string& file) {
   std::vector<TableDef> tests;
   const Json table = read_table(file);
+  const Json of_table = merged(Json::object(), table);
   for (const Json& test : table.at("tests")) {
     const std::string name = test.at("name");
     const std::size_t dot = name.find('.');
     tests.push_back({name.substr(0, dot), name.substr(dot + 1), {}});
-    for (const Json& row : test.at("rows")) {
-      Json filled = merged(merged(table, test), row);
-      fill(filled, Json(object_in(filled, "let")));
-      tests.back().rows.push_back({row, std::move(filled)});
-    }
+    const Json of_test = merged(of_table, test);
+    for (const Json& row : test.at("rows")) tests.back().rows.push_back({row, merged(of_test, row)});
   }
   return tests;
 }

@@ -13,11 +13,9 @@ namespace paperproof::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// A row as it stands in a table, and as it is checked: with what its test and its file have for all of their rows, and
-/// with every `{word}` of its texts filled in.
 struct TableRow {
-  Json row;
-  Json filled;
+  Json row;    ///< As it stands in the table.
+  Json whole;  ///< With what its test and its file have for all of their rows.
 };
 /// A test of a table: its suite, its name, its rows.
 struct TableDef {
@@ -26,6 +24,8 @@ struct TableDef {
   std::vector<TableRow> rows;
 };
 [[nodiscard]] std::vector<TableDef> tests_in(const std::string& file);
+/// A whole row with every `{word}` of its texts filled in.
+[[nodiscard]] Json filled(Json row);
 
 /// Registers each test of tables/FILE, whose rows are checked one by one.
 /// @param keys that a row may have beside `name`, `because` and `let`, between blanks.
@@ -38,8 +38,8 @@ bool table_tests(const std::string& file, const std::string& keys, void (*check)
     void TestBody() override {
       for (const TableRow& row : rows_) {
         SCOPED_TRACE(row.row.dump());
-        test::refuse_other_keys(row.filled, keys_, "a row");
-        check_(row.filled);
+        test::refuse_other_keys(row.whole, keys_, "a row");
+        check_(filled(row.whole));
       }
     }
 

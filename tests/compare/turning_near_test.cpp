@@ -2,6 +2,7 @@
 #include "oracle/turning.hpp"
 
 #include "compare/turning_planks.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +85,7 @@ TEST(NearWhatTurns, no_point_in_reach_comes_farther_along_a_face_than_the_safe_b
 
 TEST(NearWhatTurns, no_point_of_a_touched_face_goes_farther_along_it_than_the_bound) {
   Random random(283);
-  constexpr int rounds = 1000;
+  const int rounds = paperproof::test::sampled(1000);
   int asked = 0;
   int beyond_nominal = 0;
   double share = 0;
@@ -143,7 +144,7 @@ SlowWay slow_way(const Beside& made, const Vec2d& motion) {
 
 TEST(NearWhatTurns, opposes_what_is_run_into_against_the_motion_and_nothing_that_stays_away) {
   Random random(283);
-  constexpr int rounds = 1500;
+  const int rounds = paperproof::test::sampled(1500);
   int asked = 0;
   int met = 0;
   int unsure = 0;

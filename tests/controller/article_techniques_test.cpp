@@ -2,6 +2,7 @@
 /// and how they slide, is in tests/situations/techniques.json.
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -117,7 +118,8 @@ TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
   Random random(41);
   int hits = 0;
   int tried = 0;
-  for (int scene = 0; scene < 200; ++scene) {
+  const int scenes = test::sampled(200);
+  for (int scene = 0; scene < scenes; ++scene) {
     std::vector<ColliderDef> boxes;
     for (int i = 0; i < 30; ++i) {
       const Vec2d low = random.point(9);

@@ -33,7 +33,8 @@ TEST(Rasteriser, makes_a_pixel_solid_when_its_centre_is_inside) {
   Random random(3);
   int inside = 0;
   int outside = 0;
-  for (int i = 0; i < 500; ++i) {
+  const int rings = test::sampled(500);
+  for (int i = 0; i < rings; ++i) {
     const std::vector<Vec2d> ring = random_ring(random, 20 * sixteenth);  // it may cross itself: parity counts
     const Bitmap level = raster::rasterise({{compare::polygon(ring)}}, 1);
     for (int y = -22; y < 22; ++y) {
@@ -45,8 +46,8 @@ TEST(Rasteriser, makes_a_pixel_solid_when_its_centre_is_inside) {
       }
     }
   }
-  EXPECT_GT(inside, 80'000);
-  EXPECT_GT(outside, 80'000);
+  EXPECT_GT(inside, 160 * rings);
+  EXPECT_GT(outside, 160 * rings);
 }
 
 using Pixels = std::set<std::pair<std::int64_t, std::int64_t>>;
@@ -155,7 +156,7 @@ TEST(Colours, go_round_from_1_to_255_and_leave_0_to_the_background) {
 TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
   Random random(7);
   int overlapping = 0;
-  constexpr int scenes = 100;
+  const int scenes = test::sampled(100);
   for (int scene = 0; scene < scenes; ++scene) {
     SceneryDef scenery;
     for (int i = 0; i < 12; ++i)
