@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace paperproof::compare {
 namespace {
@@ -48,6 +49,27 @@ std::string table_of(const std::vector<Ran>& all) {
   return view(all, columns) + "\n";
 }
 
+/// Of one kind, as tests/known_and_open.json has them: what each clause is broken in of a million steps, and of each family.
+std::string rates_of(const std::vector<Ran>& all) {
+  std::map<Clause, std::string> of_families;
+  std::map<Clause, int> broken;
+  int records = 0;
+  const auto in_a_million = [](int steps, int of) { return 1e6 * steps / of; };
+  for (const Ran& ran : all) {
+    records += ran.findings.records;
+    for (const auto& [clause, breach] : ran.findings.breaches) {
+      broken[clause] += breach.steps;
+      of_families[clause] += fmt::format("{}{} {:.0f}", of_families[clause].empty() ? "" : ", ", ran.family->name,
+                                         in_a_million(breach.steps, ran.findings.records));
+    }
+  }
+  std::string lines;
+  for (const auto& [clause, steps] : broken)
+    lines += fmt::format("{}: {} is broken in {:.1f} steps of a million ({})\n", all.front().family->kind, name_of(clause),
+                         in_a_million(steps, records), of_families[clause]);
+  return lines;
+}
+
 /// All that are named, each once and in the order of the kinds.
 std::vector<const Family*> asked_for(const std::vector<std::string>& titles) {
   std::vector<const Family*> named;
@@ -66,7 +88,7 @@ int campaign_command(const CampaignArguments& arguments) {
   std::string broken;
   std::string missing;
   const auto print_kind = [&] {
-    if (!kind.empty()) print_out(table_of(kind));
+    if (!kind.empty()) print_out(table_of(kind) + rates_of(kind));
     kind.clear();
   };
   const std::string& contender = arguments.settings.contender;
@@ -100,7 +122,10 @@ int replay_command(const ReplayArguments& arguments) {
   }
   const Findings found = run_and_judge(run, name, arguments.settings);
   if (!found.failed.empty()) throw InputError(fmt::format("{} {}: {}", family.title(), arguments.seed, found.failed));
-  if (found.steps == 0) throw InputError(fmt::format("{} {}: no step is judged", family.title(), arguments.seed));
+  if (found.steps == 0)
+    throw InputError(fmt::format("{} {} is left out: {}", family.title(), arguments.seed,
+                                 run.scene.steps == 0 ? "it has no free place for its characters"
+                                                      : "its character begins inside something"));
   std::string said = fmt::format("{} {}: {} judged of {}\n", family.title(), arguments.seed,
                                  counted(found.steps, "step"), arguments.settings.contender);
   for (std::size_t i = 0; i < found.happened.size(); ++i)

@@ -1,5 +1,6 @@
 #include "metrics/ledger_step.hpp"
 
+#include "contains.hpp"
 #include "metrics/rest.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"

@@ -1,12 +1,11 @@
 /// The events of one step, for the ledger.
 #pragma once
 
-#include "contains.hpp"
 #include "metrics/ledger.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
 #include "oracle/met_surfaces.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
