@@ -1,5 +1,5 @@
 # cmake -P unite.cmake OUTPUT SOURCE...: writes the sources into one, each with its unnamed namespace named after the file,
-# so that files may name their helpers alike.
+# so that files may name their helpers alike. What tests share has functions outside that need those inside.
 cmake_minimum_required(VERSION 3.25)
 
 set(all "")
@@ -9,6 +9,9 @@ foreach(i RANGE 4 ${last})
   file(READ "${source}" text)
   get_filename_component(name "${source}" NAME_WE)
   string(REPLACE "\nnamespace {\n" "\nnamespace ${name} {\n" text "${text}")
+  if(NOT name MATCHES "_test$")
+    string(REPLACE "\n}  // namespace\n" "\n}  // namespace\nusing namespace ${name};\n" text "${text}")
+  endif()
   string(APPEND all "#line 1 \"${source}\"\n${text}")
 endforeach()
 file(WRITE "${CMAKE_ARGV3}" "${all}")

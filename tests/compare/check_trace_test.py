@@ -271,7 +271,7 @@ class Checking(unittest.TestCase):
 
     def test_it_says_what_it_judged_and_what_not(self):
         _, said, _ = call(*CHECKER, self.good["turning_arm"])
-        self.assertRegex(said, r"90 steps, \d+ contacts, 0 violations\n.*not judged: contact_missed in \d+ steps")
+        self.assertRegex(said, r"90 steps, \d+ contacts, 0 violations of \d+ clauses\n.*not judged: contact_missed in \d+ steps")
 
 
 if __name__ == "__main__":

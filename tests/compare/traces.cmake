@@ -37,12 +37,12 @@ set(safe --clauses overlap,passage,continuity)
 paperproof_trace_test(of_discrete_characters_hold_for_two_and_show_the_overlap_of_three
   COMMAND "${checker}" ${safe} "${traces}/t.characters_head_on.discrete.double.jsonl"
           "${traces}/t.three_in_a_row.discrete.double.jsonl"
-  PROPERTIES PASS_REGULAR_EXPRESSION "60 steps, 0 contacts, 0 violations\n.*step 0: overlap: character 0 and character 1 come to overlap.*90 steps, 0 contacts, 1 violations")
+  PROPERTIES PASS_REGULAR_EXPRESSION "60 steps, 0 contacts, 0 violations of 3 clauses\n.*step 0: overlap: character 0 and character 1 come to overlap.*90 steps, 0 contacts, 1 violations")
 
 # Box2D keeps 15 mm away, so that nothing of it is too close to tell.
 paperproof_trace_test(of_what_turns_hold
   COMMAND "${checker}" ${safe},wanted "${traces}/t.turning_arm.box2d.float.jsonl" "${traces}/t.rotating_paper.box2d.float.jsonl"
-  PROPERTIES PASS_REGULAR_EXPRESSION "90 steps, [1-9][0-9]* contacts, 0 violations\n.*120 steps, [1-9][0-9]* contacts, 0 violations\n")
+  PROPERTIES PASS_REGULAR_EXPRESSION "90 steps, [1-9][0-9]* contacts, 0 violations of 4 clauses\n.*120 steps, [1-9][0-9]* contacts, 0 violations of 4 clauses\n")
 
 # A character that goes by whole squares is drawn elsewhere: `remainder` says so.
 paperproof_trace_test(of_grid_hold COMMAND "${checker}" ${safe} "${traces}/t.sensor_gate.grid.double.jsonl")
