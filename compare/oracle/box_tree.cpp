@@ -27,6 +27,7 @@ struct BoxTree::Tree : geometry::index::rtree<Entry, geometry::index::quadratic<
 
 BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> names) {
   std::vector<Entry> entries;
+  entries.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) entries.emplace_back(same(boxes[i]), names[i]);
   tree_ = std::make_shared<const Tree>(entries);
 }

@@ -33,7 +33,7 @@ namespace paperproof::compare::detail {
 /// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
 /// climb. `leg_faults` bounds how fast and how far it goes.
 /// @param whole the same step, where its later parts are requested, too.
-/// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
+/// @param grown_scenery the solids for an octagon that is larger by 1e-6 m.
 /// @param wanted by the first part of the step. @param starts_free the step begins inside nothing.
 void judge_end(const StepView& at, const StepView& whole, const ExactScenery& grown_scenery, const Wanted& wanted,
                const LaterParts& later, bool starts_free, StepJudgement& judgement);

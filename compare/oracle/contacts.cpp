@@ -230,6 +230,12 @@ struct ContactJudge : ContactScene {
   /// Whether the requested motion leads against the reported normal, and the collider is held already or comes within
   /// the contender's hit distance on the way.
   [[nodiscard]] bool comes_near(const Contact& contact) const {
+    const auto [known, is_new] = comes.try_emplace(&contact);
+    if (is_new) known->second = finds_near(contact);
+    return known->second;
+  }
+
+  [[nodiscard]] bool finds_near(const Contact& contact) const {
     if (contact.normal.dot(wanted(contact.collider)) >= 0) return false;
     const auto is_it = [&contact](const ExactImpact& impact) { return impact.collider == contact.collider; };
     for (std::size_t i = 0; i < step.path.size(); ++i) {
@@ -295,6 +301,8 @@ struct ContactJudge : ContactScene {
 
   /// By contact: see `face_of`.
   mutable std::map<const Contact*, std::optional<Vec2d>> faces{};
+  /// By contact: see `comes_near`.
+  mutable std::map<const Contact*, bool> comes{};
   /// By corner and way: see `impacts_along`.
   mutable std::map<std::tuple<std::size_t, double, double>, std::vector<ExactImpact>> impacts{};
 };

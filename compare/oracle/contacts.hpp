@@ -27,7 +27,7 @@ inline constexpr double least_approach = 1e-3;
 [[nodiscard]] bool is_exact(const StepJudgement& judgement, const Contact& reported);
 
 /// Judges the contacts of one step: see `Judge` for what each answer means.
-/// @param grown the same for an octagon that is larger by `least_clearance`; null for a contender that promises
+/// @param grown the solids for an octagon that is larger by `least_clearance`; null for a contender that promises
 /// nothing.
 void judge_contacts(const StepView& at, const ExactScenery* grown, bool starts_free, StepJudgement& judgement);
 /// How much of the wanted horizontal motion of a step without contacts was lost to nothing.

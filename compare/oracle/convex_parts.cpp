@@ -39,6 +39,12 @@ Sign turn_at(const Polygon& polygon, const Ring& ring, std::size_t i) {
   return turn(polygon.vertices[ring[(i + n - 1) % n]], polygon.vertices[ring[i]], polygon.vertices[ring[(i + 1) % n]]);
 }
 
+bool is_convex(const Polygon& polygon, const Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (turn_at(polygon, ring, i) == Sign::negative) return false;
+  return true;
+}
+
 /// Strictly between a and b, for a point on their line.
 bool between(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
   return p != a && p != b && Box2::between(a, b).overlaps({p, p});
@@ -271,9 +277,7 @@ std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
   }
   Polygon polygon = with_windings(def);
   std::vector<Ring> rings;
-  std::size_t bent = 0;  // the first corner that is not convex
-  while (bent < def.points.size() && turn_at(polygon, polygon.rings[0], bent) != Sign::negative) ++bent;
-  if (polygon.rings.size() == 1 && bent == def.points.size()) {
+  if (polygon.rings.size() == 1 && is_convex(polygon, polygon.rings[0])) {
     rings = polygon.rings;
   } else {
     join_holes(polygon);

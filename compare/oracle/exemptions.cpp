@@ -1,5 +1,6 @@
 #include "oracle/exemptions.hpp"
 
+#include "oracle/contacts.hpp"
 #include "records/row.hpp"
 
 #include <algorithm>
@@ -9,11 +10,13 @@
 namespace paperproof::compare {
 namespace {
 
+using detail::contact_reach;
+
 /// See `own_reach` [m].
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 14> all_exemptions{{
+constexpr auto all_exemptions = std::to_array<Exemption>({
     {"clipped",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
      "m",
@@ -46,7 +49,7 @@ constexpr std::array<Exemption, 14> all_exemptions{{
     {"ahead",
      "reports a contact with what is this near along the normal, and met in the next step only",
      "m",
-     {1e-6, 0, 1e-6, 1e-6}},
+     {contact_reach, 0, contact_reach, contact_reach}},
     {"far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
     {"unsure",
      "hangs, or loses speed, unless what turns comes this much farther than its point nearest to the character",
@@ -61,7 +64,8 @@ constexpr std::array<Exemption, 14> all_exemptions{{
      "overlaps a sensor that turns: whether and when it enters and leaves that is not asked for",
      "",
      {1, 1, 1, 1}},
-}};
+});
+static_assert(all_exemptions.size() == static_cast<std::size_t>(Exempt::turning_sensor) + 1);
 
 std::string size_in_words(const Exemption& exemption, Party party) {
   const double size = exemption.sizes[static_cast<std::size_t>(party)];

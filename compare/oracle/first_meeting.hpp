@@ -44,14 +44,15 @@ enum class Asked : std::uint8_t { whether, when };
 
 /// The same question, and never undecided: by another method, so that one mistake of thought cannot be in both.
 ///
-/// Both go straight and evenly. The signs of finitely many polynomials of degree 2 in the time say whether they
-/// overlap: of each corner of the octagon and the line through two vertices of the part, and of each vertex and the
-/// line of a side of the octagon (of a disc: of the squared distances from corners and sides). For a segment enters the
-/// open octagon exactly if its line has corners on both sides, and no side of the octagon has both of its ends outside;
-/// else the two overlap only if a triangle of vertices contains the octagon. So the answer changes only where one of
-/// the signs does. The roots at which signs change are isolated in binary fractions, by the signs of integers; two are
-/// told to be one by their resultant. Between each two that follow each other one moment is asked: whether a segment
-/// between two vertices enters the octagon (Cyrus and Beck 1978), or a triangle of vertices contains its centre.
+/// The octagon and the part go straight and evenly. The signs of finitely many polynomials of degree 2 in the time say
+/// whether these two overlap: of each corner of the octagon and the line through two vertices of the part, and of each
+/// vertex and the line of a side of the octagon (of a disc: of the squared distances from corners and sides). For a
+/// segment enters the open octagon exactly if its line has corners on both sides, and no side of the octagon has both
+/// of its ends outside; else the two overlap only if a triangle of vertices contains the octagon. So the answer changes
+/// only where one of the signs does. The roots at which signs change are isolated in binary fractions, by the signs of
+/// integers; two are told to be one by their resultant. Between each two that follow each other one moment is asked:
+/// whether a segment between two vertices enters the octagon (Cyrus and Beck 1978), or a triangle of vertices contains
+/// its centre.
 ///
 /// All numbers are integers. Isolation ends: different roots of two quadratics with coefficients of B bits are at least
 /// 2^-(4 B + 8) apart, and doubles keep 4 B below `most_bits`.

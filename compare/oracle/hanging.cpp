@@ -207,9 +207,9 @@ bool hangs(const StepView& at, const Wanted* walk, const Vec2d& made, const Reac
   if (is_capped(step, at.header) || !(asked > least) || !(fell < least_share * asked)) return false;
   const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
   const std::vector<Nearby> corners = obstacles.near_corners(unsteered.dot(at.up) * at.up, bounds);
+  if (std::ranges::any_of(corners, &Nearby::holds)) return false;
   std::vector<Obstacle> all;
   for (const Nearby& corner : corners) all.insert(all.end(), corner.obstacles.begin(), corner.obstacles.end());
-  if (std::ranges::any_of(corners, &Nearby::holds)) return false;
   const Vec2d free = nearest_free(unsteered, all, reach.opening);
   if (!falls_short_of(std::min(-free.dot(at.up), asked))) return false;
   if (step.movers.empty()) return true;

@@ -197,7 +197,8 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     return goes(collider) && (comes_closer_to(path.front(), collider) || comes_closer_to(path[held], collider));
   };
   std::vector<ColliderIndex> pressing = step.crushed;
-  std::vector<ColliderIndex> entered;  // and overlapped in no earlier step
+  // What a contender that promises nothing ends inside of, and was inside of in no earlier step.
+  std::vector<ColliderIndex> entered;
   if (!promises_) entered = judgement.end_overlap;
   std::erase_if(entered, [this](ColliderIndex collider) { return inside_.contains(collider); });
   if (!entered.empty()) {

@@ -43,7 +43,9 @@ struct LegJudge : StepView {
   std::size_t begin;                         ///< The leg that is looked at first.
   const Wanted wanted = later.whole(first);  ///< By all parts of the step, but for what later ones steer.
   const int stairs = stairs_climbed(*this, first);
-  /// All that is near the way, as an upright character sees it.
+  /// What is within `contact_reach` of each corner of the way.
+  const std::vector<std::vector<NearPart>> touched = touched_parts();
+  /// The same, as an upright character sees it.
   const std::vector<MetSurface> surfaces = near_surfaces();
   /// What the step may have at them, across and along up [m/s].
   const Box2 speeds = velocities(surfaces, Vec2d::Zero());
@@ -63,7 +65,7 @@ struct LegJudge : StepView {
     // What turns under its rider takes it along otherwise in each part of the step.
     if (first.from_ground) {
       Box2 unsure{Vec2d::Zero(), Vec2d::Zero()};
-      for (const NearPart& part : near(0, contact_reach))
+      for (const NearPart& part : touched.front())
         for (const NearFace& face : part.faces)
           unsure = unsure.merged(face_of(part, seen(face.normal, up), dt).velocities());
       range.unsteered = range.unsteered + unsure;
@@ -71,6 +73,12 @@ struct LegJudge : StepView {
     range.least_steering = std::min(first.steered / dt, 0.0);
     range.most_steering = std::max(first.steered / dt, 0.0);
     return range;
+  }
+
+  [[nodiscard]] std::vector<std::vector<NearPart>> touched_parts() const {
+    std::vector<std::vector<NearPart>> parts;
+    for (std::size_t corner = 0; corner < step.path.size(); ++corner) parts.push_back(near(corner, contact_reach));
+    return parts;
   }
 
   /// All that is near the way, in the order in which it comes to it.
@@ -86,7 +94,7 @@ struct LegJudge : StepView {
     };
     const MoverIndex carrier = first.ridden ? solid(*first.ridden).mover : no_mover;
     for (std::size_t corner = 0; corner < step.path.size(); ++corner)
-      for (const NearPart& part : near(corner, contact_reach)) {
+      for (const NearPart& part : touched[corner]) {
         const bool goes_along = carrier != no_mover && solid(part.collider).mover == carrier;
         for (const NearFace& face : part.faces) {
           const Vec2d normal = seen(face.normal, up);
@@ -149,8 +157,8 @@ struct LegJudge : StepView {
   /// How far each goes in the step that touches the character and moves [m].
   [[nodiscard]] std::map<ColliderIndex, double> pushes() const {
     std::map<ColliderIndex, double> ways;
-    for (std::size_t corner = 0; corner < step.path.size(); ++corner)
-      for (const NearPart& part : near(corner, contact_reach))
+    for (const std::vector<NearPart>& parts : touched)
+      for (const NearPart& part : parts)
         ways[part.collider] =
             std::max(ways[part.collider], part.moved.norm() + part.unsure + std::abs(part.rim) + part.rim_unsure);
     return ways;
@@ -207,7 +215,7 @@ struct LegJudge : StepView {
       const Vec2d leg = seen(step.path[k].position - step.path[k - 1].position, up);
       const bool at_once = step.path[k - 1].fraction == step.path[k].fraction;
       const bool is_straight = std::abs(leg.x()) <= rounding() && leg.y() < 0;
-      if (!at_once || !is_straight || legs == first.parts || !any_face(near(k, contact_reach), looks_up)) continue;
+      if (!at_once || !is_straight || legs == first.parts || !any_face(touched[k], looks_up)) continue;
       down += std::min(-leg.y(), header.character.snap);
       ++legs;
     }
@@ -217,7 +225,7 @@ struct LegJudge : StepView {
   /// How fast what pushes it at once has carried it already [m/s].
   [[nodiscard]] Vec2d own_carrier() const {
     const auto goes_so = [&](const NearPart& part) { return part.moved == first.carried; };
-    const bool is_there = std::ranges::any_of(near(0, contact_reach), goes_so);
+    const bool is_there = std::ranges::any_of(touched.front(), goes_so);
     return is_there ? Vec2d(first.carried / dt) : Vec2d(Vec2d::Zero());
   }
 

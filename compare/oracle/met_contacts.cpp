@@ -27,6 +27,8 @@ void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudg
 }
 
 struct MetContacts : ContactScene {
+  const std::size_t begin = first_corner();
+
   [[nodiscard]] Side side_of(const ExactImpact& impact) const { return side_along(impact.normal, up); }
 
   [[nodiscard]] bool reports(const ExactImpact& impact) const {
@@ -124,7 +126,7 @@ struct MetContacts : ContactScene {
     };
     const auto is_met = [&](const ExactImpact& impact) {
       if (!in_time(impact) || !header.path_exact) return in_time(impact);
-      return corner >= first_corner() && is_left(impact) && comes_to(impact, corner, impacts, scenery) &&
+      return corner >= begin && is_left(impact) && comes_to(impact, corner, impacts, scenery) &&
              comes_to_when_grown(impact, corner);
     };
     for (const ExactImpact& impact : impacts) {
@@ -152,7 +154,7 @@ struct MetContacts : ContactScene {
     if (first == impacts.end() || is_closed_before(*first)) return;
     for (const ExactImpact& impact : impacts) {
       if (impact.fraction != first->fraction || !impact.exposed) continue;
-      if (!comes_to_when_grown(impact, first_corner()) && !reports(impact)) continue;
+      if (!comes_to_when_grown(impact, begin) && !reports(impact)) continue;
       add_contact(impact, side_of(impact), static_cast<double>(impact.fraction), judgement, true);
     }
     if (!starts_free) return;
@@ -170,7 +172,7 @@ struct MetContacts : ContactScene {
   /// than a contact may be.
   [[nodiscard]] bool is_closed_before(const ExactImpact& first) const {
     if (grown == nullptr) return false;
-    const Place start = place(first_corner());
+    const Place start = place(begin);
     const double fraction = static_cast<double>(first.fraction);
     const double along = std::abs(wanted(first.collider).dot(first.normal));
     if (!(along * fraction > 2 * contact_reach)) return false;  // it is at the start
@@ -185,7 +187,6 @@ struct MetContacts : ContactScene {
 
   void add(bool starts_free, StepJudgement& judgement) const {
     std::vector<ColliderIndex> met;  // by the requested motion
-    const std::size_t begin = first_corner();
     for (std::size_t i = 0; i < step.path.size(); ++i) {
       const Vec2d& position = step.path[i].position;
       const bool end = i == 0 || i + 1 == step.path.size();

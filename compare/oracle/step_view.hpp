@@ -53,7 +53,7 @@ struct StepView {
   }
   /// What was requested without what this step's steering added [m].
   [[nodiscard]] Vec2d unsteered() const { return step.requested - step.steered * right; }
-  /// The parts of solids within so many metres of a corner of the way.
+  /// The parts, of what turns as well, within so many metres of a corner of the way.
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
     std::vector<NearPart> parts = scenery.near_parts(place(corner), within);
     if (turns.near) std::ranges::move(turns.near(step.path[corner], within), std::back_inserter(parts));

@@ -116,15 +116,16 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
     if (corner.fraction == 1) break;
     way.push_back(corner);
     const Place from(corner, step.movers);
+    const std::vector<ColliderIndex> inside = rest.overlapped(from);
+    const std::vector<ColliderIndex> near = wider.overlapped(from);
     const auto reached = [&](const Vec2d& position) {
       const Place there(position, step.movers, 1);
       std::vector<PathPoint> whole = way;
       whole.push_back({position, 1});
       return (position - step.path.back().position).norm() <= reach && on_their_sides(end, sides, there) &&
-             rest.meets_only(from, there, rest.overlapped(from)) &&
-             wider.meets_only(from, there, wider.overlapped(from)) && left_free(whole);
+             rest.meets_only(from, there, inside) && wider.meets_only(from, there, near) && left_free(whole);
     };
-    std::vector<ColliderIndex> may_pass = rest.overlapped(from);
+    std::vector<ColliderIndex> may_pass = inside;
     for (const VertexWay& turning : step.vertex_ways) may_pass.push_back(turning.collider);
     const WayQuestion question{
         .from = from, .end = Place(corner.position, step.movers, 1), .may_pass = may_pass, .wider = wider.points()};
