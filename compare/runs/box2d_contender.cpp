@@ -41,13 +41,11 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHe
     if (!contains(record.dropped_through, passed)) record.dropped_through.push_back(passed);
   std::ranges::sort(record.dropped_through);
   if (of.number == 0) record.movers = twin.movers;
-  for (std::size_t k = 0; k < twin.movers.size(); ++k) record.movers[k].to = twin.movers[k].to;
-  std::vector<MoverMotion> movers = twin.movers;
-  for (std::size_t k = 0; k < movers.size(); ++k) {
-    movers[k].from_angle = twin.turns[k].from;
-    movers[k].to_angle = twin.turns[k].to;
+  for (std::size_t k = 0; k < twin.movers.size(); ++k) {
+    record.movers[k].to = twin.movers[k].to;
+    record.movers[k].to_angle = twin.movers[k].to_angle;
   }
-  add_ways(header, movers, {of.fraction(0), of.fraction(1)}, record.vertex_ways);
+  add_ways(header, twin.movers, {of.fraction(0), of.fraction(1)}, record.vertex_ways);
   record.capped = record.capped || twin.capped;
 }
 
@@ -110,9 +108,8 @@ class Box2dContender final : public Contender {
     const std::size_t count = twins_.size();
     for (int substep = 0; substep < substeps_; ++substep) {
       const StepInput part = part_of(input, substep);
-      take_turns(part);
       const std::size_t wish = (k * static_cast<std::size_t>(substeps_) + static_cast<std::size_t>(substep)) * count;
-      world_.step_bare(std::span(kept_).subspan(wish, count), part.dt, part.movers, turns_);
+      world_.step_bare(std::span(kept_).subspan(wish, count), part.dt, part.movers);
     }
   }
 
@@ -167,7 +164,6 @@ class Box2dContender final : public Contender {
     for (std::size_t k = 0; k < twins_.size(); ++k)
       wishes_[k] = {intent_.wanted(twins_[k], world_.position(k), input.players[k], input), input.players[k].drop};
     if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
-    take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
     for (std::size_t k = 0; k < twins_.size(); ++k) {
       const box2d::TwinStep& step = steps[k];
@@ -180,14 +176,9 @@ class Box2dContender final : public Contender {
     return steps;
   }
 
-  void take_turns(const StepInput& input) {
-    turns_.clear();
-    for (const MoverMotion& mover : input.movers) turns_.push_back({mover.from_angle, mover.to_angle});
-  }
-
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion> movers) {
     try {
-      return world_.step_all(wishes_, dt_, movers, turns_);
+      return world_.step_all(wishes_, dt_, movers);
     } catch (const box2d::InvalidDefinition& reason) {
       throw StepRefused(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
@@ -199,7 +190,6 @@ class Box2dContender final : public Contender {
   TraceHeader header_;
   EngineIntent intent_{header_};
   std::vector<EngineCharacter> twins_;
-  std::vector<box2d::MoverTurn> turns_;   ///< Of the present step.
   std::vector<MoverMotion> part_movers_;  ///< See `part_of`.
   std::vector<box2d::TwinWish> wishes_;   ///< Of the present step.
   std::vector<box2d::TwinWish> kept_;     ///< Of all steps since they are kept.

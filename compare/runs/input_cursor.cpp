@@ -10,6 +10,7 @@ namespace {
 box2d::JointDef definition_of(const Joint& joint) {
   constexpr std::array kinds{box2d::JointDef::Kind::distance, box2d::JointDef::Kind::revolute,
                              box2d::JointDef::Kind::prismatic};  // by `Joint::Kind`
+  static_assert(kinds.size() == static_cast<std::size_t>(Joint::Kind::prismatic) + 1);
   return {.kind = kinds.at(static_cast<std::size_t>(joint.kind)),
           .body = joint.body,
           .other = joint.other,
@@ -50,15 +51,9 @@ InputCursor::InputCursor(const Scene& scene, const Script& script)
       motions_(scene.movers.size()) {}
 
 StepInput InputCursor::at(int step) {
-  std::vector<box2d::MoverTurn> turns;
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    const auto [from, to] = turn_between(scene_.movers[i], times_.begin(step), times_.end(step));
+  for (std::size_t i = 0; i < motions_.size(); ++i)
     motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
-    motions_[i].from_angle = from;
-    motions_[i].to_angle = to;
-    turns.push_back({from, to});
-  }
-  if (bodies_) bodies_->step(times_.length(step), motions_, turns);
+  if (bodies_) bodies_->step(times_.length(step), motions_);
   for (std::size_t k = 0; k < script_.size(); ++k)
     for (; next_[k] < script_[k].size() && script_[k][next_[k]].step <= step; ++next_[k])
       apply(script_[k][next_[k]], now_[k]);

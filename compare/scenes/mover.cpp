@@ -58,12 +58,8 @@ double angle_at(const MoverDef& mover, double time) {
   return between(mover.turns, at.time) + at.runs * (last.at - first.at);
 }
 
-TurnMotion turn_between(const MoverDef& mover, double begin, double end) {
-  return {angle_at(mover, begin), angle_at(mover, end)};
-}
-
 MoverMotion motion_between(const MoverDef& mover, double begin, double end) {
-  return {offset_at(mover, begin), offset_at(mover, end)};
+  return {offset_at(mover, begin), offset_at(mover, end), angle_at(mover, begin), angle_at(mover, end)};
 }
 
 }  // namespace paperproof::compare

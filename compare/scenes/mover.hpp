@@ -35,12 +35,6 @@ struct MoverDef {
   std::optional<Body> body{};
 };
 
-/// How a mover turns during one step: evenly, from one angle to another [radians], counter-clockwise.
-struct TurnMotion {
-  double from = 0;
-  double to = 0;
-};
-
 /// Holds a body to the ground or to another body. Points are where they are at the start [m].
 struct Joint {
   enum class Kind : std::uint8_t {
@@ -66,9 +60,6 @@ struct Joint {
 
 /// How far it is turned at that time [radians], in the same way.
 [[nodiscard]] double angle_at(const MoverDef& mover, double time);
-
-/// How far the mover turns between two absolute times [s].
-[[nodiscard]] TurnMotion turn_between(const MoverDef& mover, double begin, double end);
 
 /// How the mover goes in a step from one absolute time to another [s].
 [[nodiscard]] MoverMotion motion_between(const MoverDef& mover, double begin, double end);

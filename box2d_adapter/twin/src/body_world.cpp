@@ -106,9 +106,9 @@ BodyWorld::~BodyWorld() = default;
 BodyWorld::BodyWorld(BodyWorld&&) noexcept = default;
 BodyWorld& BodyWorld::operator=(BodyWorld&&) noexcept = default;
 
-void BodyWorld::step(double dt, std::span<MoverMotion> motions, std::span<const MoverTurn> turns) {
+void BodyWorld::step(double dt, std::span<MoverMotion> motions) {
   SceneryBodies& stage = impl_->stage;
-  stage.send(dt, motions, turns);
+  stage.send(dt, motions);
   stage.step({});
   for (std::size_t i = 0; i < motions.size(); ++i)
     if (stage.movers[i].dynamic) motions[i] = stage.motions[i];

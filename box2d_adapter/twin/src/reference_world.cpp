@@ -180,7 +180,6 @@ void ReferenceWorld::Impl::step_bare(std::span<const TwinWish> wishes) {
 void ReferenceWorld::Impl::read(Character& who) {
   TwinStep& result = who.result;
   result.movers = stage.motions;
-  result.turns = stage.turns;
   result.velocity = widened(who.body->GetLinearVelocity());
   result.path = who.recorder.path();
   result.dropped_through = who.recorder.dropped_through(stage.motions);
@@ -216,9 +215,8 @@ Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const Scene
   }
   if (source.mover == no_mover) return who.wanted;
   const Vec2d arm = touch.point - end.offset;
-  const double angle = stage.turns[source.mover].to - stage.turns[source.mover].from;
-  return who.wanted - (stage.motions[source.mover].to - stage.motions[source.mover].from) -
-         angle * Vec2d(-arm.y(), arm.x());
+  const MoverMotion& motion = stage.motions[source.mover];
+  return who.wanted - (motion.to - motion.from) - motion.turn() * Vec2d(-arm.y(), arm.x());
 }
 
 void ReferenceWorld::Impl::add_touching(Character& who) {
@@ -340,19 +338,17 @@ const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt, st
 }
 
 std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wishes, double dt,
-                                                   std::span<const MoverMotion> movers,
-                                                   std::span<const MoverTurn> turns) {
+                                                   std::span<const MoverMotion> movers) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
   for (const TwinWish& wish : wishes) (void)checked(wish.velocity, "the wanted velocity");
-  impl_->stage.send(dt, movers, turns);
+  impl_->stage.send(dt, movers);
   impl_->step(wishes);
   return impl_->results;
 }
 
-void ReferenceWorld::step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers,
-                               std::span<const MoverTurn> turns) {
+void ReferenceWorld::step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
-  impl_->stage.send(dt, movers, turns);
+  impl_->stage.send(dt, movers);
   impl_->step_bare(wishes);
 }
 

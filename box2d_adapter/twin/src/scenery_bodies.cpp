@@ -20,14 +20,13 @@ float checked_step(double dt) {
   return static_cast<float>(dt);
 }
 
-void check_motions(std::size_t movers, std::span<const MoverMotion> motions, std::span<const MoverTurn> turns) {
+void check_motions(std::size_t movers, std::span<const MoverMotion> motions) {
   if (motions.size() != movers) throw InvalidDefinition("a step takes one motion for each mover");
   for (const MoverMotion& motion : motions) {
     (void)checked(motion.from, "a mover");
     (void)checked(motion.to, "a mover");
+    (void)checked(Vec2d(motion.from_angle, motion.to_angle), "the angle of a mover");
   }
-  if (!turns.empty() && turns.size() != movers) throw InvalidDefinition("a step takes one turn for each mover");
-  for (const MoverTurn& turn : turns) (void)checked(Vec2d(turn.from, turn.to), "the angle of a mover");
 }
 
 void check_body(const BodyDef& def) {
@@ -115,31 +114,30 @@ SceneryBodies::SceneryBodies(b2World& world, const Scenery& scenery, const Refer
   add_sensors(bodies, scenery, as_run, fixtures);
   offsets.resize(movers.size(), Vec2d::Zero());
   motions.resize(movers.size());
-  turns.resize(movers.size());
 }
 
-void SceneryBodies::send(double length, std::span<const MoverMotion> wanted, std::span<const MoverTurn> wanted_turns) {
+void SceneryBodies::send(double length, std::span<const MoverMotion> wanted) {
   const float checked_length = checked_step(length);
-  check_motions(movers.size(), wanted, wanted_turns);
+  check_motions(movers.size(), wanted);
   dt = checked_length;
   capped = false;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     Mover& mover = movers[i];
     const b2Vec2 before = mover.body->GetPosition();
-    if (!mover.dynamic) send(mover, wanted[i], wanted_turns.empty() ? MoverTurn{} : wanted_turns[i]);
-    turns[i].from = static_cast<double>(mover.body->GetAngle());
+    if (!mover.dynamic) send(mover, wanted[i]);
     const bool was_put = drive_ == MoverDrive::transform && !mover.dynamic;
     offsets[i] = was_put ? widened(before) : widened(mover.body->GetPosition());
+    motions[i].from_angle = static_cast<double>(mover.body->GetAngle());
   }
 }
 
 /// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
-void SceneryBodies::send(Mover& mover, const MoverMotion& wanted, const MoverTurn& turn) {
+void SceneryBodies::send(Mover& mover, const MoverMotion& wanted) {
   const b2Vec2 from = rounded(wanted.from);
-  const auto from_angle = static_cast<float>(turn.from);
+  const auto from_angle = static_cast<float>(wanted.from_angle);
   if (!(mover.goal == from) || mover.goal_angle != from_angle) mover.body->SetTransform(from, from_angle);
   mover.goal = rounded(wanted.to);
-  mover.goal_angle = static_cast<float>(turn.to);
+  mover.goal_angle = static_cast<float>(wanted.to_angle);
   if (drive_ == MoverDrive::transform) {
     mover.body->SetTransform(mover.goal, mover.goal_angle);
     return;
@@ -156,8 +154,9 @@ void SceneryBodies::step(const ReferenceWorldDef& def) {
   world_.Step(dt, def.velocity_iterations, def.position_iterations);
   last_dt_ = dt;
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    motions[i] = {offsets[i], widened(movers[i].body->GetPosition())};
-    turns[i].to = static_cast<double>(movers[i].body->GetAngle());
+    motions[i].from = offsets[i];
+    motions[i].to = widened(movers[i].body->GetPosition());
+    motions[i].to_angle = static_cast<double>(movers[i].body->GetAngle());
   }
 }
 

@@ -25,8 +25,8 @@ struct SceneryBodies {
 
   /// Begins a step: gives every kinematic body the velocity that takes it to where it is to be.
   /// @throws InvalidDefinition for what `ReferenceWorld::step_all` refuses; then nothing changed.
-  void send(double length, std::span<const MoverMotion> wanted, std::span<const MoverTurn> wanted_turns);
-  /// Steps the world, and fills `motions` and `turns`.
+  void send(double length, std::span<const MoverMotion> wanted);
+  /// Steps the world, and fills `motions`.
   void step(const ReferenceWorldDef& def);
 
   struct Mover {
@@ -42,12 +42,11 @@ struct SceneryBodies {
   std::vector<Mover> movers;
   std::vector<Vec2d> offsets;        ///< Of the movers, when the step begins [m].
   std::vector<MoverMotion> motions;  ///< As Box2D made them.
-  std::vector<MoverTurn> turns;
-  bool capped = false;  ///< A kinematic body was to go beyond the travel cap.
-  float dt = 0;         ///< Of the present step, or the last [s].
+  bool capped = false;               ///< A kinematic body was to go beyond the travel cap.
+  float dt = 0;                      ///< Of the present step, or the last [s].
 
  private:
-  void send(Mover& mover, const MoverMotion& wanted, const MoverTurn& turn);
+  void send(Mover& mover, const MoverMotion& wanted);
 
   b2World& world_;
   MoverDrive drive_;

@@ -104,12 +104,12 @@ TEST(TwinMovers, are_refused_where_they_are_not_one_for_each_or_not_finite_and_f
   const double cap_speed = max_travel_per_step / frame;
   EXPECT_FALSE(world.step({0, 0}, frame, steady({0.99 * cap_speed, 0}, 0)).capped);
   EXPECT_TRUE(world.step({0, 0}, frame, steady({1.01 * cap_speed, 0}, 1)).capped);
-  const auto turned = [&](const std::vector<MoverTurn>& turns) {
-    return world.step_all(std::array{TwinWish{}}, frame, std::array{MoverMotion{}}, turns).front().capped;
+  const auto turned = [&](double angle) {
+    return world.step({0, 0}, frame, std::array{MoverMotion{.to_angle = angle}}).capped;
   };
-  EXPECT_FALSE(turned({{0, 1.5}}));
-  EXPECT_TRUE(turned({{0, 1.6}})) << "a quarter of a circle";
-  EXPECT_THROW(turned(std::vector<MoverTurn>(2)), InvalidDefinition);
+  EXPECT_FALSE(turned(1.5));
+  EXPECT_TRUE(turned(1.6)) << "a quarter of a circle";
+  EXPECT_THROW(turned(std::nan("")), InvalidDefinition);
 }
 
 TEST(Characters, another_number_of_velocities_is_refused_and_one_is_placed) {

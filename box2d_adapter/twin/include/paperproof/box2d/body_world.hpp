@@ -62,10 +62,9 @@ class BodyWorld {
   /// Steps the world once.
   /// @param motions one for each mover of the scenery: those along paths are read, those of bodies are written, from
   ///   where Box2D had them to where it has them (floats, which are doubles exactly).
-  /// @param turns one for each mover, or none where none turns.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
-  void step(double dt, std::span<MoverMotion> motions, std::span<const MoverTurn> turns = {});
+  void step(double dt, std::span<MoverMotion> motions);
 
  private:
   struct Impl;

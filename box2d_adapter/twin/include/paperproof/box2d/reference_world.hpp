@@ -3,8 +3,8 @@
 
 #include <paperproof/box2d/invalid_definition.hpp>
 #include <paperproof/controller.hpp>
-#include <paperproof/together.hpp>
 #include <paperproof/scenery.hpp>
+#include <paperproof/together.hpp>
 
 #include <memory>
 #include <optional>
@@ -65,12 +65,6 @@ struct TwinWish {
   bool drop = false;              ///< One-way chains do not hold it.
 };
 
-/// How a mover turns in one step, about its offset: from one angle to another [radians], counter-clockwise.
-struct MoverTurn {
-  double from = 0;
-  double to = 0;
-};
-
 /// What one step of the twin did. Positions and velocities are Box2D's floats.
 ///
 /// Contacts: `separation` is the gap between the bare shapes, Box2D's own plus both radii, so that rest gives about
@@ -92,7 +86,6 @@ struct TwinStep {
   std::vector<PathPoint> path;      ///< Start, positions seen in callbacks during the step, end.
   std::vector<Contact> contacts;    ///< Touching after the step, and those that began and ended during it.
   std::vector<MoverMotion> movers;  ///< Where Box2D had the movers when the step began and ended.
-  std::vector<MoverTurn> turns;     ///< How far it had turned them.
   /// Box2D looks for sensors once, when a step begins, and within 20 mm: what is crossed in one step is not seen, and
   /// the fraction is always 0.
   std::vector<SensorEvent> sensors;
@@ -125,22 +118,20 @@ class ReferenceWorld {
   /// Sets the wanted velocity and steps the world once.
   /// @param movers one for each mover of the scenery. Each gets the velocity that takes it from where Box2D has it to
   ///   where it should be at the end, so that rounding does not add up; one that does not begin where it was to end in
-  ///   the step before is put there.
+  ///   the step before is put there. It turns by velocity as well: Box2D turns a body by at most a quarter of a circle
+  ///   in a step, and beyond that the step counts as capped.
   /// @param drop one-way chains hold nobody in this step.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
   const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion> movers = {},
                        bool drop = false);
   /// The same with a wish of each character. @returns one for each, valid until the next step.
-  /// @param turns one for each mover, or none where none turns. As with the motions, by velocity; Box2D turns a body by
-  ///   at most a quarter of a circle in a step, and beyond that the step counts as capped.
   std::span<const TwinStep> step_all(std::span<const TwinWish> wishes, double dt,
-                                     std::span<const MoverMotion> movers = {}, std::span<const MoverTurn> turns = {});
+                                     std::span<const MoverMotion> movers = {});
 
   /// The same step of the same world, for timing Box2D alone: nothing is recorded and nothing read. Where there are
   /// one-way chains a listener lets through what they do not hold; elsewhere there is none.
-  void step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers = {},
-                 std::span<const MoverTurn> turns = {});
+  void step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion> movers = {});
 
   [[nodiscard]] Vec2d position(std::size_t character = 0) const;
   /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.
