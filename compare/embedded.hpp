@@ -15,6 +15,8 @@ struct EmbeddedFile {
 extern const std::span<const EmbeddedFile> page_files;      ///< The page; last Chart.js, MIT licence.
 extern const std::span<const EmbeddedFile> built_in_files;  ///< What every scene begins with, then the built-in scenes.
 extern const std::span<const EmbeddedFile> scene_schema;
+extern const std::span<const EmbeddedFile> trace_schema;
+extern const std::span<const EmbeddedFile> peer_schema;
 extern const std::span<const EmbeddedFile> prepared_studies_file;
 extern const std::span<const EmbeddedFile> families_file;
 extern const std::span<const EmbeddedFile> lessons_file;      ///< What the article's bullet teaches of each technique.

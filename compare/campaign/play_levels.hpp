@@ -1,14 +1,12 @@
 /// Levels as players meet them: where a character can hang, hop, tremble or fall through.
 #pragma once
 
-#include "campaign/named.hpp"
 #include "campaign/random.hpp"
 
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <array>
-#include <string>
 #include <string_view>
 
 namespace paperproof::compare {
@@ -27,9 +25,6 @@ enum class PlayLevel {
 /// In the order of `PlayLevel`.
 inline constexpr std::array<std::string_view, 8> play_level_names{"gaps",      "kerbs",    "ramps",  "funnels",
                                                                   "platforms", "sawtooth", "arches", "dead_ends"};
-
-inline constexpr std::array all_play_levels = all_of<PlayLevel>(play_level_names);
-[[nodiscard]] inline std::string name_of(PlayLevel level) { return name_among(play_level_names, level); }
 
 /// A closed hall from -30 to 30 m, with a floor at -12 m; a start between the walls at a height of 12 m is free.
 [[nodiscard]] SceneryDef play_level(PlayLevel level, Random& random);

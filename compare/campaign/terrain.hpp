@@ -1,13 +1,11 @@
 /// Families of random scenery around the origin: each breaks a different naive sweep.
 #pragma once
 
-#include "campaign/named.hpp"
 #include "campaign/random.hpp"
 
 #include <paperproof/scenery.hpp>
 
 #include <array>
-#include <string>
 #include <string_view>
 
 namespace paperproof::compare {
@@ -34,9 +32,6 @@ enum class Terrain {
 inline constexpr std::array<std::string_view, 15> terrain_names{
     "tiles",  "slopes",  "spikes",  "papers",  "chains",  "wedges",         "stairs", "ceilings",
     "shafts", "needles", "concave", "one_way", "lattice", "one_way_solids", "circles"};
-
-inline constexpr std::array all_terrains = all_of<Terrain>(terrain_names);
-[[nodiscard]] inline std::string name_of(Terrain terrain) { return name_among(terrain_names, terrain); }
 
 /// Solids within about 6 m of `origin`, with free room among them.
 SceneryDef random_terrain(Terrain terrain, Random& random, const Vec2d& origin);

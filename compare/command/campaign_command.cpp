@@ -49,7 +49,8 @@ std::string table_of(const std::vector<Ran>& all) {
   return view(all, columns) + "\n";
 }
 
-/// Of one kind, as tests/known_and_open.json has them: what each clause is broken in of a million steps, and of each family.
+/// Of one kind, as tests/known_and_open.json has them: what each clause is broken in of a million steps, and of each
+/// family.
 std::string rates_of(const std::vector<Ran>& all) {
   std::map<Clause, std::string> of_families;
   std::map<Clause, int> broken;
@@ -65,8 +66,8 @@ std::string rates_of(const std::vector<Ran>& all) {
   }
   std::string lines;
   for (const auto& [clause, steps] : broken)
-    lines += fmt::format("{}: {} is broken in {:.1f} steps of a million ({})\n", all.front().family->kind, name_of(clause),
-                         in_a_million(steps, records), of_families[clause]);
+    lines += fmt::format("{}: {} is broken in {:.1f} steps of a million ({})\n", all.front().family->kind,
+                         name_of(clause), in_a_million(steps, records), of_families[clause]);
   return lines;
 }
 
@@ -123,9 +124,9 @@ int replay_command(const ReplayArguments& arguments) {
   const Findings found = run_and_judge(run, name, arguments.settings);
   if (!found.failed.empty()) throw InputError(fmt::format("{} {}: {}", family.title(), arguments.seed, found.failed));
   if (found.steps == 0)
-    throw InputError(fmt::format("{} {} is left out: {}", family.title(), arguments.seed,
-                                 run.scene.steps == 0 ? "it has no free place for its characters"
-                                                      : "its character begins inside something"));
+    throw InputError(fmt::format(
+        "{} {} is left out: {}", family.title(), arguments.seed,
+        run.scene.steps == 0 ? "it has no free place for its characters" : "its character begins inside something"));
   std::string said = fmt::format("{} {}: {} judged of {}\n", family.title(), arguments.seed,
                                  counted(found.steps, "step"), arguments.settings.contender);
   for (std::size_t i = 0; i < found.happened.size(); ++i)

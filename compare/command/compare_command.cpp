@@ -14,7 +14,6 @@
 #include "report/strip_svg.hpp"
 #include "runs/environment.hpp"
 #include "runs/gallery.hpp"
-#include "runs/preparation.hpp"
 #include "runs/row_views.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/built_in.hpp"
@@ -178,7 +177,6 @@ class Comparison {
   }
 
   void run_one(const Scene& scene) {
-    announce_preparation(scene);
     const double steps = steps_of(scene);
     arguments_.run.progress = [&](double of_scene) {
       progress_.show(fmt::format("{} ({:.0f} %),", scene.name, 100 * of_scene),
@@ -213,13 +211,6 @@ class Comparison {
     const std::string title = scene.name + (scene.description.empty() ? "" : ": " + scene.description);
     strip_->write(svg_of_strip(title, panels));
     strip_->commit();
-  }
-
-  void announce_preparation(const Scene& scene) {
-    if (arguments_.quiet) return;
-    if (const auto expected = expected_preparation(scene, contenders_of(arguments_.run), arguments_.run.scalars))
-      progress_.prepare(scene.name, expected->seconds,
-                        fmt::format("about {:.0f} pairs of its pieces are near each other", expected->pairs));
   }
 
   /// One scene, or each where all tables are asked for, as a table. Of several scenes the first in plain words, as soon
@@ -267,9 +258,7 @@ class Comparison {
   }
 
   void finish() {
-    nlohmann::ordered_json gallery = nlohmann::ordered_json::object();
-    if (shows_gallery_) gallery["gallery"] = gallery_json(gallery_of(rows_));
-    rows_file_->finish(gallery);
+    rows_file_->finish();
     std::vector<ReportSection> sections;
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
     std::vector<ReportSection> reported = sections;
@@ -277,18 +266,17 @@ class Comparison {
     if (report_) report_->finish({environment(), tolerances_, totals_.lines(), reported});
     if (arguments_.explain) sections.push_back(exemptions_section());
     if (arguments_.json)
-      print_json(gallery);
+      print_json();
     else if (!arguments_.quiet)
       print_summary(sections);
     if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
   }
 
-  void print_json(const nlohmann::ordered_json& more) const {
+  void print_json() const {
     std::vector<Row> all = refused_;
     all.insert(all.end(), rows_.begin(), rows_.end());
-    nlohmann::ordered_json rows = rows_json(all, environment());
-    rows.update(more);
-    print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+    print_out(rows_json(all, environment()).dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+              '\n');
   }
 
   CompareArguments& arguments_;

@@ -381,6 +381,7 @@ Course<double> rounded(const Course<Real>& course) {
   for (const Arc<Real>& arc : course.arcs)
     made.arcs.push_back({static_cast<double>(arc.begin), arc.place.cast<double>(), arc.velocity.cast<double>(),
                          arc.acceleration.cast<double>()});
+  made.impacts = course.impacts;
   return made;
 }
 

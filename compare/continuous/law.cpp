@@ -151,7 +151,7 @@ Hold held_while_steering(Law law, const Forces& forces, int direction, Touches r
   const auto by = law == Law::octagon_sweep ? held_by_octagon : held_without_friction;
   if (auto hold = by(forces, forces.on_ground * direction, running, true)) return *hold;
   if (auto hold = by(forces, forces.in_air * direction, running, false)) return *hold;
-  return {Point{}, {}, false, true};
+  return {.acceleration = Point{}, .chatters = true};
 }
 
 /// At the wanted speed: see Filippov in law.hpp.

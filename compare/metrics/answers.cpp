@@ -42,6 +42,7 @@ constexpr auto sentences = std::to_array<const char*>({
     "enters{with} after {number} steps",
     "leaves{with} after {number} steps",
 });
+static_assert(sentences.size() == static_cast<std::size_t>(Of::leave) + 1);
 
 /// In words, with `number` as its value.
 std::string told(const Answer& answer, const std::string& number) {

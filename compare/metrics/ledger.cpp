@@ -80,8 +80,11 @@ void Ledger::judge(const View& view) {
     entered_ = entered_ || crosses;
     if (!lockstep_ && !divergence_ && event.cause && (crosses || event.kind == EventKind::stop))
       divergence_ = Divergence{number, *event.cause};
-    const auto sum = sums_.try_emplace({cause, event.kind}, Disagreements{0, number, event.words}).first;
-    ++sum->second.count;
+    Disagreements& sum = sums_[{cause, event.kind}];
+    if (sum.count++ == 0) {
+      sum.first_step = number;
+      sum.first = std::move(event.words);
+    }
   }
 }
 

@@ -24,7 +24,7 @@ void Rest::measure(const Vec2d& position, unsigned sides) {
   const Vec2d offset = position - now_.origin;
   ++now_.measured;
   now_.sides = sides;
-  now_.range = now_.range.merged({position, position});
+  now_.range = now_.range.with(position);
   now_.sum += offset;
   now_.squares += offset.squaredNorm();
   now_.latest.push_back(offset);
@@ -87,7 +87,7 @@ void Rest::write(Row& row) const {
   const Phase& rest = now_.steps >= least_steps ? now_ : *last_;
   const double count = rest.measured;
   const Vec2d mean = rest.sum / count;
-  row.rest_peak_to_peak_m = (rest.range.upper - rest.range.lower).maxCoeff();
+  row.rest_peak_to_peak_m = rest.range.size().maxCoeff();
   row.rest_rms_m = std::sqrt(std::max(0.0, rest.squares / count - mean.squaredNorm()));
   row.contact_toggles = 1000 * rest.toggles / count;
   row.rest_sign_changes = 0;

@@ -91,12 +91,11 @@ void RowsFile::add(const std::string& line) {
   file_->flush();
 }
 
-void RowsFile::finish(const ordered_json& more) {
+void RowsFile::finish() {
   if (format_ == Format::none) return;
   if (format_ == Format::csv) file_->write(rows_csv(rows_, header_));
   if (format_ == Format::json) {
     header_["rows"] = std::move(rows_);
-    header_.update(more);
     file_->write(header_.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
   }
   file_->commit();

@@ -23,8 +23,8 @@ class RowsFile {
   void add(const Row& row) { add(json_line(row_json(row))); }
   /// A row as it stands in a file, with its line feed.
   void add(const std::string& line);
-  /// To be called once, last. @param more of a JSON file, behind its rows.
-  void finish(const nlohmann::ordered_json& more = nlohmann::ordered_json::object());
+  /// To be called once, last.
+  void finish();
 
  private:
   enum class Format : std::uint8_t { none, json, json_lines, csv };

@@ -214,7 +214,6 @@ constexpr const char* schema_of_files = R"({
   "id": {"type": "string"}, "cases": {"type": "integer", "minimum": 0},
   "shard": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1}}},
   "description": "Of which sweep the rows are, and which part of it: [K, N]."},
- "gallery": {"type": "array"},
  "rows": {"type": "array", "items": {"$ref": "#/$defs/row"}}},
 "$defs": {"row": {"type": "object", "additionalProperties": false, "required": )";
 

@@ -22,6 +22,7 @@ namespace paperproof::compare {
 /// As a trace has it: `bottom`.
 [[nodiscard]] constexpr std::string_view name_of(Side side) noexcept {
   constexpr std::array<std::string_view, 4> names{"top", "bottom", "left", "right"};
+  static_assert(names.size() == static_cast<std::size_t>(Side::right) + 1);
   return names[static_cast<std::size_t>(side)];
 }
 
@@ -60,6 +61,7 @@ struct TraceState {
 
 [[nodiscard]] constexpr std::string_view name_of(PieceSearch search) noexcept {
   constexpr std::array<std::string_view, 3> names{"grid", "one_by_one", "none"};
+  static_assert(names.size() == static_cast<std::size_t>(PieceSearch::none) + 1);
   return names[static_cast<std::size_t>(search)];
 }
 

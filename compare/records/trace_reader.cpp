@@ -1,11 +1,11 @@
 #include "records/trace_reader.hpp"
 
 #include "contains.hpp"
+#include "embedded.hpp"
 #include "records/collider_json.hpp"
 #include "records/input_file.hpp"
 #include "records/schema.hpp"
 #include "records/trace_fields.hpp"
-#include "records/trace_schema.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -194,12 +194,13 @@ void check_up(const Vec2d& up) {
 }
 
 void read_colliders(const ordered_json& colliders, TraceHeader& header) {
+  std::set<std::string> seen;
+  const auto there = [&](const char* key) { return fmt::format("/colliders/{}/{}", header.ids.size(), key); };
   for (const ordered_json& collider : colliders) {
     const std::string id = collider["id"];
-    const std::string there = fmt::format("/colliders/{}", header.ids.size());
-    if (contains(header.ids, id)) refuse("an id of its own", there + "/id");
+    if (!seen.insert(id).second) refuse("an id of its own", there("id"));
     header.scenery.colliders.push_back(collider_of(collider));
-    if (header.scenery.colliders.back().radius < 0) refuse("a radius from 0 on", there + "/circle");
+    if (header.scenery.colliders.back().radius < 0) refuse("a radius from 0 on", there("circle"));
     header.ids.push_back(id);
   }
 }
@@ -227,7 +228,7 @@ void settle_movers(TraceHeader& header) {
 
 /// What does not hold to the schema is refused. @param definition in it.
 void hold_to_schema(const ordered_json& object, const std::string& definition) {
-  static const Schema schema(trace_schema::paperproof_trace_schema_json);
+  static const Schema schema(trace_schema.front().text);
   if (const std::optional<std::string> fault = schema.fault(object, definition)) {
     const std::size_t colon = fault->find(": ");
     throw Unexpected{fault->substr(colon + 2), fault->substr(0, colon)};

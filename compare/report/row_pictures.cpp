@@ -206,7 +206,10 @@ std::vector<Chart> charts_of(const std::vector<Row>& rows) {
 }
 
 bool is_precision(const Row& row) { return row.mode == "work_precision"; }
-bool is_swept(const Row& row) { return row.swept && !row.parameters.empty(); }
+/// Over axes, or for a border: a map of one place shows nothing.
+bool is_swept(const Row& row) {
+  return row.swept && !row.parameters.empty() && (!row.border.empty() || !row.swept->axes.empty());
+}
 
 ChartTable borders_table(const std::vector<Row>& borders) {
   ChartTable table;
@@ -257,8 +260,8 @@ void RowPictures::add(Row row) {
     found->second.push_back(std::move(row));
   } else if (!row.border.empty()) {
     swept(row).borders.push_back(std::move(row));
-  } else if (Swept& into = swept(row); into.counter) {
-    into.counter->add(row);
+  } else {
+    swept(row).counter->add(row);
   }
 }
 

@@ -59,8 +59,8 @@ class Contender {
   virtual void place(const Pose& pose, std::size_t character = 0) = 0;
   /// Gives a character another velocity [m/s], and leaves it the rest of its state where it can.
   virtual void launch(const Vec2d& velocity, std::size_t character);
-  /// Writes what a program of somebody else's says of itself. @return whether this is a peer.
-  virtual bool write_notes(Row& /*row*/) const { return false; }
+  /// Writes what a program of somebody else's says of itself.
+  virtual void write_notes(Row& /*row*/) const {}
   /// What a character would overlap at a place, as the engine's own query has it: ids. Nothing where it has no query.
   /// @param movers where each stands.
   [[nodiscard]] virtual std::optional<std::vector<std::string>> overlapped_at(const Vec2d& /*place*/,

@@ -10,7 +10,7 @@ namespace paperproof::compare {
 
 EngineCharacter character_at(const Pose& pose) {
   EngineCharacter character{state_at(pose), pose.ground_normal};
-  if (pose.state.ride) {
+  if (pose.state.ride && !pose.state.ride->character) {
     character.state.ride.ground = pose.state.ride->collider;
     character.state.ride.velocity = pose.state.ride->velocity;
   }

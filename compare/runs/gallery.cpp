@@ -3,7 +3,6 @@
 #include "words.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -132,22 +131,6 @@ std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery)
   }
   if (!timed) lines.emplace_back("Nothing was timed, so that none is named as the cheapest.");
   return lines;
-}
-
-nlohmann::ordered_json gallery_json(const std::vector<GalleryEntry>& gallery) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const GalleryEntry& entry : gallery) {
-    nlohmann::ordered_json object{{"contender", entry.contender}, {"scenes", entry.scenes}};
-    if (entry.fails) object["fails_on"] = {{"scene", entry.fails->scene}, {"failure", entry.fails->failure.words}};
-    if (entry.cheapest) {
-      object["cheapest_on"] = {{"scene", entry.cheapest->scene}, {"ns_per_step", entry.cheapest->ns_per_step}};
-      if (!entry.cheapest->next.empty())
-        object["cheapest_on"]["next"] = {{"contender", entry.cheapest->next},
-                                         {"ns_per_step", entry.cheapest->next_ns_per_step}};
-    }
-    list.push_back(std::move(object));
-  }
-  return list;
 }
 
 }  // namespace paperproof::compare

@@ -3,8 +3,6 @@
 
 #include "records/row.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +53,6 @@ struct GalleryEntry {
 
 /// One object per contender: `fails_on` (scene, failure) and `cheapest_on` (scene, ns_per_step, and of the next one
 /// contender and ns_per_step), each absent where the search found none.
-[[nodiscard]] nlohmann::ordered_json gallery_json(const std::vector<GalleryEntry>& gallery);
 
 /// One paragraph for each contender, without a heading, and one more where nothing was timed.
 [[nodiscard]] std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery);

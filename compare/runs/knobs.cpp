@@ -102,7 +102,6 @@ KnobSetting parse_knob(std::string_view text) {
   for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
   if (equals == std::string_view::npos || !contains(names, name))
     throw std::invalid_argument(fmt::format("expected NAME=VALUE with a NAME of {}", fmt::join(names, ", ")));
-
   return {std::string(name), std::string(text.substr(equals + 1))};
 }
 

@@ -1,6 +1,7 @@
 #include "runs/lane.hpp"
 
 #include "records/verdict.hpp"
+#include "runs/peers.hpp"
 #include "runs/technique_parts.hpp"
 
 #include <fmt/format.h>
@@ -199,7 +200,8 @@ void Lane::note_events(std::size_t character) {
 
 void Lane::write_metrics() {
   judge_->write(row_);
-  const bool is_peer = contender_->write_notes(row_);
+  contender_->write_notes(row_);
+  const bool is_peer = find_peer(row_.contender) != nullptr;
   if (answers_ && is_peer && row_.contact_steps == 0) answers_->ask_no_contacts();
   if (answers_) answers_->write(row_);
   if (is_peer) {

@@ -1,5 +1,6 @@
 #include "runs/contender_kinds.hpp"
 
+#include "embedded.hpp"
 #include "one_line.hpp"
 #include "oracle/exemptions.hpp"
 #include "records/collider_json.hpp"
@@ -8,7 +9,6 @@
 #include "records/trace_writer.hpp"
 #include "runs/engine_intent.hpp"
 #include "runs/peer_process.hpp"
-#include "runs/peer_schema.hpp"
 #include "runs/technique_parts.hpp"
 #include "runs/vertex_ways.hpp"
 #include "scenes/validate.hpp"
@@ -45,7 +45,7 @@ std::vector<std::string_view> needs_of(const Scene& scene) {
 }
 
 const Schema& protocol() {
-  static const Schema schema(peer_schema::paperproof_peer_schema_json);
+  static const Schema schema(peer_schema.front().text);
   return schema;
 }
 
@@ -114,12 +114,11 @@ class PeerContender final : public Contender {
     return ask(question, "overlaps", patience)["overlaps"].get<std::vector<std::string>>();
   }
 
-  bool write_notes(Row& row) const override {
+  void write_notes(Row& row) const override {
     row.engine = engine_;
     row.machine = machine_;
     row.skin_m = header_.tolerances.front().metres;
     if (timed_ > 0) row.ns_per_step_own_clock = ns_ / timed_;
-    return true;
   }
 
  private:

@@ -211,8 +211,7 @@ class SceneRun {
 
   /// Whether the boxes of two characters come within Box2D's skin of each other, where the step begins or ends.
   static bool is_beside_another(const Lane& lane, std::size_t k) {
-    const Box2 hull = Box2::around(lane.header().points);
-    const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(beyond_box2d_skin);
+    const Vec2d reach = Box2::around(lane.header().points).size() + Vec2d::Constant(beyond_box2d_skin);
     for (std::size_t other = 0; other < lane.characters(); ++other)
       for (const bool end : {false, true}) {
         const auto place = [end](const TraceStep& step) {

@@ -64,9 +64,9 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   if (judged.hangs) broken(Clause::hanging, "hangs in the air");
   if (judged.motion_lost > 0)
     broken(Clause::speed_lost, "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing");
-  else if (judged.motion_lost == 0 && judged.speed_lost > 0)
+  else if (judged.speed_lost > 0)
     broken(Clause::speed_lost, fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost));
-  else if (judged.motion_lost == 0 && judged.ghost_speed_loss > 0)
+  else if (judged.ghost_speed_loss > 0)
     broken(Clause::speed_lost,
            fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss));
   if (judged.ground_refuted) broken(Clause::ground_invented, no_ground(header_));

@@ -61,7 +61,7 @@ FreePlaces::FreePlaces(const SceneryDef& scenery, const CharacterShape& shape)
     boxes.push_back(box_of(scenery.colliders[i]));
     solids.push_back(i);
   }
-  if (!solids.empty()) solids_ = detail::BoxTree(std::move(boxes), std::move(solids));
+  solids_ = detail::BoxTree(boxes, solids);
 }
 
 std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {

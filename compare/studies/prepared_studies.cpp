@@ -7,7 +7,10 @@
 #include "studies/field.hpp"
 #include "studies/stability.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace paperproof::compare {
@@ -38,7 +41,9 @@ std::vector<StudyPart> parts_of(const Json& study, GridSize size) {
 }  // namespace
 
 const Json& study_text(std::string_view name) {
-  return *std::find_if(texts().begin(), texts().end(), [&](const Json& study) { return study.at("name") == name; });
+  for (const Json& study : texts())
+    if (study.at("name") == name) return study;
+  throw std::invalid_argument(fmt::format("no study is called {}", name));
 }
 
 const Json& of_size(const Json& list, GridSize size) {

@@ -2,6 +2,7 @@
 /// corners, notches and funnels, and at walls. The campaign judges the way there: slanted.
 #include "campaign/draw.hpp"
 #include "controller/stepping.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ TEST_P(SlantedGravity, brings_to_rest_who_is_steered_alike_for_long) {
   EXPECT_GT(rested, sampled(700));
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryLevel, SlantedGravity, ::testing::ValuesIn(compare::all_play_levels),
+INSTANTIATE_TEST_SUITE_P(EveryLevel, SlantedGravity, ::testing::ValuesIn(test::all_play_levels),
                          [](const auto& level) { return name_of(level.param); });
 
 }  // namespace

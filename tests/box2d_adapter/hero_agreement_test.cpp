@@ -1,10 +1,9 @@
 /// A hero among random bodies, against exact overlap.
 #include "hero_world.hpp"
 
-#include "campaign/play_levels.hpp"
-#include "campaign/random.hpp"
 #include "float_geometry.hpp"
 #include "shapes.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/box2d/world_scenery.hpp>
@@ -149,14 +148,15 @@ bool exists(b2World& world, const b2Fixture* fixture) {
 using Level = std::optional<PlayLevel>;
 
 std::vector<Level> all_levels() {
-  std::vector<Level> all(compare::all_play_levels.begin(), compare::all_play_levels.end());
+  std::vector<Level> all(test::all_play_levels.begin(), test::all_play_levels.end());
   all.emplace_back();
   return all;
 }
 
 class HeroInPlay : public ::testing::TestWithParam<Level> {};
-INSTANTIATE_TEST_SUITE_P(EveryLevel, HeroInPlay, ::testing::ValuesIn(all_levels()),
-                         [](const auto& level) { return level.param ? name_of(*level.param) : "changing_world"; });
+INSTANTIATE_TEST_SUITE_P(EveryLevel, HeroInPlay, ::testing::ValuesIn(all_levels()), [](const auto& level) {
+  return level.param ? test::name_of(*level.param) : "changing_world";
+});
 
 TEST_P(HeroInPlay, is_in_no_solid_and_knows_its_sensors) {
   const bool is_changing = !GetParam();

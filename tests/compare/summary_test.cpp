@@ -53,7 +53,7 @@ void check_rows(const Json& said) {
   mark_front(rows);
   Json found{{"outcome", outcome_of(rows[0])},
              {"exact_answer", exact_answer(rows)},
-             {"gallery", gallery_json(gallery_of(rows))},
+             {"gallery", gallery_lines(gallery_of(rows))},
              {"words_of_front", words_of_front("fall", rows)}};
   for (const Row& row : rows) found["front"].push_back(row_json(row).value("on_front", Json()));
   for (const auto& [key, value] : found.items()) EXPECT_EQ(value, said.value(key, value)) << key;

@@ -18,7 +18,7 @@ class StepTimes {
 
   /// The step that is going on after so many seconds, and the fraction of it that is over.
   stepAt(seconds) {
-    const rounds = Math.floor(seconds / this.round), rest = seconds - rounds * this.round;
+    const rounds = Math.floor(seconds / this.round), rest = Math.max(0, seconds - rounds * this.round);
     const low = this.begins.findLastIndex((begin) => begin <= rest);
     const fraction = Math.min(1, (rest - this.begins[low]) / this.lengths[low]);
     return {step: rounds * this.lengths.length + low, fraction};
