@@ -1,6 +1,8 @@
 /// The guarantee of octagon_sweep over every family of random runs: steps break only what is known and open, and enough
 /// happens in them.
 #include "campaign/campaign.hpp"
+#include "embedded.hpp"
+#include "support/expected.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
@@ -66,6 +68,28 @@ std::vector<Family> families_to_run() {
 
 INSTANTIATE_TEST_SUITE_P(Every, Campaign, ::testing::ValuesIn(families_to_run()),
                          [](const auto& family) { return family.param.kind + "_" + family.param.name; });
+
+/// Their text has no schema.
+TEST(Families, have_no_key_that_nothing_reads_and_name_families_and_happenings_that_there_are) {
+  const auto check = [](const nlohmann::json& of, const std::string& keys) {
+    refuse_other_keys(of, keys + " share covers ", "families");
+    const nlohmann::json covers = of.value("covers", nlohmann::json::object());
+    for (const auto& [happening, shares] : covers.items()) EXPECT_NO_THROW((void)compare::happening_named(happening));
+  };
+  for (const nlohmann::json& kind : nlohmann::json::parse(compare::families_file.front().text)) {
+    check(kind, " kind first_seed first_seeds only but ");
+    const auto check_name = [&](const std::string& name) {
+      EXPECT_EQ(compare::families_named(kind.at("kind").get<std::string>() + "/" + name).size(), 1U);
+    };
+    const nlohmann::json only = kind.value("only", nlohmann::json::array());
+    for (const std::string name : only) check_name(name);
+    const nlohmann::json but = kind.value("but", nlohmann::json::object());
+    for (const auto& [name, own] : but.items()) {
+      check_name(name);
+      check(own, " because ");
+    }
+  }
+}
 
 TEST(KnownAndOpen, names_families_and_clauses_that_there_are) {
   for (const nlohmann::json& entry : known_and_open().at("random")) {

@@ -1,8 +1,12 @@
 #include "studies/bullet.hpp"
+
+#include "embedded.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/load.hpp"
+#include "support/expected.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <map>
 #include <tuple>
@@ -58,6 +62,28 @@ TEST(RunCase, of_what_there_is_not_is_a_failed_row) {
   EXPECT_NE(row.reason.find("expected speed from 0.1"), std::string::npos) << row.reason;
   one.scene = "papr";
   EXPECT_EQ(run_case(one).verdict, Verdict::failed);
+}
+
+/// Their texts have no schema.
+TEST(PreparedStudies, have_no_key_that_nothing_reads) {
+  using paperproof::test::refuse_other_keys;
+  const auto check_parts = [](const nlohmann::json& parts) {
+    for (const nlohmann::json& part : parts)
+      refuse_other_keys(part,
+                        " title question scene axes steps set border range only also because instead either_way "
+                        "most_off replicas_along has_slopes phases ",
+                        "a part");
+  };
+  for (const nlohmann::json& study : nlohmann::json::parse(prepared_studies_file.front().text)) {
+    refuse_other_keys(study, " name help title paragraphs grid in_one_table parts groups promised others ", "a study");
+    check_parts(study.value("parts", nlohmann::json::array()));
+    for (const char* one : {"promised", "others"})
+      if (study.contains(one)) check_parts(nlohmann::json::array({study[one]}));
+    for (const nlohmann::json& group : study.value("groups", nlohmann::json::array())) {
+      refuse_other_keys(group, " name question parts ", "a group");
+      check_parts(group.at("parts"));
+    }
+  }
 }
 
 TEST(PreparedStudies, ask_for_cases_that_can_be_run_in_every_corner_of_every_grid_and_more_in_a_larger_one) {

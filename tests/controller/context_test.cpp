@@ -146,5 +146,15 @@ TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
   EXPECT_GT(std::ranges::count(std::span(found).first(count), Side::right, &Contact::side), 0);
 }
 
+TEST(ContactsAt, have_no_normal_of_a_seam_beside_the_foot) {
+  Stepper stepper({box(-1, -1, 0, 0), box(0, -1, 1, 0)});
+  std::array<Contact, 4> found;
+  // Of the tile to the left its side is farther away than its top.
+  const Vec2d at(5 * px + 5e-7, half_height + 1e-7);
+  const std::size_t count = stepper.sweep().contacts_at(at, 1e-6, {.dt = stepper.dt}, stepper.scratch, found);
+  ASSERT_EQ(count, 1U);
+  EXPECT_EQ(found[0].normal, Vec2d(0, 1));
+}
+
 }  // namespace
 }  // namespace paperproof::stepping
