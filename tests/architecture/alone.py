@@ -3,7 +3,7 @@
 hides that one of its files lacks an include. Tests are built by clang where they are built together: here the
 project's own compiler sees them, with its warnings.
 
-Reads BUILD/compile_commands.json and checks the syntax of every 128th source of a unity source; which, goes on with
+Reads BUILD/compile_commands.json and checks the syntax of every 256th source of a unity source; which, goes on with
 each commit. PAPERPROOF_LONG_TESTS=1: of all."""
 import json, os, re, shlex, subprocess, sys
 
@@ -28,7 +28,7 @@ def united(build):
 def main():
     sources = united(sys.argv[1])
     assert len(sources) > 100, f'{len(sources)} sources are compiled together'
-    step = 1 if os.environ.get('PAPERPROOF_LONG_TESTS') == '1' else 128
+    step = 1 if os.environ.get('PAPERPROOF_LONG_TESTS') == '1' else 256
     commits = subprocess.run(['git', 'rev-list', '--count', 'HEAD'], cwd=here, capture_output=True, text=True).stdout
     chosen = sources[int(commits or 0) % step::step]
     failing = []

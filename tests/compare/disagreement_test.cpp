@@ -13,7 +13,7 @@ namespace paperproof::compare {
 namespace {
 
 /// Longer scenes, and some others, take minutes: the study itself runs them.
-constexpr int most_steps = 1000;
+constexpr int most_steps = 300;
 const std::set<std::string> left_out{"crowd_of_16", "technique_gallery"};
 
 TEST(Disagreement, has_one_cause_on_every_registered_scene) {

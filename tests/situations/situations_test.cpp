@@ -58,8 +58,8 @@ class Situations : public ::testing::TestWithParam<Situation> {
     compare::Scene scene = compare::load_scenes(stem() + ".json").front();
     set_rules(situation.rules, scene.character);
     // Sanitizers look at how a step is made. A run without them asks for the numbers, which are often those of the end.
-    const bool is_cut = sanitized && scene.steps > 100;
-    if (is_cut) scene.steps = 100;
+    const bool is_cut = sanitized && scene.steps > 60;
+    if (is_cut) scene.steps = 60;
     const Scenery scenery(scene.scenery);
     std::vector<compare::KnobSetting> knobs;
     for (const std::string& knob : situation.knobs) {

@@ -33,12 +33,12 @@ template <class Count>
   return (length + static_cast<Count>(of - 1)) / static_cast<Count>(of);
 }
 
-/// So many random cases, shortened; by default half of them, and all from `many_steps` on.
+/// So many random cases, shortened; by default a third of them, and all from `many_steps` on.
 template <class Count>
 [[nodiscard]] Count sampled(Count cases) {
   const int steps = steps_per_family();
   const bool is_default = !sanitized && steps >= few_steps && steps < many_steps;
-  return is_default ? (cases + 1) / 2 : shortened(cases);
+  return is_default ? (cases + 2) / 3 : shortened(cases);
 }
 
 /// All of a list, or the last of every `of` where sanitizers look on.
