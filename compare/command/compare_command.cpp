@@ -14,6 +14,7 @@
 #include "report/strip_svg.hpp"
 #include "runs/environment.hpp"
 #include "runs/gallery.hpp"
+#include "runs/preparation.hpp"
 #include "runs/row_views.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/built_in.hpp"
@@ -177,6 +178,7 @@ class Comparison {
   }
 
   void run_one(const Scene& scene) {
+    announce_preparation(scene);
     const double steps = steps_of(scene);
     arguments_.run.progress = [&](double of_scene) {
       progress_.show(fmt::format("{} ({:.0f} %),", scene.name, 100 * of_scene),
@@ -211,6 +213,13 @@ class Comparison {
     const std::string title = scene.name + (scene.description.empty() ? "" : ": " + scene.description);
     strip_->write(svg_of_strip(title, panels));
     strip_->commit();
+  }
+
+  void announce_preparation(const Scene& scene) {
+    if (arguments_.quiet) return;
+    if (const auto expected = expected_preparation(scene, contenders_of(arguments_.run), arguments_.run.scalars))
+      progress_.prepare(scene.name, expected->seconds,
+                        fmt::format("about {:.0f} pairs of its pieces are near each other", expected->pairs));
   }
 
   /// One scene, or each where all tables are asked for, as a table. Of several scenes the first in plain words, as soon

@@ -8,6 +8,7 @@
 #include "runs/contender.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/knobs.hpp"
+#include "runs/preparation.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/describe.hpp"
@@ -36,7 +37,12 @@ std::string why_not(std::string_view contender, const Scene& scene, const Scener
 
 /// What `compare` will do with a scene: who runs it, and why the others do not.
 std::string describe_contenders(const Scene& scene) {
+  constexpr double longest = 10;  // [s]; who only asks waits no longer
   const auto names = contender_names();
+  const auto preparation = expected_preparation(scene, {names.begin(), names.end()}, {ScalarKind::binary64});
+  if (preparation && preparation->seconds > longest)
+    return fmt::format("  {:<10} about {} until the first step: who can run was not tried\n", "compare",
+                       duration_in_words(preparation->seconds));
   const Scenery scenery(scene.scenery);
   const Script script = script_of(scene);
   std::string cannot_move;

@@ -52,6 +52,11 @@ void Progress::foretell(double pieces, std::string noun) {
   begin_ = Clock::now();
 }
 
+void Progress::prepare(const std::string& what, double seconds, const std::string& why) const {
+  if (foretells_ && seconds >= long_work)
+    complain(fmt::format("{}: about {} until the first step: {}", what, duration_in_words(seconds), why));
+}
+
 void Progress::show(const std::string& what, double share) {
   if (log_) log_->note(what, share);
   if (shown_) std::fputs(fmt::format("\r\x1b[K{} {:.0f} %", what, 100 * share).c_str(), stderr);

@@ -23,6 +23,8 @@ class Progress {
 
   /// The work begins now; `show` foretells its time. @param pieces it has so many. @param noun their name.
   void foretell(double pieces, std::string noun);
+  /// Says that the first step comes late, where it comes late. @param seconds until then. @param why in words.
+  void prepare(const std::string& what, double seconds, const std::string& why) const;
   /// @param share of the work that is done. Zero says that it begins now. Where it gets less another part of the work
   /// begins, and the time in the log is that of this part.
   void show(const std::string& what, double share);
