@@ -138,7 +138,8 @@ struct ContactJudge : ContactScene {
       if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
     };
     for (std::size_t i = 0; i < step.path.size(); ++i) {
-      std::ranges::for_each(impacts_along(-contact.normal * reach, i), look);
+      const Vec2d inwards = -contact.normal * reach;
+      std::ranges::for_each(impacts_along(inwards, i), look);
       if (i == 0 || !header.path_exact || is_dropped_through(contact.collider)) continue;
       Place beyond = place(i);
       const Vec2d leg = beyond.position - place(i - 1).position;
@@ -146,7 +147,7 @@ struct ContactJudge : ContactScene {
       if (approach >= least_approach * leg.norm() && approach > 0) beyond.position += leg * (reach / approach);
       if (scenery.separation(place(i), contact.collider) > reach) continue;
       Place beside = place(i);
-      beside.position -= contact.normal * reach;
+      beside.position += inwards;
       for (const Place& to : {beside, beyond})
         if (const auto impact = scenery.impact_between(place(i - 1), to, contact.collider)) look(*impact);
     }
@@ -211,7 +212,7 @@ struct ContactJudge : ContactScene {
     // A steep face takes steering out of the motion, and an impact the momentum across up.
     const std::array<Vec2d, 4> left_over{step.requested, unsteered(), up * step.requested.dot(up),
                                          right * step.requested.dot(right)};
-    // A mover pushes: that is added to the motion. Ground carries: so is that.
+    // A mover that pushes adds its motion. So does ground that carries.
     const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
       const Vec2d pushed = step.requested - wanted(one.collider);
       if (is_walkable(one.normal, header, up) && contact.normal.dot(pushed - own) < 0) return true;
@@ -231,11 +232,11 @@ struct ContactJudge : ContactScene {
   /// the contender's hit distance on the way.
   [[nodiscard]] bool comes_near(const Contact& contact) const {
     const auto [known, is_new] = comes.try_emplace(&contact);
-    if (is_new) known->second = finds_near(contact);
+    if (is_new) known->second = is_near_the_way(contact);
     return known->second;
   }
 
-  [[nodiscard]] bool finds_near(const Contact& contact) const {
+  [[nodiscard]] bool is_near_the_way(const Contact& contact) const {
     if (contact.normal.dot(wanted(contact.collider)) >= 0) return false;
     const auto is_it = [&contact](const ExactImpact& impact) { return impact.collider == contact.collider; };
     for (std::size_t i = 0; i < step.path.size(); ++i) {

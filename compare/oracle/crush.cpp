@@ -47,9 +47,9 @@ struct Departure {
     return scenery.find_free(question, reach, least_clearance, can_go_there);
   }
 
-  /// Whether a straight uniform motion comes to `there` without meeting a solid. It must not come out on
-  /// another side of what was met before. It keeps `least_clearance` from everything that is farther away where it
-  /// begins: a motion that passes a rim at less may be stopped there.
+  /// Whether a straight uniform motion comes to `there` without meeting a solid. It must come out of what was met
+  /// before on the same side. It keeps `least_clearance` from every solid that is farther away at its start: closer to
+  /// a rim it may be stopped.
   [[nodiscard]] bool reaches(const Place& there) const {
     return scenery.meets_only(from, there, inside) && grown_scenery.meets_only(from, there, near) &&
            std::ranges::none_of(sides, [&](const auto& side) { return scenery.meets(side.second, there, side.first); });

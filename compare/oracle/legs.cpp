@@ -43,7 +43,7 @@ struct LegJudge : StepView {
   std::size_t begin;                         ///< The leg that is looked at first.
   const Wanted wanted = later.whole(first);  ///< By all parts of the step, but for what later ones steer.
   const int stairs = stairs_climbed(*this, first);
-  /// What is within `contact_reach` of each corner of the way.
+  /// For each corner of the way the parts within `contact_reach`.
   const std::vector<std::vector<NearPart>> touched = touched_parts();
   /// The same, as an upright character sees it.
   const std::vector<MetSurface> surfaces = near_surfaces();
