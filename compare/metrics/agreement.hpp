@@ -22,7 +22,7 @@ struct SideDisagreement {
   TraceStep reference;
   std::string facts;  ///< What each says, and exact arithmetic of each motion.
   Right right = Right::both;
-  std::string who_is_right;  ///< `right` in words, which follow the facts.
+  std::string who_is_right;  ///< The facts, then `right` in words.
 };
 
 /// Positions that are nearer agree [m]: Box2D keeps bodies up to its skin apart by design.

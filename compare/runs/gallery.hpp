@@ -51,9 +51,6 @@ struct GalleryEntry {
 /// @param rows of several scenes. In the order in which the contenders first appear.
 [[nodiscard]] std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows);
 
-/// One object per contender: `fails_on` (scene, failure) and `cheapest_on` (scene, ns_per_step, and of the next one
-/// contender and ns_per_step), each absent where the search found none.
-
 /// One paragraph for each contender, without a heading, and one more where nothing was timed.
 [[nodiscard]] std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery);
 
