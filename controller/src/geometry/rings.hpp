@@ -35,8 +35,8 @@ void check_neighbours(std::span<const Vec2d> points, bool is_closed, const std::
 
 /// Checks that a ring alone could bound something.
 /// @param name the ring's name in a message: "the outline".
-/// @throws std::invalid_argument, in words that a level designer understands, on fewer than 3 vertices, a vertex that
-///   repeats its neighbour, no area, a side that folds back onto the side before it.
+/// @throws std::invalid_argument on fewer than 3 vertices, a vertex that repeats its neighbour, no area, a side that
+///   folds back onto the side before it. A level designer understands its words.
 void check_ring(Ring ring, const std::string& name);
 
 /// Checks that the rings bound one polygon: none touches or crosses itself or another, and every hole is inside the
