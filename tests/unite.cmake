@@ -1,5 +1,6 @@
 # cmake -P unite.cmake OUTPUT SOURCE...: writes the sources into one, each with its unnamed namespace named after the file,
-# so that files may name their helpers alike. What tests share has functions outside that need those inside.
+# so that files may name their helpers alike. A file without tests has functions outside of its namespace, which call those
+# inside: `using namespace` opens it for them.
 cmake_minimum_required(VERSION 3.25)
 
 set(all "")

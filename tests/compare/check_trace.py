@@ -403,7 +403,8 @@ def check_file(path, clauses, but):
             print(f"{path}: step {record['step']}: {clause}: {words}")
             broken[clause] += 1
     told, unjudged = checker.summary()
-    counts = [f"{checker.judged['steps']} steps", f"{checker.judged['contacts']} contacts", f"{sum(broken.values())} violations of {len(checker.clauses)} clauses"]
+    counts = [f"{checker.judged['steps']} steps", f"{checker.judged['contacts']} contacts",
+              f"{sum(broken.values())} violations of {len(checker.clauses)} clauses"]
     print(f"{path}: " + ", ".join(counts + [f"{clause} {count}" for clause, count in sorted(broken.items())] + told))
     if unjudged:
         print(f"{path}: not judged: {'; '.join(unjudged)}")

@@ -13,7 +13,8 @@ TEST(Rounding, of_separations_beside_a_mover_is_less_than_the_bound_and_more_tha
   constexpr double bound = 2.5e-9;
   Rational largest = 0;
   compare::Random random(2026);
-  for (int i = 0; i < test::sampled(500); ++i) {
+  const int cases = sampled(500);
+  for (int i = 0; i < cases; ++i) {
     const auto triangle = [&] { return std::vector{random.point(far), random.point(far), random.point(far)}; };
     const CharacterShape shape(triangle());
     const Scenery scenery({.colliders = {{.points = triangle()}}});
